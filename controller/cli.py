@@ -20,6 +20,7 @@ from controller.errors import ConfigError
 COMMANDS = {  # in the order of --help, which prints these texts; each is a module of `commands`
     "run": "run a panel; without devices: replay a touch recording on the simulated panel",
     "status": "how the running panel fares, and whether it serves",
+    "client": "ask a running panel to play, switch it off and on, load a scene, show its state",
     "doctor": "check every device, file and permission of a panel, and say what to do",
     "board": "check a board and its scene; describe the keys of both files",
     "gateware": "build, describe and load bitstreams; bring up an FPGA",

@@ -16,14 +16,28 @@ def main(arguments: list[str] | None = None) -> int:
     """Command line of the client; messages of the panel go to stdout, one JSON object a line."""
     options = _parser().parse_args(arguments)
     try:
+        return send(options)
+    except ReaderGone:
+        return 0
+
+
+def send(options: argparse.Namespace) -> int:
+    """Send the request that was asked for, and show what the panel says, until Ctrl-C where that has no end.
+
+    Raises
+    ------
+    ControllerError
+        If there is no panel, or it refuses.
+    """
+    try:
         with PanelClient(options.socket) as panel:
             return _run(panel, options)
-    except (KeyboardInterrupt, ReaderGone):  # how `touches` and `state --follow` end
+    except KeyboardInterrupt:  # how `touches` and `state --follow` end
         return 0
 
 
 def _run(panel: PanelClient, options: argparse.Namespace) -> int:
-    match options.command:
+    match options.request:
         case "play":
             at_mm = tuple(options.at) if options.at else None
             answer = panel.play(options.effect, at_mm=at_mm, finger=options.finger, amplitude=options.amplitude)
@@ -59,8 +73,14 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m controller.application_socket.client", description="Drive a running haptic panel."
     )
+    declare_requests(parser)
+    return parser
+
+
+def declare_requests(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
     parser.add_argument("--socket", default=DEFAULT_PATH, metavar="S", help=f"the panel's socket (default: {DEFAULT_PATH})")
-    commands = parser.add_subparsers(dest="command", title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(dest="request", title="requests", metavar="REQUEST", required=True)
     play = commands.add_parser("play", help="play an effect at a point or for a finger")
     play.add_argument("effect")
     where = play.add_mutually_exclusive_group(required=True)
@@ -75,4 +95,3 @@ def _parser() -> argparse.ArgumentParser:
     state.add_argument("--follow", action="store_true", help="and after each change, until Ctrl-C")
     commands.add_parser("figures", help="print counters and latencies")
     commands.add_parser("hello", help="print version, board, extents, effects and your rights")
-    return parser

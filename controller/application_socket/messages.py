@@ -17,9 +17,8 @@ LEAST_AMPLITUDE = 0.25  # below, the response of a waveform to its bits is no lo
 
 Id = Annotated[int, Meta(ge=-(2**53), le=2**53)] | Annotated[str, Meta(max_length=64)] | None
 Word = Annotated[str, Meta(min_length=1, max_length=64)]
-PlainName = Annotated[
-    str, Meta(pattern="^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$")
-]  # never a path: a client chooses among the installed scenes
+# Never a path: a client chooses among the installed scenes.
+PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
 Outcome = Literal["played", "merged", "skipped", "refused", "done"]
 
 

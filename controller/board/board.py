@@ -75,7 +75,7 @@ class Board(Record, frozen=True):
         Folder of the board.toml; set on reading, not a key of the file.
     """
 
-    name: Annotated[str, Meta(pattern="^[a-z0-9][a-z0-9_-]{0,63}$")]
+    name: Annotated[str, Meta(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}\Z")]
     scene: str
     plate: Plate
     actuators: tuple[Actuator, ...]

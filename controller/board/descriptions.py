@@ -49,6 +49,8 @@ UNITS = {  # by what a key ends with; the longest ending counts
 }
 _UNIT = re.compile(rf"_({'|'.join(sorted(UNITS, key=len, reverse=True))})(?:_from_axes)?$")
 
+END = r"\Z"  # how a pattern ends: Python's `$` takes a line break too, that of other languages, and of JSON's schemas, does not
+
 type_info = functools.cache(inspect.type_info)  # the socket translates errors between two turns of the loop
 
 
@@ -126,7 +128,7 @@ def keys_of(kind: Type | None) -> list[str]:
 
 def _described_text(kind: StrType) -> str:
     if kind.pattern:
-        return f"a text that matches {kind.pattern}"
+        return f"a text that matches {kind.pattern.replace(END, '$')}"
     return f"a text{_length(kind.min_length, kind.max_length, ' characters')}"
 
 

@@ -200,7 +200,7 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     path: Name = "/run/haptic-panel/panel.sock"
     owner: str = ""
     group: str = ""
-    mode: Annotated[str, Meta(pattern="^0?[0-7]{3}$")] = "660"
+    mode: Annotated[str, Meta(pattern=r"^0?[0-7]{3}\Z")] = "660"
     play_group: str = ""
     operate_group: str = ""
     look_group: str = LOOK_GROUP

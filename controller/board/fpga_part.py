@@ -14,7 +14,7 @@ from controller.errors import ConfigError
 FILE = "fpga.toml"
 TOP = "top.v"
 
-Name = Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]+$")]
+Name = Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]+\Z")]
 
 
 class FpgaPart(Record, frozen=True, kw_only=True):
@@ -40,7 +40,7 @@ class FpgaPart(Record, frozen=True, kw_only=True):
     devices: Annotated[tuple[Name, ...], Meta(min_length=1)]
     package: Name
     speed: Annotated[int, Meta(ge=1, le=9)] | None = None
-    constraints: Annotated[str, Meta(pattern=r"^[\w-]+\.(lpf|pcf)$")]
+    constraints: Annotated[str, Meta(pattern=r"^[\w-]+\.(lpf|pcf)\Z")]
     seed: Annotated[int, Meta(ge=1)] = 1
 
 

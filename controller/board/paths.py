@@ -102,10 +102,10 @@ def make_folder(folder: Path) -> None:
     try:
         owner = service_user() if os.geteuid() == 0 else None
         for place in (*reversed(folder.parents), folder):
-            if owner is not None and SERVICE_STATE in (place, *place.parents):
+            if SERVICE_STATE in (place, *place.parents):
                 if not place.exists():
                     place.mkdir(SERVICE_STATE_MODE)
-                if place.stat().st_uid == 0:  # just created, or created before that user existed
+                if owner is not None and place.stat().st_uid == 0:  # just created, or created before that user existed
                     os.chown(place, owner.pw_uid, owner.pw_gid, follow_symlinks=False)
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

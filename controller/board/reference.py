@@ -15,7 +15,7 @@ from typing import Any
 import msgspec
 from msgspec.inspect import DictType, Field, ListType, NoneType, StructType, TupleType, Type, UnionType, VarTupleType
 
-from controller.board.descriptions import described, fields_of, structs_of, type_info, unit_of
+from controller.board.descriptions import END, described, fields_of, structs_of, type_info, unit_of
 
 SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -91,7 +91,9 @@ def schema(kind: type, named: Mapping[str, type] | None = None) -> dict[str, Any
         for name, item in (named or {}).items():
             if cls is kind and name in properties:
                 properties[name]["additionalProperties"] = {"$ref": f"#/$defs/{item.__name__}"}
-    as_in_a_file: dict[str, Any] = msgspec.json.decode(msgspec.json.encode({"$schema": SCHEMA_DIALECT} | found))  # no tuples
+    as_in_a_file: dict[str, Any] = msgspec.json.decode(  # no tuples
+        msgspec.json.encode({"$schema": SCHEMA_DIALECT} | found).replace(msgspec.json.encode(END)[1:], b'$"')
+    )
     return as_in_a_file
 
 

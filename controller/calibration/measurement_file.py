@@ -212,12 +212,12 @@ class MeasurementFile(Record, frozen=True):
         What was played.
     """
 
-    date: Annotated[str, Meta(pattern=r"^\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|[+-]\d\d:\d\d)?)?$")]
+    date: Annotated[str, Meta(pattern=r"^\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|[+-]\d\d:\d\d)?)?\Z")]
     sample_rate_hz: Hz
     records: RecordsTable
     drive: DriveTable
     temperature_c: Annotated[float, Meta(ge=-50, le=150)] | None = None
-    board_sha256: Annotated[str, Meta(pattern="^[0-9a-f]{64}$")] | None = None
+    board_sha256: Annotated[str, Meta(pattern=r"^[0-9a-f]{64}\Z")] | None = None
     points: str | None = None
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from controller.commands.output import show
 from controller.errors import UpdateError
-from controller.update.identity import become_update_user
+from controller.update.identity import refuse_root
 from controller.update.layout import Layout
 from controller.update.settings import UpdateSettings, load_settings
 
@@ -33,22 +33,36 @@ def declare_source(step: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def at_work() -> Iterator[tuple[Layout, UpdateSettings]]:
-    """Layout and settings of this device; what is done within is done as the user of updates, and ends in time.
+    """Layout and settings of this device; what is done within is not done by root, and ends in time.
 
     Raises
     ------
     UpdateError, ConfigError
     """
     layout, settings = Layout.from_environment(), load_settings()
-    become_update_user(layout)
+    refuse_root(layout)
+    said = f"not done within {settings.total_s:g} s (total_s of update.toml): what came is kept for the next try"
+    with ends_within(settings.total_s + ALARM_AFTER_S, said):
+        yield layout, settings
+
+
+@contextmanager
+def ends_within(limit_s: float, said: str) -> Iterator[None]:
+    """End what is done within by an error, whatever it waits for.
+
+    Raises
+    ------
+    UpdateError
+        Saying this, when the time is over.
+    """
 
     def too_long(_: int, __: FrameType | None) -> None:
-        raise UpdateError(f"not done within {settings.total_s:g} s (total_s of update.toml): what came is kept for the next try")
+        raise UpdateError(said)
 
     before = signal.signal(signal.SIGALRM, too_long)
-    signal.setitimer(signal.ITIMER_REAL, settings.total_s + ALARM_AFTER_S)
+    signal.setitimer(signal.ITIMER_REAL, limit_s)
     try:
-        yield layout, settings
+        yield
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)

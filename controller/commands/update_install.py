@@ -6,10 +6,12 @@ import argparse
 from typing import Any
 
 from controller.commands.output import progress_bar, show
-from controller.commands.update_check import at_work, check, declare_source
+from controller.commands.update_check import at_work, check, declare_source, ends_within
 from controller.commands.update_download import download
 from controller.errors import UpdateError
 from controller.log import Event, log
+
+INSTALL_S = 2700.0  # on the slowest card; it and a download fit into TimeoutStartSec= of haptic-panel-update.service
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -21,6 +23,7 @@ def add(step: argparse.ArgumentParser) -> None:
 
 def install(options: argparse.Namespace) -> int:
     """Install the release; raises if it is refused."""
+    from controller.update.failed_install import failed_install, is_due
     from controller.update.fetch import Figures, fetch
     from controller.update.install import install, prune
     from controller.update.requests import ask
@@ -45,10 +48,14 @@ def install(options: argparse.Namespace) -> int:
     if layout.current.is_symlink() and layout.current.readlink().name == manifest.version:
         show(options, told | {"new": False}, lambda _: f"{manifest.version} is in use: nothing to do")
         return 0
-    prune(layout, manifest)
-    install(layout, manifest, progress_bar("steps of the installation"))
-    keep_before(layout)
-    ask(layout, "trial", manifest.version)
+    if options.automatic and not is_due(layout, manifest) and (failed := failed_install(layout)):
+        show(options, told | {"new": False}, lambda _: f"{failed.in_words}; it is not tried at each look")
+        return 0
+    with ends_within(INSTALL_S, f"release {manifest.version}: not installed within {INSTALL_S:g} s; nothing of it is left"):
+        prune(layout, manifest)
+        install(layout, manifest, progress_bar("steps of the installation"))
+        keep_before(layout)
+        ask(layout, "trial", manifest.version)
     if options.automatic:
         log(_table(told), Event.RELEASE_INSTALLED)
     else:

@@ -6,7 +6,7 @@ import argparse
 
 from controller.log import log
 from controller.service.systemd import Notifier
-from controller.update.identity import become_update_user
+from controller.update.identity import refuse_root
 from controller.update.layout import Layout, running_release
 from controller.update.settings import load_settings
 from controller.update.trial import judge_trial
@@ -24,7 +24,7 @@ def run(_: argparse.Namespace) -> int:
     if running is None or running.name != trial:
         log(f"nothing to judge: on trial is {trial or 'no release'}, and this is {running.name if running else 'none'}")
         return 0
-    become_update_user(layout)
+    refuse_root(layout)
     with Notifier.from_environment() as notifier:
 
         def told(words: str) -> None:

@@ -16,7 +16,7 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import data_folder, find_board
 from controller.board.paths import user_cache
 from controller.commands.output import show
-from controller.errors import BankError, UpdateError, UsageError
+from controller.errors import BankError, GatewareError, UpdateError, UsageError
 from controller.fpga.bitstream import differences, read_identity
 from controller.fpga.build_hash import build_hash
 from controller.fpga.registers import PROTOCOL_VERSION
@@ -35,7 +35,7 @@ PIECE_BYTES_MIN = 256  # rows of a bank shorter than this are one piece: an inde
 def add(step: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     step.add_argument("out", type=Path, metavar="OUT", help="folder to make")
-    step.add_argument("--version", required=True, metavar="V", help="name of the release, such as 1.2.0")
+    step.add_argument("--version", required=True, metavar="V", help="version of the release and all that is in it, such as 1.2.0")
     step.add_argument("--counter", required=True, type=int, metavar="N", help="larger than that of the release before")
     step.add_argument("--board", nargs="+", default=[], metavar="B", help="boards with their scenes: names, or folders")
     step.add_argument("--bank", nargs="+", default=[], type=Path, metavar="FILE", help="banks of these boards")
@@ -62,14 +62,18 @@ def add(step: argparse.ArgumentParser) -> None:
 def make_release(options: argparse.Namespace) -> int:
     """Make the folder of a release."""
     from controller.update.lock_file import Target
+    from controller.update.sbom import sbom
+    from controller.update.wheel_version import check_version
 
+    check_version(options.version)
     if options.out.exists():
         raise UpdateError(f"{options.out}: exists: a release is never overwritten, remove it or name another folder")
     target = Target.of(options.platform)
     systemd, verilog = data_folder("systemd"), data_folder("fpga_rtl")
     time_s = _time_s(systemd.parent)
     boards = _boards(options.board)
-    contents: dict[str, Path | bytes] = {}
+    contents: dict[str, Path] = {}
+    made_by: dict[str, dict[str, str]] = {}
     for name, board in boards.items():
         contents |= {f"boards/{name}/{path}": file for path, file in _files(board.folder)}
     pieces = {}
@@ -79,10 +83,12 @@ def make_release(options: argparse.Namespace) -> int:
             if path in pieces:
                 raise UsageError(f"{file}: is a second bank for {path}: give one for each board")
             contents[path], pieces[path] = file, found
+            made_by[path] = _bank_made_by(file)
     contents |= _gateware(options.gateware, boards)
+    made_by |= {path: _gateware_made_by(file) for path, file in contents.items() if path.startswith("gateware/")}
     with tempfile.TemporaryDirectory() as scratch:
-        wheels, bill = _wheels(options, target, systemd, time_s, Path(scratch))
-        contents |= {f"wheels/{wheel.name}": wheel for wheel in wheels} | {"sbom.cdx.json": bill}
+        own, others = _wheels(options, target, systemd, time_s, Path(scratch))
+        bill = sbom(options.version, time_s, own, others, contents, made_by)
         about = Manifest(
             version=options.version,
             counter=options.counter,
@@ -97,7 +103,8 @@ def make_release(options: argparse.Namespace) -> int:
             built_s=time_s,
             files=[],
         )
-        manifest = write_release(options.out, about, contents, pieces)
+        wheels = {f"wheels/{wheel.name}": wheel for wheel in (*others, own)}
+        manifest = write_release(options.out, about, {**contents, **wheels, "sbom.cdx.json": bill}, pieces)
     figures = {
         "folder": str(options.out),
         "files": len(manifest.files),
@@ -108,10 +115,10 @@ def make_release(options: argparse.Namespace) -> int:
     return 0
 
 
-def _wheels(options: argparse.Namespace, target: Target, systemd: Path, time_s: int, scratch: Path) -> tuple[list[Path], bytes]:
-    """All wheels of a release, and their bill."""
+def _wheels(options: argparse.Namespace, target: Target, systemd: Path, time_s: int, scratch: Path) -> tuple[Path, list[Path]]:
+    """This project's wheel, with the version of the release, and the others."""
     from controller.update import lock_file, wheel_folder
-    from controller.update.sbom import sbom
+    from controller.update.wheel_version import with_version
 
     tools, cache = systemd / "build.lock", user_cache()
     wanted = lock_file.wanted(lock_file.read_lock(systemd / "requirements.lock"), target)
@@ -124,7 +131,8 @@ def _wheels(options: argparse.Namespace, target: Target, systemd: Path, time_s: 
             raise UpdateError(f"{project}: is not there: make releases in a checkout, or have {DISTRIBUTION}'s wheel in --wheels")
         wheel_folder.must_be_here(target, DISTRIBUTION)
         own = wheel_folder.built_here(project.parent, time_s, tools, cache, scratch, options.mypyc)
-    return [*others, own], sbom(others, project if project.is_file() else None, time_s)
+    (versioned := scratch / "versioned").mkdir()
+    return with_version(own, options.version, versioned), others
 
 
 def _time_s(checkout: Path) -> int:
@@ -184,7 +192,25 @@ def _pieces(section: Section) -> Iterator[tuple[int, int]]:
         yield from ((section.offset + row * section.stride, section.stride) for row in range(section.rows))
 
 
-def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, Path | bytes]:
+def _bank_made_by(file: Path) -> dict[str, str]:
+    """What a bank tells of how it was built."""
+    with Bank.open(file) as bank:
+        provenance = bank.header.provenance
+        return {"creator": bank.header.creator, "responses": provenance.in_words() if provenance else "unknown"}
+
+
+def _gateware_made_by(file: Path) -> dict[str, str]:
+    """What a bitstream tells of how it was built; nothing if it is none that this project has built."""
+    try:
+        identity = read_identity(file)
+    except GatewareError:
+        return {}
+    return {"device": identity.device, "sources": identity.sources} | {
+        f"tool:{name}": told for name, told in identity.tools.items()
+    }
+
+
+def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, Path]:
     """Bitstreams by the names under which boards load them; each is one that the bring-up of its boards takes."""
     found = {file.name: file for file in files}
     if len(found) < len(files):

@@ -6,7 +6,7 @@ import argparse
 
 from controller.commands.output import show
 from controller.errors import UpdateError
-from controller.update.identity import become_update_user
+from controller.update.identity import refuse_root
 from controller.update.installed import update_state
 from controller.update.layout import Layout
 from controller.update.requests import ask
@@ -20,7 +20,7 @@ def add(step: argparse.ArgumentParser) -> None:
 def rollback(options: argparse.Namespace) -> int:
     """Ask for it; raises if there is nothing to go back to."""
     layout = Layout.from_environment()
-    become_update_user(layout)
+    refuse_root(layout)
     state = update_state(layout)
     target = state.stays if state.trial else state.previous
     if not layout.is_complete(target):

@@ -43,6 +43,8 @@ def _table(figures: dict[str, Any]) -> str:
         size = "" if release["size_bytes"] is None else f", {release['size_bytes']:,} bytes"
         lines.append(f"  {release['version']} (counter {counter}{size}){''.join(f', {mark}' for mark in marks if mark)}")
     gone = [version for version in figures["failed"] if version not in {release["version"] for release in figures["releases"]}]
+    if figures["not_installed"]:
+        lines.append(f"{figures['not_installed']}: haptic-panel update install tries it again")
     if gone:
         lines.append(f"not tried again: {', '.join(gone)}")
     return "\n".join([*lines, *(f"WRONG {problem}" for problem in figures["problems"])])

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 import os
 import pwd
 import resource
 import stat
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import msgspec
@@ -52,7 +51,7 @@ class _Allowed:
 def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
     """Check everything that a board needs, without outputs and without disturbing a running service.
 
-    For the service's board, root checks with the rights of the service's user and the limits of its unit.
+    For the service's board, its user checks with the limits of the unit; what root calls runs as that user (systemd/haptic-panel).
 
     Parameters
     ----------
@@ -61,8 +60,9 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         The host's clock.
     """
     link = board.link
-    user = service_user() if os.geteuid() == 0 and board.is_the_systems else None
-    checks: list[tuple[str, Callable[[], str | Finding]]] = [("user", lambda: _user(board, user))]
+    service = service_user() if board.is_the_systems else None
+    as_the_service = service is not None and service.pw_uid == os.geteuid()
+    checks: list[tuple[str, Callable[[], str | Finding]]] = [("user", lambda: _user(board, as_the_service))]
     if link.kind == "spi":
         checks += [
             ("SPI device", lambda: _node(link.device)),
@@ -76,14 +76,12 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         checks.append(("temperature", lambda: _temperature(board)))
     if link.kind != "simulated":
         checks.append(("responses", lambda: _responses(board)))
-        allowed = _unit_allows if user else _this_process_may
+        allowed = _unit_allows if as_the_service else _this_process_may
         checks += [
             ("priority", lambda: _priority(board.realtime, allowed())),
             ("locked memory", lambda: _memory(board.realtime, allowed())),
         ]
-    with _rights_of(user):
-        findings = [_tried(about, check) for about, check in checks]
-    findings += look_at_pi(board)
+    findings = [*(_tried(about, check) for about, check in checks), *look_at_pi(board)]
     return [finding for finding in findings if finding.good or finding.about != "responses"]  # an invalid bank is reported once
 
 
@@ -97,35 +95,20 @@ def _tried(about: str, check: Callable[[], str | Finding]) -> Finding:
         return Finding(about, False, missing_package(error.name) or f"{error}: may this user read where it is installed?")
 
 
-@contextlib.contextmanager
-def _rights_of(user: pwd.struct_passwd | None) -> Iterator[None]:
-    """Run with the rights of another user; None: with this process's own."""
-    if user is None:
-        yield
-        return
-    own = os.getgroups(), os.getegid(), os.geteuid()
-    os.setgroups(os.getgrouplist(user.pw_name, user.pw_gid))
-    os.setegid(user.pw_gid)
-    os.seteuid(user.pw_uid)
-    try:
-        yield
-    finally:
-        os.seteuid(own[2])
-        os.setegid(own[1])
-        os.setgroups(own[0])
-
-
-def _user(board: Board, user: pwd.struct_passwd | None) -> str:
+def _user(board: Board, as_the_service: bool) -> str | Finding:
     """User whose rights are checked."""
-    if user is not None:
-        return f"looked at as {user.pw_name}, as which the service runs"
-    if os.geteuid() == 0 and board.is_the_systems:
-        raise ConfigError(f"there is no user {SERVICE}, as which the service runs: install it (systemd/README.md)")
     try:
         name = pwd.getpwuid(os.geteuid()).pw_name
     except KeyError:
         name = str(os.geteuid())
-    return f"looked at as {name}" + ("" if name == SERVICE or not board.is_the_systems else f"; the service runs as {SERVICE}")
+    said = f"looked at as {name}"
+    if as_the_service:
+        return f"{said}, as which the service runs"
+    if not board.is_the_systems:
+        return said
+    if service_user() is None:
+        raise ConfigError(f"there is no user {SERVICE}, as which the service runs: install it (systemd/README.md)")
+    return Finding("user", True, f"{said}; the service runs as {SERVICE}, and may do other things", warns=True)
 
 
 def _opened(link: Link, device: str) -> str:

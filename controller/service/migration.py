@@ -15,7 +15,7 @@ from controller.bank.inspection import measured_at
 from controller.bank.lookup import of_this_format
 from controller.board.paths import BANK_FORMAT
 
-TELLS_FORMAT = re.compile(r"\.v\d+(\.before-\d+)?\.bank$")
+TELLS_FORMAT = re.compile(r"\.v\d+(\.before-\d+)?\.bank\Z")
 
 
 def migrate(state: Path) -> list[str]:

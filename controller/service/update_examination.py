@@ -47,6 +47,7 @@ def look_at_updates(layout: Layout, settings: Path = SETTINGS) -> list[Finding]:
     checks: list[tuple[str, Callable[[], str | Finding]]] = [
         ("release", lambda: _release(layout)),
         ("failed releases", lambda: _failed(layout)),
+        ("installations", lambda: _installations(layout)),
         ("update requests", lambda: _requests(layout)),
         ("update folders", lambda: _folders(layout)),
         ("update settings", lambda: _settings(settings)),
@@ -85,6 +86,13 @@ def _failed(layout: Layout) -> str | Finding:
     if not failed:
         return "none"
     return Finding("failed releases", True, f"{', '.join(failed)} did not serve on this device: not tried again", warns=True)
+
+
+def _installations(layout: Layout) -> str | Finding:
+    failed = update_state(layout).not_installed
+    if not failed:
+        return "none has failed"
+    return Finding("installations", True, f"{failed}: haptic-panel update install tries it again", warns=True)
 
 
 def _requests(layout: Layout) -> str | Finding:

@@ -51,7 +51,10 @@ def check_writable(file: Path) -> None:
         If this user may not create files in its folder.
     """
     if not os.access(file.resolve().parent, os.W_OK | os.X_OK):
-        raise CalibrationError(f"{file}: cannot be written (Permission denied): run this as root, or without --write")
+        raise CalibrationError(
+            f"{file}: cannot be written (Permission denied): without --write, and as root with `| /usr/lib/haptic-panel/set-touch"
+            f" {file.parent.name}` after it, the lines are put there"
+        )
 
 
 def write_calibration(file: Path, calibration: Calibration) -> None:

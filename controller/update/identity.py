@@ -1,34 +1,26 @@
-"""Who does the work of an update: the user `haptic-update`, also when root asks for it."""
+"""Who does the work of an update: the user `haptic-update`, and never root."""
 
 from __future__ import annotations
 
 import os
-import pwd
-from typing import Final
 
 from controller.errors import UpdateError
 from controller.update.layout import ROOT, Layout
 
-USER: Final = "haptic-update"
 
+def refuse_root(layout: Layout) -> None:
+    """Refuse to work on this device's releases as root: /usr/bin/haptic-panel becomes another user before this runs.
 
-def become_update_user(layout: Layout) -> None:
-    """Give up root for good; of nobody else, and for releases elsewhere ($HAPTIC_PANEL_ROOT), nothing changes.
+    It keeps a checkout's command from leaving files of root's among those of `haptic-update`. What protects root from a release is
+    that script: code that a less trusted user owns cannot be trusted to give up rights.
 
     Raises
     ------
     UpdateError
-        If there is no such user.
+        If this is root, and the releases are not elsewhere ($HAPTIC_PANEL_ROOT).
     """
-    if os.geteuid() != 0 or layout.root != ROOT:
-        return
-    try:
-        user = pwd.getpwnam(USER)
-    except KeyError as error:
-        raise UpdateError(f"{layout.root}: there is no user {USER}: install the Debian package haptic-panel") from error
-    os.initgroups(USER, user.pw_gid)
-    os.setresgid(user.pw_gid, user.pw_gid, user.pw_gid)
-    os.setresuid(user.pw_uid, user.pw_uid, user.pw_uid)
-    os.environ["HOME"] = user.pw_dir
-    os.environ["USER"] = os.environ["LOGNAME"] = USER
-    os.umask(0o022)
+    if os.geteuid() == 0 and layout.root == ROOT:
+        raise UpdateError(
+            f"{layout.root}: belongs to the user haptic-update: call /usr/bin/haptic-panel, which becomes that user, or use"
+            " /usr/lib/haptic-panel/as-user haptic-update"
+        )

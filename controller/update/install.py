@@ -12,6 +12,7 @@ from typing import Final
 
 from controller.errors import UpdateError
 from controller.regular_file import read_regular
+from controller.update import failed_install
 from controller.update.durable import write_durably
 from controller.update.installed import manifest_of
 from controller.update.layout import COMPLETE, MANIFEST, Layout, running_release
@@ -41,7 +42,7 @@ def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _don
     ------
     UpdateError
         If the release is for another Python, computer or package, a file in the store is damaged or absent, it does not start,
-        or the disk is full. Nothing of it is left then.
+        or the disk is full. Nothing of it is left then, but that it failed (`failed_install`).
     """
     folder, name = layout.release(manifest.version), f"release {manifest.version}"
     if manifest.platform != this_platform():
@@ -53,18 +54,23 @@ def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _don
             if read_regular(folder / MANIFEST, MANIFEST_BYTES_MAX) != manifest.to_json():
                 raise UpdateError(f"{folder}: another {name} is installed: what differs needs another version")
             return
-        remove(folder)
         try:
+            remove(folder)
             _build(layout, manifest, folder, progress)
         except BaseException as error:
             remove(folder)
             if isinstance(error, OSError):
-                raise UpdateError(f"{folder}: cannot be built ({error.strerror or error}); nothing of it is left") from error
+                why = f"{folder}: cannot be built ({error.strerror or error}); nothing of it is left"
+                failed_install.remember(layout, manifest, why)
+                raise UpdateError(why) from error
+            if isinstance(error, UpdateError):
+                failed_install.remember(layout, manifest, str(error))
             raise
+        failed_install.forget(layout)
 
 
 def prune(layout: Layout, coming: Manifest) -> list[str]:
-    """Remove releases that nothing leads to any more, and files of the store that no release has; versions of those removed.
+    """Remove own releases that nothing leads to any more, and files of the store that no release has; versions of those removed.
 
     Parameters
     ----------
@@ -77,7 +83,8 @@ def prune(layout: Layout, coming: Manifest) -> list[str]:
         wanted.add(layout.current.readlink().name)
     if running := running_release():
         wanted.add(running.name)  # it works on, whatever has become of the link
-    removed = [folder for folder in layout.releases.iterdir() if folder.name not in wanted]
+    own = [folder for folder in layout.releases.iterdir() if folder.lstat().st_uid == os.geteuid()]  # root's are from a checkout
+    removed = [folder for folder in own if folder.name not in wanted]
     with alone(layout.download / "install.lock"):
         for folder in removed:
             remove(folder)

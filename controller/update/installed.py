@@ -9,6 +9,7 @@ import msgspec
 
 from controller.errors import UpdateError
 from controller.regular_file import read_regular
+from controller.update.failed_install import failed_install
 from controller.update.layout import COMPLETE, MANIFEST, RELEASE_NAME, WORDS_BYTES_MAX, Layout
 from controller.update.manifest import MANIFEST_BYTES_MAX, Manifest, read_manifest
 
@@ -20,7 +21,7 @@ class InstalledRelease(msgspec.Struct, frozen=True, kw_only=True):
     ----------
     version : str
     counter : int or None
-        None: its manifest cannot be read.
+        None: its manifest cannot be read, or it was installed by hand and has none.
     complete : bool
         Whether it may be started.
     failed : bool
@@ -57,6 +58,8 @@ class UpdateState(msgspec.Struct, frozen=True, kw_only=True):
         What the fall-back script was asked for and has not done yet.
     releases : tuple of InstalledRelease
         The newest first.
+    not_installed : str
+        Release whose installation failed, how often and why; empty: none.
     problems : tuple of str
         What is damaged or cannot be read.
     """
@@ -69,6 +72,7 @@ class UpdateState(msgspec.Struct, frozen=True, kw_only=True):
     failed: tuple[str, ...] = ()
     requested: tuple[str, ...] = ()
     releases: tuple[InstalledRelease, ...] = ()
+    not_installed: str = ""
     problems: tuple[str, ...] = ()
 
     def figures(self) -> dict[str, Any]:
@@ -83,7 +87,7 @@ def update_state(layout: Layout) -> UpdateState:
     failed = tuple(line for line in _text(layout.state / "failed", problems).splitlines() if RELEASE_NAME.fullmatch(line))
     folders = _names(layout.releases, problems)
     releases = tuple(_release(layout, name, name in failed, problems) for name in folders if RELEASE_NAME.fullmatch(name))
-    in_use = ""
+    in_use, failed_before = "", failed_install(layout)
     if layout.current.is_symlink():
         in_use = layout.current.readlink().name
         if not layout.is_complete(in_use):
@@ -99,6 +103,7 @@ def update_state(layout: Layout) -> UpdateState:
         failed=failed,
         requested=tuple(name for name in _names(layout.requests, problems) if not name.startswith(".")),
         releases=tuple(sorted(releases, key=lambda release: (release.counter or -1, release.version), reverse=True)),
+        not_installed=failed_before.in_words if failed_before else "",
         problems=tuple(problems),
     )
 
@@ -114,7 +119,7 @@ def manifest_of(folder: Path) -> Manifest | None:
 def _release(layout: Layout, version: str, failed: bool, problems: list[str]) -> InstalledRelease:
     folder = layout.release(version)
     complete, manifest = (folder / COMPLETE).is_file(), manifest_of(folder)
-    if complete and manifest is None:
+    if complete and manifest is None and (folder / MANIFEST).exists():  # without one it was installed by hand, from a checkout
         problems.append(f"{folder / MANIFEST}: cannot be read")
     counter, size_bytes = (manifest.counter, manifest.total_bytes) if manifest else (None, None)
     return InstalledRelease(version=version, counter=counter, complete=complete, failed=failed, size_bytes=size_bytes)

@@ -28,7 +28,8 @@ class Layout:
     """Folders and files of updates.
 
     Owners: `state` and `current` are written by the fall-back script alone, as root; all other folders by the user `haptic-update`,
-    who asks the fall-back script for what it wants by a file in `requests`. Nothing of a release ever runs as root.
+    who asks the fall-back script for what it wants by a file in `requests`. Nothing of a release ever runs as root: scripts of the
+    Debian package see to it before any of it starts (systemd/README.md, Who runs what).
 
     Attributes
     ----------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import platform
 import re
@@ -14,7 +15,6 @@ import msgspec
 from msgspec import Meta
 
 from controller.board.records import Record, as_record
-from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, UpdateError
 from controller.regular_file import open_regular
 from controller.update.layout import RELEASE_NAME
@@ -24,8 +24,10 @@ MANIFEST_BYTES_MAX: Final = 1_000_000
 SETTINGS_FORMAT: Final = 1  # of /etc/haptic-panel, boards and the state folder; service.migration takes over what is older
 FALL_BACK_INTERFACE: Final = 1  # of the fall-back script and units, which only the Debian package changes
 
-Digest = Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]
+Digest = Annotated[str, Meta(pattern=r"^[0-9a-f]{64}\Z")]
 Count = Annotated[int, Meta(ge=0, le=2**53)]
+ROOMS: Final = ("wheels", "boards", "banks", "gateware")  # folders of a release that its files may be in
+BILL: Final = "sbom.cdx.json"
 PATH: Final = re.compile(r"[0-9A-Za-z_][0-9A-Za-z._+-]*(/[0-9A-Za-z_][0-9A-Za-z._+-]*){0,7}")
 
 
@@ -95,12 +97,12 @@ class Manifest(Record, frozen=True):
     files : list of ReleaseFile
     """
 
-    version: Annotated[str, Meta(pattern=f"^{RELEASE_NAME.pattern}$")]
+    version: Annotated[str, Meta(pattern=rf"^{RELEASE_NAME.pattern}\Z")]
     counter: Count
-    python: Annotated[str, Meta(pattern=r"^3\.[0-9]+$")]
-    architecture: Annotated[str, Meta(pattern="^[0-9a-z_]+$")]
+    python: Annotated[str, Meta(pattern=r"^3\.[0-9]+\Z")]
+    architecture: Annotated[str, Meta(pattern=r"^[0-9a-z_]+\Z")]
     protocol: Count
-    gateware_hash: Annotated[str, Meta(pattern="^[0-9a-f]{8}$")]
+    gateware_hash: Annotated[str, Meta(pattern=r"^[0-9a-f]{8}\Z")]
     bank_format: Count
     settings_format: Count
     files: list[ReleaseFile]
@@ -147,6 +149,34 @@ class Channel(Record, frozen=True):
         return f"channels/{name}.json"
 
 
+def read_object(data: bytes, whence: str) -> dict[str, Any]:
+    """An object of JSON that means the same to every reader: in UTF-8, each key once, numbers that are finite.
+
+    Raises
+    ------
+    ConfigError
+        If it is none.
+    """
+
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        found = dict(pairs)
+        if len(found) < len(pairs):
+            names = [name for name, _ in pairs]
+            raise ValueError(f"key {next(name for name in names if names.count(name) > 1)!r} comes twice")
+        return found
+
+    def refuse(number: str) -> None:
+        raise ValueError(f"{number} is no number")
+
+    try:
+        tables: Any = json.loads(data.decode("utf-8"), object_pairs_hook=once, parse_constant=refuse)
+    except (ValueError, RecursionError) as error:
+        raise ConfigError(f"{whence}: is not JSON: {error}") from error
+    if not isinstance(tables, dict):
+        raise ConfigError(f"{whence}: is not an object")
+    return tables
+
+
 def this_platform() -> str:
     """Platform of this computer, as `Manifest.platform` has it."""
     return f"{platform.machine()}-cp{sys.version_info[0]}{sys.version_info[1]}"
@@ -169,18 +199,15 @@ def read_manifest(data: bytes, whence: str) -> Manifest:
     if len(data) > MANIFEST_BYTES_MAX:
         raise UpdateError(f"{whence}: {len(data):,} bytes are more than the {MANIFEST_BYTES_MAX:,} of any manifest")
     try:
-        tables: Any = msgspec.json.decode(data)
-        if not isinstance(tables, dict):
-            raise ConfigError(f"{whence}: is not an object")
-        manifest = as_record(f"{whence}: ", tables, Manifest)
-    except NO_JSON as error:
-        raise UpdateError(f"{whence}: is not JSON: {error}") from error
+        manifest = as_record(f"{whence}: ", read_object(data, whence), Manifest)
     except ConfigError as error:
         raise UpdateError(str(error)) from error
     seen: set[str] = set()
     for file in manifest.files:
         if not PATH.fullmatch(file.path) or ".." in PurePosixPath(file.path).parts:
             raise UpdateError(f"{whence}: files: {file.path!r} is no path inside of a release")
+        if file.path != BILL and file.path.partition("/")[0] not in ROOMS:  # not the environment, for one, nor `.complete`
+            raise UpdateError(f"{whence}: files: {file.path!r} is not in {', '.join(f'{room}/' for room in ROOMS)} nor {BILL}")
         if file.path in seen:
             raise UpdateError(f"{whence}: files: {file.path!r} comes twice")
         seen.add(file.path)

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Final
-
-import msgspec
+from typing import Final
 
 from controller.board.records import as_record
-from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, UpdateError
 from controller.regular_file import read_regular
 from controller.update.installed import manifest_of
 from controller.update.layout import WORDS_BYTES_MAX, Layout
-from controller.update.manifest import FALL_BACK_INTERFACE, MANIFEST_BYTES_MAX, Channel, Manifest, read_manifest, this_platform
+from controller.update.manifest import (
+    FALL_BACK_INTERFACE,
+    MANIFEST_BYTES_MAX,
+    Channel,
+    Manifest,
+    read_manifest,
+    read_object,
+    this_platform,
+)
 from controller.update.trust import DeviceUpdater
 
 CHANNEL_BYTES_MAX: Final = 64_000
@@ -128,9 +133,6 @@ def largest_counter(layout: Layout, installed: Manifest | None) -> int:
 
 def _channel(data: bytes, whence: str) -> Channel:
     try:
-        tables: Any = msgspec.json.decode(data)
-        if not isinstance(tables, dict):
-            raise UpdateError(f"{whence}: is not an object")
-        return as_record(f"{whence}: ", tables, Channel)
-    except (*NO_JSON, ConfigError) as error:
+        return as_record(f"{whence}: ", read_object(data, whence), Channel)
+    except ConfigError as error:
         raise UpdateError(f"{whence}: is no channel: {error}") from error

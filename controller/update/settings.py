@@ -30,7 +30,7 @@ class UpdateSettings(Record, frozen=True):
     """
 
     source: str = ""
-    channel: Annotated[str, Meta(pattern="^[0-9a-z-]{1,32}$")] = "stable"
+    channel: Annotated[str, Meta(pattern=r"^[0-9a-z-]{1,32}\Z")] = "stable"
     automatic: Literal["check", "download", "install"] = "install"
     total_s: Positive = 3600.0
     bytes_per_s: Annotated[float, Meta(ge=0)] = 0.0

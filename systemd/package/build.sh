@@ -40,7 +40,7 @@ for unit in "$checkout"/systemd/*.service "$checkout"/systemd/*.path "$checkout"
   put "$unit" "lib/systemd/system/${unit##*/}"
 done
 sed -i "s/@UNITS@/$(cd "$files/lib/systemd/system" && echo *)/" "$source/debian/prerm"
-put "$checkout/systemd/fall-back" usr/lib/haptic-panel/fall-back 755
+for script in fall-back as-user set-touch; do put "$checkout/systemd/$script" "usr/lib/haptic-panel/$script" 755; done
 put "$checkout/systemd/haptic-panel" usr/bin/haptic-panel 755
 put "$here/install-first-release" usr/lib/haptic-panel/install-first-release 755
 sed -i "s/@VERSION@/$version/; s/@PYTHON@/$python/" "$files/usr/lib/haptic-panel/install-first-release"
@@ -48,6 +48,7 @@ put "$checkout/systemd/udev/60-haptic-panel.rules" lib/udev/rules.d/60-haptic-pa
 put "$checkout/systemd/modules-load.d/haptic-panel.conf" usr/lib/modules-load.d/haptic-panel.conf
 put "$checkout/systemd/haptic-panel.catalog" usr/lib/systemd/catalog/haptic-panel.catalog
 put "$checkout/controller/commands/shell/haptic-panel.1" usr/share/man/man1/haptic-panel.1
+sed -i "1s/\"version [^\"]*\"/\"version $version\"/; 1s/panel [0-9][^\"]*\"/panel $version\"/" "$files/usr/share/man/man1/haptic-panel.1"
 put "$checkout/controller/commands/shell/haptic-panel.bash" usr/share/bash-completion/completions/haptic-panel
 put "$checkout/controller/commands/shell/_haptic-panel" usr/share/zsh/vendor-completions/_haptic-panel
 put "$root" usr/share/haptic-panel/root.json

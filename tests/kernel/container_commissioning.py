@@ -201,7 +201,7 @@ def calibrated(line):
 
 
 def test_five_touches_put_the_axes_into_the_board():
-    said = calibrated(step("calibrate-touch --board panel --write"))
+    said = calibrated(step("calibrate-touch --board panel |"))
     assert "written to /etc/haptic-panel/boards/panel/board.toml" in said
     rows = [[float(value) for value in row.split(",")] for row in re.findall(r"_mm_from_axes = \[(.*)\]", said)]
     for row, expected in zip(rows, ([0.0, LENGTH_MM, 0.0], [-WIDTH_MM, 0.0, WIDTH_MM]), strict=True):
@@ -218,7 +218,8 @@ def test_ghosts_are_not_looked_for_where_no_panel_hears_the_fpga():
 
 def recorded(line, user, folder):
     """A recording made until Ctrl-C; what is said of it."""
-    file = folder / "mine.evemu"
+    file = Path(line.split("--out ")[1].split()[0])
+    file.unlink(missing_ok=True)
     with started(line, user, folder) as process:
         told(process, "recording ")
         with finger(to_and_fro()):
@@ -244,7 +245,7 @@ def test_what_the_panel_sends_is_recorded_and_it_plays():
     assert "events" in recorded(step(" record "), "root", HOME)
     said = played(step(" run --board panel "))
     assert f"bank: {BANK}\n" in said
-    again = done("haptic-panel run --board panel --replay mine.evemu --link model --speed max --json")
+    again = done("haptic-panel run --board panel --replay /tmp/mine.evemu --link model --speed max --json")
     assert '"max_fingers": 1' in again
 
 
@@ -256,7 +257,7 @@ def test_every_step_that_needs_no_root_works_as_the_services_user():
     assert BANK.owner() == UNIT
     assert f"looked at as {UNIT}" in done(step("doctor --board"), UNIT, folder)
     done(step("doctor --link"), UNIT, folder)
-    said = done(step("calibrate-touch --board panel --write"), UNIT, folder, code=78)
+    said = done("haptic-panel calibrate-touch --board panel --write", UNIT, folder, code=78)
     assert "board.toml: cannot be written (Permission denied)" in said, "and before five marks were touched for nothing"
     assert said.count("\n") == 1
     recorded(step(" record "), UNIT, folder)

@@ -10,6 +10,8 @@ import pytest
 from controller.service import update_examination
 from controller.service.update_examination import look_at_updates
 from controller.update import validity
+from controller.update.failed_install import remember
+from controller.update.installed import manifest_of
 from controller.update.layout import Layout
 from controller.update.manifest import Manifest
 
@@ -84,6 +86,23 @@ def test_an_environment_that_was_made_by_hand_is_said_to_take_no_updates(device)
     (device.layout.release("1.0") / "release.json").unlink()
     (found,) = device.found().items()
     assert found == ("release", ("warns", "1.0 was installed by hand, without release.json: updates are not looked at"))
+
+
+def test_a_release_of_a_checkout_beside_that_of_the_package_is_nothing_wrong(device):
+    """As the package leaves what was installed by hand before it."""
+    (device.layout.release("checkout") / "venv").mkdir(parents=True)
+    (device.layout.release("checkout") / ".complete").touch()
+    assert {about: how for about, (how, _) in device.found().items() if how != "good"} == {}
+    (device.layout.release("checkout") / "release.json").write_text("{")
+    assert device.found()["release"][0] == "wrong", "one that is damaged is"
+
+
+def test_an_installation_that_failed_is_warned_of(device):
+    manifest = manifest_of(device.layout.release("1.0"))
+    remember(device.layout, manifest, "no space")
+    assert device.found()["installations"] == (
+        "warns", "release 1.0 could not be installed, once: no space: haptic-panel update install tries it again",
+    )  # fmt: skip
 
 
 def wrong(device, change, about, how, *words):

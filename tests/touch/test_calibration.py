@@ -377,5 +377,5 @@ def test_a_board_that_cannot_be_written_is_told_before_anything_is_touched(tmp_p
     monkeypatch.setattr("os.access", lambda *_, **__: False)
     assert main(["calibrate-touch", "--board", str(tmp_path), "--write"]) == 78
     said = capsys.readouterr().err
-    assert "board.toml: cannot be written (Permission denied): run this as root, or without --write" in said
+    assert "board.toml: cannot be written (Permission denied): without --write, and as root with" in said
     assert said.count("\n") == 1, "nobody was asked to touch a mark"

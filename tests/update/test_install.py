@@ -3,6 +3,7 @@
 import ensurepip
 import hashlib
 import json
+import signal
 import subprocess
 import zipfile
 from pathlib import Path
@@ -162,6 +163,74 @@ def test_what_nothing_leads_to_is_removed(device, monkeypatch):
     assert {folder.name for folder in device.releases.iterdir()} == {"2", "3", "4"}
     kept = {hashlib.sha256(f"{number}".encode()).hexdigest() for number in (2, 3, 4)}
     assert {file.name for file in device.store.iterdir()} == kept | shared
+
+
+def test_releases_of_others_are_left_and_do_not_end_an_update(device, monkeypatch):
+    """Such as root's, installed from a checkout before the package."""
+    for number in (1, 2):
+        device.release(str(number)).mkdir()
+    monkeypatch.setattr("controller.update.install.os.geteuid", lambda: 12345)
+    assert prune(device, release(device, version="6")) == []
+    assert len(list(device.releases.iterdir())) == 2
+
+
+BROKEN = {"controller/__init__.py": "", "controller/__main__.py": "import nothing"}
+
+
+@pytest.fixture
+def offered(device, monkeypatch):
+    """What is offered to a device whose commands are run here: a function that sets it."""
+    monkeypatch.setenv("HAPTIC_PANEL_ROOT", str(device.root))
+    monkeypatch.setattr("controller.commands.update_check.load_settings", lambda: UpdateSettings(source="somewhere"))
+    return lambda manifest: monkeypatch.setattr("controller.update.fetch.fetch", lambda *_, **__: manifest)
+
+
+def test_an_installation_that_fails_is_remembered_shown_and_tried_again_ever_more_rarely(device, offered, monkeypatch, capsys):
+    tries = []
+    monkeypatch.setattr(
+        "controller.update.install._build", lambda *_: tries.append(1) or (_ for _ in ()).throw(UpdateError("no\nway"))
+    )
+    offered(manifest := release(device))
+    looks = [main(["update", "install", "--automatic"]) for _ in range(1 + 1 + 2 + 4 + 8)]
+    assert [look for look, code in enumerate(looks) if code] == [0, 1, 3, 7, 15]
+    assert len(tries) == 5
+    assert update_state(device).not_installed == "release 9 could not be installed, 5 times: no way"
+    capsys.readouterr()
+    main(["update", "status"])
+    assert (
+        "release 9 could not be installed, 5 times: no way: haptic-panel update install tries it again" in capsys.readouterr().out
+    )
+    assert main(["update", "install"]) == 1, "by hand, at once"
+    assert len(tries) == 6
+    offered(msgspec.structs.replace(manifest, counter=2))
+    assert main(["update", "install", "--automatic"]) == 1, "another release is tried"
+    assert update_state(device).not_installed == "release 9 could not be installed, once: no way"
+
+
+def test_an_installation_that_goes_well_is_not_called_failed(device, offered):
+    offered(release(device, controller=BROKEN))
+    assert main(["update", "install"]) == 1
+    assert "No module named 'nothing'" in update_state(device).not_installed
+    offered(release(device))
+    assert main(["update", "install"]) == 0
+    assert update_state(device).not_installed == ""
+    assert (device.requests / "trial").read_text() == "9\n"
+
+
+@pytest.mark.parametrize("damaged", [b"", b"{", b'{"version": 1}', b"\xff", b"[" * 100_000])
+def test_what_is_remembered_may_be_damaged(device, damaged):
+    (device.download / "install_failed.json").write_bytes(damaged)
+    assert update_state(device).not_installed == ""
+
+
+def test_an_installation_that_hangs_ends_and_leaves_nothing(device, offered, monkeypatch, capsys):
+    monkeypatch.setattr("controller.commands.update_install.INSTALL_S", 0.2)
+    offered(release(device, controller={"controller/__init__.py": "", "controller/__main__.py": "import time; time.sleep(1e6)"}))
+    assert main(["update", "install"]) == 1
+    assert "release 9: not installed within 0.2 s; nothing of it is left" in capsys.readouterr().err
+    assert not list(device.releases.iterdir())
+    assert "not installed within 0.2 s" in update_state(device).not_installed
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
 
 
 def test_the_state_is_told_whatever_it_is(device, monkeypatch, capsys):

@@ -48,7 +48,11 @@ def test_a_release_made_twice_is_the_same_to_the_byte(tmp_path):
         run(*program, out, *about, cwd=ROOT, env=environment, umask=umask)
     wheels = {file.path.removeprefix("wheels/") for file in read_release(tmp_path / "a").files if file.path.startswith("wheels/")}
     bill = json.loads((tmp_path / "a/sbom.cdx.json").read_bytes())
-    named = {(part["name"].replace("-", "_"), part["version"]) for part in [*bill["components"], bill["metadata"]["component"]]}
+    parts = [part for part in [*bill["components"], bill["metadata"]["component"]] if "purl" in part]
+    named = {(part["name"].replace("-", "_"), part["version"]) for part in parts}
+    assert all(part["licenses"] for part in parts), "each wheel tells its licence"
+    (numpy,) = [part for part in parts if part["name"] == "numpy"]
+    assert any("openblas" in library["name"] for library in numpy["components"]), "and what it brings along"
     assert named == {tuple(wheel.split("-")[:2]) for wheel in wheels}
     assert "serialNumber" not in bill
     assert contents(tmp_path / "a") == contents(tmp_path / "b/deeper")

@@ -1,10 +1,15 @@
 """Releases: the same bytes for the same inputs, from what is locked, and nothing that does not fit."""
 
+import base64
 import hashlib
+import json
 import os
 import re
 import shutil
+import subprocess
+import sys
 import tomllib
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -33,15 +38,16 @@ def place(tmp_path, monkeypatch):
     (tmp_path / "wheels").mkdir()
     (tmp_path / "systemd").mkdir()
     lines = []
-    for name in ("tiny", "haptic_panel"):
-        file, data = wheel(name)
+    own = {"code": '__version__ = "1.0"\n', "module": "controller/__init__.py", "about": "License-Expression: MIT\n"}
+    others = {"about": "License: Apache 2.0\nClassifier: License :: OSI Approved :: Apache Software License\n"}
+    for name, more in (("tiny", others), ("haptic_panel", own)):
+        file, data = wheel(name, **more)
         (tmp_path / "wheels" / file).write_bytes(data)
         lines.append(f"{name}==1.0 \\\n    --hash=sha256:{hashlib.sha256(data).hexdigest()}\n    # via elsewhere\n")
     (tmp_path / "systemd/requirements.lock").write_text(f"# made\n{lines[0]}")
     (tmp_path / "systemd/build.lock").touch()
     (tmp_path / "fpga_rtl").symlink_to(ROOT / "fpga_rtl")
     monkeypatch.setattr(update_make_release, "data_folder", tmp_path.joinpath)
-    monkeypatch.setattr("controller.update.sbom.sbom", lambda *_: b"{}")  # takes seconds; test_locked.py makes a real one
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
     return tmp_path
 
@@ -73,12 +79,53 @@ def test_the_same_inputs_make_the_same_bytes_whoever_makes_them(place, bank_file
     assert manifest.boards == {"simulated": board.digest().hex()}
     assert manifest.built_s == 1_700_000_000
     paths = {file.path for file in manifest.files}
-    assert {"wheels/tiny-1.0-py3-none-any.whl", "wheels/haptic_panel-1.0-py3-none-any.whl", "sbom.cdx.json"} <= paths
+    assert {"wheels/tiny-1.0-py3-none-any.whl", "wheels/haptic_panel-1.0.0-py3-none-any.whl", "sbom.cdx.json"} <= paths
     assert {f"boards/simulated/{path.name}" for path in board.folder.iterdir()} <= paths
     bank = next(file for file in manifest.files if file.path == "banks/simulated.bank")
     index = read_index((place / "a" / bank.index_target).read_bytes(), "index")
     assert index.size_bytes == bank_file.stat().st_size
     assert sum(1 for _ in index) > 100
+
+
+def test_one_version_is_told_wherever_one_is_told(place, bank_file):
+    assert make(place, "a", "--board", "simulated", "--bank", bank_file) == 0
+    (own,) = (place / "a/wheels").glob("haptic_panel-*.whl")
+    with zipfile.ZipFile(own) as files:
+        assert files.read("controller/__init__.py") == b'__version__ = "1.0.0"\n'
+        assert b"\nVersion: 1.0.0\n" in files.read("haptic_panel-1.0.0.dist-info/METADATA")
+        rows = dict(line.split(",", 1) for line in files.read("haptic_panel-1.0.0.dist-info/RECORD").decode().splitlines())
+        assert set(rows) == set(files.namelist())
+        digest = base64.urlsafe_b64encode(hashlib.sha256(files.read("controller/__init__.py")).digest()).rstrip(b"=").decode()
+        assert rows["controller/__init__.py"] == f"sha256={digest},22"
+    bill = json.loads((place / "a/sbom.cdx.json").read_bytes())
+    assert (bill["metadata"]["component"]["name"], bill["metadata"]["component"]["version"]) == ("haptic-panel", "1.0.0")
+    subprocess.run(
+        [sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-index", "--target", place / "to", own], check=True
+    )
+    assert "haptic_panel-1.0.0.dist-info" in {path.name for path in (place / "to").iterdir()}, "pip takes it"
+
+
+def test_the_bill_has_licences_and_every_file(place, bank_file):
+    assert make(place, "a", "--board", "simulated", "--bank", bank_file) == 0
+    bill = json.loads((place / "a/sbom.cdx.json").read_bytes())
+    main, parts = bill["metadata"]["component"], {part["name"]: part for part in bill["components"]}
+    assert [one["expression"] for one in main["licenses"]] == ["MIT"]
+    assert parts["tiny"]["licenses"] == [{"license": {"name": "Apache Software License"}}]
+    for file in read_release(place / "a").files:
+        named = {"wheels/tiny-1.0-py3-none-any.whl": parts["tiny"], "wheels/haptic_panel-1.0.0-py3-none-any.whl": main}
+        if file.path != "sbom.cdx.json":
+            part = named.get(file.path) or parts[file.path]
+            assert part["hashes"] == [{"alg": "SHA-256", "content": file.sha256}], file.path
+    told = {one["name"]: one["value"] for one in parts["banks/simulated.bank"]["properties"]}
+    assert told["haptic-panel:creator"].startswith("haptic-panel ")
+    assert "model" in told["haptic-panel:responses"]
+
+
+@pytest.mark.parametrize("version", ["spring", "1.0-beta", "01.0", "1.0\n", "v1"])
+def test_a_version_that_no_wheel_can_have_is_refused(place, version, capsys):
+    assert make(place, "a", "--version", version) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert not (place / "a").exists()
 
 
 def test_what_does_not_fit_is_refused_in_one_line_and_leaves_nothing(place, bank_file, tmp_path, capsys, monkeypatch):

@@ -77,7 +77,7 @@ def test_whatever_hangs_ends(monkeypatch, capsys):
     """Such as a server that sends a header for ever, which no limit between two bytes of a body sees."""
     monkeypatch.setattr(update_check, "load_settings", lambda: UpdateSettings(total_s=0.01))
     monkeypatch.setattr(update_check, "ALARM_AFTER_S", 0.01)
-    monkeypatch.setattr(update_check, "become_update_user", lambda _: None)
+    monkeypatch.setattr(update_check, "refuse_root", lambda _: None)
     monkeypatch.setattr("controller.update.fetch.check", lambda *_: signal.pause())
     assert main(["update", "check"]) == 1
     assert "not done within 0.01 s (total_s of update.toml)" in capsys.readouterr().err

@@ -19,12 +19,12 @@ PASSPHRASE = "correct horse battery"
 BUILT_S = 1_700_000_000
 
 
-def wheel(name="tiny", version="1.0", code="WHO = 'tiny'\n"):
-    """File name and bytes of a wheel of one module, always the same for the same arguments."""
+def wheel(name="tiny", version="1.0", code="WHO = 'tiny'\n", module=None, about=""):
+    """File name and bytes of a wheel of one module (a path), always the same for the same arguments; `about`: more metadata."""
     info = f"{name}-{version}.dist-info"
     files = {
-        f"{name}.py": code.encode(),
-        f"{info}/METADATA": f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n".encode(),
+        module or f"{name}.py": code.encode(),
+        f"{info}/METADATA": f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n{about}".encode(),
         f"{info}/WHEEL": b"Wheel-Version: 1.0\nGenerator: tests\nRoot-Is-Purelib: true\nTag: py3-none-any\n",
     }
     rows = []

@@ -30,7 +30,7 @@ complete haptic-panel \
         'c/--gateware=/f/' \
         'c/--passphrase-file=/f/' \
         'c/--role=/(root targets snapshot timestamp)/' \
-        'c/--/(accept add alsa also amplitude-figures amplitude-um at automatic avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm counter dask date dead decay-time-ms delay-us density-kg-m3 device drift drift-percent drive drop duration-ms figures file finger-load finger-mg flash from full-scale gateware ghosts grid help host idle-figures inductance-h inverted json key lag length-mm link listen margin-mm markdown memory-mb minimum-counter missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc no-chirps no-pictures no-skip no-timing noise optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio power publisher quantity quick rate-khz record-ms reference repeats repetitions replay resistance-ohm role root same-as scattered scene seconds seed seeds sensor serial settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync targets temperature-c textfile thickness-mm threshold top v-per-m v-per-m-s v-per-m-s2 version wheels width-mm work workers write yes young-modulus-pa)/' \
+        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm counter dask date dead decay-time-ms delay-us density-kg-m3 device drift drift-percent drive drop duration-ms figures file finger finger-load finger-mg flash follow from full-scale gateware ghosts grid help host idle-figures inductance-h inverted json key lag length-mm link listen margin-mm markdown memory-mb minimum-counter missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc no-chirps no-pictures no-skip no-timing noise optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio power publisher quantity quick rate-khz record-ms reference repeats repetitions replay resistance-ohm role root same-as scattered scene seconds seed seeds sensor serial settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync targets temperature-c textfile thickness-mm threshold top v-per-m v-per-m-s v-per-m-s2 version wheels width-mm work workers write yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -54,7 +54,8 @@ complete haptic-panel \
         'n/--gateware/f/' \
         'n/--passphrase-file/f/' \
         'n/--role/(root targets snapshot timestamp)/' \
-        'p/1/(run status doctor board gateware bank design focus benchmark record calibrate calibrate-touch update metrics reload completion)/' \
+        'p/1/(run status client doctor board gateware bank design focus benchmark record calibrate calibrate-touch update metrics reload completion)/' \
+        'n/client/(play touches load disarm arm state figures hello)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check build info load)/' \
         'n/bank/(build choices info verify)/' \
