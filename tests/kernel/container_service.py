@@ -149,7 +149,7 @@ def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
 
 def as_user(name, *command):
     """The client of the package, as somebody who has just logged in."""
-    client = ["/opt/haptic-panel/current/venv/bin/python", "-m", "controller.application_socket.client", *command]
+    client = ["/usr/bin/haptic-panel", "client", *command]
     become = ["setpriv", f"--reuid={name}", f"--regid={name}", "--init-groups", "--"]
     return subprocess.run([*become, *client], cwd="/", check=False, capture_output=True, text=True)
 
