@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from controller.bank.file_format import REST_SAMPLES
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
 from controller.errors import ConfigError
-from controller.physics.plate import bending_wavelength_m
 from controller.physics.response_source import ResponseSource
 
 Floats = NDArray[np.float64]

@@ -14,9 +14,10 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
 from controller.physics.modes import Modes, at_points
-from controller.physics.plate import MIDDLE_HZ, WAVELENGTH_M, bending_wavelength_m, middle_hz, wave_scale
+from controller.physics.plate import MIDDLE_HZ, WAVELENGTH_M, middle_hz, wave_scale
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]

@@ -1,12 +1,10 @@
-"""The plate's constants: bending stiffness, wavelength, and the frequency up to which its modes are taken."""
+"""How long the waves of a board are beside those of the paper's plate, and the frequency up to which its modes are taken."""
 
 from __future__ import annotations
 
-import numpy as np
-
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
-from controller.board.panel import Plate, Waveform
-from controller.physics.mindlin import MindlinPlate
+from controller.board.panel import Waveform
 
 # On the paper's plate, in whose band's middle waves are 10.54 mm long; `wave_scale` says what they are on others
 MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
@@ -20,19 +18,6 @@ def mode_cut_hz(waveform: Waveform) -> float:
     amplitude of a focus by less than 0.4 % (24 foci in bands from 1 to 400 kHz, modes up to 2.5 times this).
     """
     return max(LEAST_CUT_HZ, waveform.band_high_hz * 10 / 7)
-
-
-def bending_stiffness(plate: Plate) -> float:
-    """D = E h^3 / (12 (1 - nu^2)) in N m."""
-    return plate.young_modulus_pa * plate.thickness_m**3 / (12 * (1 - plate.poisson_ratio**2))
-
-
-def bending_wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """Wavelength of a bending wave in the free plate at a frequency, in m, by the plate's theory."""
-    if plate.theory == "mindlin":
-        return float(2 * np.pi / MindlinPlate.of(plate).wavenumber(2 * np.pi * frequency_hz))
-    per_area = plate.density_kg_m3 * plate.thickness_m
-    return float((bending_stiffness(plate) / per_area) ** 0.25 * (2 * np.pi / frequency_hz) ** 0.5)
 
 
 def middle_hz(waveform: Waveform) -> float:
