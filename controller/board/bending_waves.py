@@ -1,7 +1,8 @@
 """Bending waves of a plate by both plate theories: stiffness, wavelength, wavenumber, frequency.
 
-Kirchhoff's theory leaves out shear and rotary inertia, Mindlin's counts them. Its shear coefficient 5 / (6 - nu) is within 1.2e-5
-of Rayleigh and Lamb up to 100 kHz in 0.5 mm of glass. A layered plate has the shear flexibility and the rotary inertia of its layers.
+Kirchhoff's theory leaves out shear and rotary inertia, Mindlin's counts them. Its shear coefficient 5 / (6 - nu) is within
+1.2e-5 of Rayleigh and Lamb up to 100 kHz in 0.5 mm of glass. A layered plate has the shear flexibility and the rotary inertia of
+its layers.
 """
 
 from __future__ import annotations
@@ -62,14 +63,16 @@ class MindlinPlate:
         # m J w^4 - (m S + (J S + m D) k^2) w^2 + D S k^4 = 0; the lower root, without a difference of near numbers
         linear = self.mass_kg_m2 * self.shear_n_m + self._mixed * square
         last = self.stiffness_nm * self.shear_n_m * square**2
-        return (2 * last / (linear + (linear**2 - 4 * self.mass_kg_m2 * self.rotation_kg * last) ** 0.5)) ** 0.5
+        found: Numbers = (2 * last / (linear + (linear**2 - 4 * self.mass_kg_m2 * self.rotation_kg * last) ** 0.5)) ** 0.5
+        return found
 
     def wavenumber(self, angular_frequency: Numbers) -> Numbers:
         """Of the propagating bending wave of `angular_frequency` in rad/s, a number or an array of any shape, in rad/m."""
         square = angular_frequency**2
         half = self._mixed * square / 2
         last = self.stiffness_nm * self.shear_n_m * self.mass_kg_m2 * square * (self.shear_n_m - self.rotation_kg * square)
-        return ((half + (half**2 + last) ** 0.5) / (self.stiffness_nm * self.shear_n_m)) ** 0.5
+        found: Numbers = ((half + (half**2 + last) ** 0.5) / (self.stiffness_nm * self.shear_n_m)) ** 0.5
+        return found
 
     @property
     def kirchhoff(self) -> float:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.reference import reference, schema
+from controller.board.relations import judge
 from controller.commands.output import show
 from controller.errors import ConfigError
 from controller.scene.effects import EffectTable
@@ -30,8 +31,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         "check",
         parents=[common],
         help="read and check board.toml, its scene and its recording",
-        description="Read and check board.toml, its scene and its recording, without any device. Exit code 78 if one is invalid, "
-        "with file, key and what is valid. `haptic-panel doctor` looks at the devices.",
+        description="Read and check board.toml, its scene and its recording, without any device: every key, and whether keys go "
+        "together. Exit code 78 if one is invalid, or if together they are unsafe or cannot work; what is odd is a warning. "
+        "`haptic-panel doctor` looks at the devices.",
     )
     check.add_argument("name", nargs="?", metavar="BOARD", help="as for --board")
     check.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
@@ -49,7 +51,7 @@ def board_check(options: argparse.Namespace) -> int:
     Raises
     ------
     ConfigError, TouchError
-        If board, scene or recording is invalid.
+        If board, scene or recording is invalid, or the board is refused as a whole.
     """
     folder = find_board(options.name or options.board)
     board = load_board(folder)
@@ -75,6 +77,7 @@ def board_check(options: argparse.Namespace) -> int:
         "regions": len(scene.regions),
         "effects": sorted(scene.playable),
         "recording": recording.name if recording else None,
+        "warnings": list(judge(board).odd),
     }
     show(options, figures, _table)
     return 0
@@ -109,4 +112,7 @@ def _table(figures: dict[str, Any]) -> str:
     ]
     if figures["recording"]:
         lines.append(f"recording: {figures['recording']}")
-    return "\n".join([*lines, "PASS: every key is valid"])
+    lines += [f"WARNING: {warning}" for warning in figures["warnings"]]
+    count = len(figures["warnings"])
+    odd = f", with {count} warning{'s' * (count > 1)}" if count else ""
+    return "\n".join([*lines, f"PASS: every key is valid, and they go together{odd}"])

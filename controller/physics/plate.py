@@ -20,14 +20,9 @@ def mode_cut_hz(waveform: Waveform) -> float:
     return max(LEAST_CUT_HZ, waveform.band_high_hz * 10 / 7)
 
 
-def middle_hz(waveform: Waveform) -> float:
-    """Middle of a waveform's band."""
-    return (waveform.band_low_hz + waveform.band_high_hz) / 2
-
-
 def wave_scale(board: Board) -> float:
     """How much longer the waves of a board are than those of the paper's plate, each in the middle of its band.
 
     Lengths that were found on the paper's plate go with it. Rounded to three digits: exactly one for the shipped boards.
     """
-    return float(f"{bending_wavelength_m(board.plate, middle_hz(board.waveform)) / WAVELENGTH_M:.3g}")
+    return float(f"{bending_wavelength_m(board.plate, board.waveform.middle_hz) / WAVELENGTH_M:.3g}")

@@ -20,6 +20,7 @@ from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.board.devices import LinkSettings, Realtime
 from controller.board.paths import SERVICE, service_user
+from controller.board.relations import judge
 from controller.board.touch_panels import LinuxInputTouch, RecordingTouch
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga.frames import UPLOAD_BYTES
@@ -77,8 +78,9 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
             ("priority", lambda: _priority(board.realtime, allowed())),
             ("locked memory", lambda: _memory(board.realtime, allowed())),
         ]
+    findings = [Finding("board.toml", True, odd, warns=True) for odd in judge(board).odd]
     with _rights_of(user):
-        findings = [_tried(about, check) for about, check in checks]
+        findings += [_tried(about, check) for about, check in checks]
     findings += look_at_pi(board)
     return [finding for finding in findings if finding.good or finding.about != "responses"]  # an invalid bank is reported once
 
