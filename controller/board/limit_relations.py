@@ -10,7 +10,7 @@ from controller.board.relation import refuses, warns
 if TYPE_CHECKING:
     from controller.board.board import Board
 
-MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES
+MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_BYTES
 MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
 BIT_CLOCK_HZ = (100_000, 2_000_000)  # registers.BIT_CLOCK_HZ_MIN and _MAX
 GLASS_PER_K = 1e-3  # the frequencies of glass change by 1e-5 to 3e-4 a kelvin

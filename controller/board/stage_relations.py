@@ -12,13 +12,14 @@ from controller.board.stage_heat import worst_edge_j
 if TYPE_CHECKING:
     from controller.board.board import Board
 
+RAMP_EDGES = 0.445  # of the drive words of a ramp, in each channel that idles high: pulses of changing density (pins.ramp_bits)
+
 
 @refuses("`limits.ramp_ms`, `waveform.bit_clock_hz`, edge limits")
 def _ramp_edges(board: Board) -> Iterator[str]:
     """The edges of a ramp are allowed."""
-    # A ramp is pulses of changing density: on average an edge every other drive word, in each channel that idles high.
     limits, high = board.limits, sum(actuator.idle for actuator in board.actuators)
-    edges = limits.ramp_ms * 1e-3 * board.waveform.bit_clock_hz / 2 * (high > 0)
+    edges = limits.ramp_ms * 1e-3 * board.waveform.bit_clock_hz * RAMP_EDGES * (high > 0)
     for key, rate_hz, made in (
         ("max_channel_edge_rate_hz", limits.max_channel_edge_rate_hz, edges),
         ("max_total_edge_rate_hz", limits.max_total_edge_rate_hz, edges * high),
