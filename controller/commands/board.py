@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
-from controller.board.reference import reference, schema
-from controller.board.relations import judge
+from controller.board.reference import reference, relations_reference, schema
+from controller.board.relations import RELATIONS, judge
 from controller.commands.output import show
 from controller.errors import ConfigError
 from controller.scene.effects import EffectTable
@@ -85,7 +85,8 @@ def board_check(options: argparse.Namespace) -> int:
 
 def board_reference(_: argparse.Namespace) -> int:
     """Print the reference that is committed as board/reference.md."""
-    print(reference("board.toml", Board) + "\n" + reference("scene.toml", SceneTable, NAMED), end="")
+    parts = (reference("board.toml", Board), relations_reference(RELATIONS), reference("scene.toml", SceneTable, NAMED))
+    print("\n".join(parts), end="")
     return 0
 
 

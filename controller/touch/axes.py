@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 from controller.board.board import Board
+
+OFF_M: Final = 2e-3  # beyond the plate's edge: the map of a calibrated panel is not better than that
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,15 +35,18 @@ class Axes:
 
     Attributes
     ----------
+    off_plate : bool
+        Whether the last position lay off the plate by more than OFF_M.
     size_m_per_unit : float
         Metres per raw unit of a contact's size, the mean of both axes.
     """
 
-    __slots__ = ("_from_axes", "_plate_m", "size_m_per_unit", "x", "y")
+    __slots__ = ("_from_axes", "_plate_m", "off_plate", "size_m_per_unit", "x", "y")
 
     def __init__(self, board: Board, x: AxisRange, y: AxisRange) -> None:
         self.x = x
         self.y = y
+        self.off_plate = False
         self._plate_m = (board.plate.length_m, board.plate.width_m)
         self._from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
         x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self._from_axes
@@ -68,6 +74,7 @@ class Axes:
         length_m, width_m = self._plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
         y_m = y_by_x * x + y_by_y * y + y_at_0
+        self.off_plate = not (-OFF_M <= x_m <= length_m + OFF_M and -OFF_M <= y_m <= width_m + OFF_M)
         return (
             0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
             0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m,

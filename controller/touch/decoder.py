@@ -327,6 +327,9 @@ class Decoder:
             self.warnings["outside_axes"] += 1
             x, y = self._axes.clamp(x, y)
         x_m, y_m = self._axes.position_m(x, y)
+        self.counts.positions += 1
+        if self._axes.off_plate:
+            self.counts.off_plate += 1
         contact.x_m = x_m
         contact.y_m = y_m
         contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0

@@ -58,11 +58,17 @@ class Counts:
         Contacts that began.
     max_fingers : int
         Most contacts down in one report.
+    positions : int
+        Positions of fingers that are played.
+    off_plate : int
+        Those that the board's map puts off the plate, by more than `axes.OFF_M`; they were moved to its edge.
     """
 
     reports: int = 0
     contacts: int = 0
     max_fingers: int = 0
+    positions: int = 0
+    off_plate: int = 0
 
 
 @dataclass(slots=True)
