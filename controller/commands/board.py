@@ -7,6 +7,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from controller.board.board import Board, load_board
+from controller.board.fpga_part import FILE, check_top, find_part
 from controller.board.lookup import find_board
 from controller.board.reference import reference, relations_reference, schema
 from controller.board.relations import RELATIONS, judge
@@ -30,10 +31,10 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     check = actions.add_parser(
         "check",
         parents=[common],
-        help="read and check board.toml, its scene and its recording",
-        description="Read and check board.toml, its scene and its recording, without any device: every key, and whether keys go "
-        "together. Exit code 78 if one is invalid, or if together they are unsafe or cannot work; what is odd is a warning. "
-        "`haptic-panel doctor` looks at the devices.",
+        help="read and check board.toml, its scene, recording and FPGA",
+        description="Read and check board.toml, its scene, its recording and its fpga.toml, without any device: every key, and "
+        "whether keys go together. Exit code 78 if one is invalid, or if together they are unsafe or cannot work; what is odd is a "
+        "warning. `haptic-panel doctor` looks at the devices.",
     )
     check.add_argument("name", nargs="?", metavar="BOARD", help="as for --board")
     check.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
@@ -55,6 +56,8 @@ def board_check(options: argparse.Namespace) -> int:
     """
     folder = find_board(options.name or options.board)
     board = load_board(folder)
+    if (folder / FILE).is_file():
+        check_top(board, find_part(folder, None)[0])
     scene_file = find_scene(board, options.scene)
     scene = read_scene(scene_file, board)
     recording = None
