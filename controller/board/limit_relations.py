@@ -15,6 +15,8 @@ MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
 BIT_CLOCK_HZ = (100_000, 2_000_000)  # registers.BIT_CLOCK_HZ_MIN and _MAX
 GLASS_PER_K = 1e-3  # the frequencies of glass change by 1e-5 to 3e-4 a kelvin
 HASTIEST_MS = 10.0  # Linux wakes a process that late now and then
+ALIVE_HZ = 20e3  # gate.ALIVE_HZ_4 / 2
+FEWEST_PULSES = 10.0  # the reference stage (boards/stage) needs 511 us
 SHORTEST_RAMP = 10.0  # periods of the band's lower edge
 
 
@@ -166,7 +168,19 @@ def _ramp_speed(board: Board) -> Iterator[str]:
         )
 
 
+@warns("`limits.hv_settle_us`")
+def _settle(board: Board) -> Iterator[str]:
+    """The supply has ten pulses of hv_alive to come up."""
+    pulses = board.limits.hv_settle_us * 1e-6 * ALIVE_HZ
+    if pulses < FEWEST_PULSES:
+        yield (
+            f"limits.hv_settle_us = {board.limits.hv_settle_us:g} is {pulses:.2g} pulses of hv_alive ({ALIVE_HZ:g} Hz): a charge"
+            " pump that they feed has hardly begun, and the first ramp finds no supply; 1000 is usual"
+        )
+
+
 RELATIONS = (
+    _settle,
     _bit_ticks,
     _bit_period,
     _pulse,

@@ -79,7 +79,7 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
         return msgspec.convert(tables, kind)
     except msgspec.ValidationError as error:
         keys, first = wrong_keys(tables, kind), explain(str(error), tables, kind)
-        said = keys if keys and (first in keys or KEY.search(first)) else [*keys, first]
+        said = keys if keys and (first in keys or KEY.search(first)) else [first, *keys]
         raise ConfigError(f"{before}{'; '.join(said)}") from error
 
 

@@ -14,6 +14,7 @@ from controller.bank.grid import Grid
 from controller.board.bending_waves import bending_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.board.board import load_board
 from controller.board.devices import ApplicationSocket, Temperature
+from controller.board.limit_relations import ALIVE_HZ
 from controller.board.lookup import data_folder, find_board
 from controller.board.panel import Compose, Damping, DecayAt
 from controller.board.panel_relations import BANK_BYTES
@@ -24,6 +25,7 @@ from controller.board.stage_relations import RAMP_EDGES
 from controller.board.touch_area import reached
 from controller.board.touch_panels import Ft5x06Touch, RecordingTouch, SerialTouch
 from controller.fpga.build_parameters import BuildParameters
+from controller.gateware_model.gate import ALIVE_HZ_4
 from controller.gateware_model.pins import ramp_bits
 from controller.physics.driver import DriverResponse
 
@@ -145,6 +147,7 @@ JUST = {
         {"link__sck_hz": 100_000, "limits__heartbeat_timeout_ms": 81.9},
     ),
     "_patience": ({"limits__heartbeat_timeout_ms": 10.0}, {"limits__heartbeat_timeout_ms": 9.9}),
+    "_settle": ({"limits__hv_settle_us": 500.0}, {"limits__hv_settle_us": 499.0}),
     "_ramp_duty": ({"limits__ramp_ms": 32.2}, {"limits__ramp_ms": 32.3}),
     "_two_ramps": ({"limits__ramp_ms": 16.1}, {"limits__ramp_ms": 16.2}),
     "_ramp_edges": ({"limits__ramp_ms": RAMP_MS * 0.999}, {"limits__ramp_ms": RAMP_MS * 1.001}),
@@ -299,6 +302,10 @@ def test_the_slowest_bit_clock_has_to_be_whole_clocks():
 def test_decay_is_that_of_the_longest():
     decays = (DecayAt(frequency_hz=20e3, decay_time_ms=0.1), DecayAt(frequency_hz=70e3, decay_time_ms=0.7))
     assert not list(NAMED["_decay"].broken(changed(BOARD, plate__damping=Damping(decay_times=decays))))
+
+
+def test_pulses_of_hv_alive_are_those_of_the_gateware():
+    assert ALIVE_HZ == ALIVE_HZ_4 / 2
 
 
 @pytest.mark.parametrize("samples", [500, 5000, 50_000])

@@ -72,7 +72,7 @@ def test_a_wrong_value_is_named_beside_missing_keys():
     with pytest.raises(ConfigError) as caught:
         as_record("", tables, Board)
     assert str(caught.value) == (
-        "link.slots is missing: a whole number from 1 to 16; driver.supply_v = 61.0: must be a number above 0, at most 60 V"
+        "driver.supply_v = 61.0: must be a number above 0, at most 60 V; link.slots is missing: a whole number from 1 to 16"
     )
 
 
