@@ -29,6 +29,7 @@ PI_BUSES = {  # pins of a Raspberry Pi's header that the kernel takes for a devi
     r"/dev/i2c-1": (2, 3),
     r"/dev/(serial0|ttyAMA0|ttyS0)": (14, 15),
 }
+ADVICE = "haptic-panel calibrate-touch finds the axes"
 PERMIT_DANGER = "the run permit would follow what else the line does"
 
 
@@ -49,9 +50,6 @@ def _range(board: Board, found: Reached) -> str:
         f"x from {found.x_mm[0]:g} to {found.x_mm[1]:g} mm and y from {found.y_mm[0]:g} to {found.y_mm[1]:g} mm, on a plate of"
         f" {plate.length_mm:g} × {plate.width_mm:g} mm"
     )
-
-
-ADVICE = "haptic-panel calibrate-touch finds the axes"
 
 
 @refuses("`touch.x_mm_from_axes`, `y_mm_from_axes`, `plate.length_mm`, `width_mm`")
@@ -101,7 +99,6 @@ def _axes_in_part(board: Board) -> Iterator[str]:
 @refuses("`link` and `touch`: `*_line`, `gpio_chip`, `interrupt_chip`")
 def _lines(board: Board) -> Iterator[str]:
     """No two lines are the same."""
-    # Lines that the tables name: (key, chip, line).
     taken: dict[tuple[str, str], str] = {}
     for key, chip, line in _named_lines(board):
         first = taken.setdefault((chip, _number(chip, line)), key)
@@ -113,7 +110,6 @@ def _lines(board: Board) -> Iterator[str]:
 @refuses("`link` and `touch`: `*_line`; `link.device`, `touch.bus`, `temperature.device`")
 def _bus_lines(board: Board) -> Iterator[str]:
     """On a Raspberry Pi, no line is a pin of a bus that is used."""
-    # Lines of a Raspberry Pi that the kernel has taken for a bus that the board uses.
     touch, link, temperature = board.touch, board.link, board.temperature
     devices = [("link.device", link.device if link.kind != "simulated" else "")]
     if isinstance(touch, I2cTouch):
