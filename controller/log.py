@@ -39,6 +39,7 @@ class Event(Enum):
     WAITING_FOR_PANEL = "1441b107ffef44c0b09c284e47bf9a2f", Priority.WARNING
     PANEL_BACK = "566a7b4d6cb44465b45150328d70f7d1", Priority.INFO
     TOUCH_FAULT = "6b1d0e0f2f5c4e0f9a7f3b8d5c1e4a92", Priority.WARNING
+    OFF_PLATE = "880fa3d675984deea21e9afe1ce6ffbe", Priority.WARNING
     OPERATED = "6e12038aec354c93a4a0ba4353ad18e5", Priority.INFO
     SCENE_LOADED = "55890fa4d677428e95360f2275169c57", Priority.INFO
     SCENE_REFUSED = "c3ed4c4d97354f0383ea0ead3a5a0fee", Priority.WARNING

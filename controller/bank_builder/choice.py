@@ -18,11 +18,12 @@ from controller.bank.file_format import Header
 from controller.bank.grid import Grid
 from controller.bank.inspection import asked_of
 from controller.bank_builder.interpolation_error import DIGITS, InterpolationError, interpolation_error
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
 from controller.errors import ConfigError
 from controller.loop.spots import needs_responses
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import bending_wavelength_m, wave_scale
+from controller.physics.plate import wave_scale
 from controller.physics.response_source import ResponseSource
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene

@@ -17,8 +17,8 @@ from controller.bank.file_format import REST_SAMPLES
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words
 from controller.board.board import Board
+from controller.board.panel_relations import coarse
 from controller.errors import ConfigError
-from controller.physics.plate import bending_wavelength_m
 from controller.physics.response_source import ResponseSource
 
 Floats = NDArray[np.float64]
@@ -142,16 +142,11 @@ def interpolation_warning(summary: dict[str, Any]) -> str:
 
 
 def refuse_coarse(board: Board, pitch_m: float) -> None:
-    """Refuse a pitch above half the wavelength of the band's highest frequency, unless the board accepts it (`bank.coarse`).
+    """Refuse a pitch that is not the board's own by the relation that its own keeps (`panel_relations.coarse`).
 
     Raises
     ------
     ConfigError
     """
-    half_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz) / 2
-    if pitch_m > half_m and not board.bank.coarse:
-        raise ConfigError(
-            f"board {board.name!r}: pitch_mm = {pitch_m * 1e3:g} is above {math.floor(half_m * 1e5) / 100:g} mm, half a wavelength"
-            f" of the plate at waveform.band_high_hz = {board.waveform.band_high_hz:g}: fingers between cells would lose part of"
-            " their amplitude or all of it; choose a smaller pitch (bank.coarse = true builds it all the same)"
-        )
+    for why in coarse(board, pitch_m * 1e3):
+        raise ConfigError(f"board {board.name!r}: {why}")

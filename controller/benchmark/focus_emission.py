@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from controller.bank.packing import channel_bits
 from controller.benchmark.focus_figures import emit
 from controller.benchmark.power import resistor_loss_j
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
 from controller.physics.field import Field, crossing
 from controller.physics.focusing import focus
 from controller.physics.mapped_energy import mapped_energy
 from controller.physics.memory import focus_bytes, require
 from controller.physics.modal_history import ModalMotion, modal_energy
-from controller.physics.plate import bending_wavelength_m
 from controller.physics.plate_twin import PlateTwin
 
 Floats = NDArray[np.float64]

@@ -6,9 +6,9 @@ import numpy as np
 
 from controller.benchmark.focus_emission import Emission
 from controller.benchmark.focus_figures import Figures, random_points, spread
+from controller.board.bending_waves import bending_wavelength_m
 from controller.physics.design import gate_attenuation
 from controller.physics.finger import Finger, point_motion
-from controller.physics.plate import bending_wavelength_m
 
 ELSEWHERE = 9  # places of a finger beside the foci
 FAR_WAVELENGTHS = 2.0  # of the band's middle: nearer to a focus it is on the spot's rim

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from controller.benchmark.focus_emission import emission_figures
 from controller.benchmark.paper_panel import PaperPanel
 from controller.benchmark.paper_row import Row
+from controller.board.bending_waves import bending_stiffness
 from controller.physics import design
 from controller.physics.field import Field
 from controller.physics.modal_history import Energy, modal_energy, modal_history
-from controller.physics.plate import bending_stiffness
 
 Floats = NDArray[np.float64]
 AFTER_S = 3e-3  # fig. 8 ends 3 ms after T

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from controller.benchmark.paper_row import Row
+from controller.board.bending_waves import kirchhoff_wavelength_m
 from controller.board.board import Board
 from controller.physics import design
 from controller.physics.driver import DriverResponse
@@ -23,7 +24,7 @@ def constant_rows(board: Board, modes: Modes) -> list[Row]:
     duration_s, decay_s = waveform.duration_ms * 1e-3, plate.decay_time_s
     hz = modes.angular_frequency / (2 * np.pi)
     counted = np.count_nonzero((hz >= waveform.band_low_hz) & (hz < waveform.band_high_hz))
-    shortest_m = design.kirchhoff_wavelength_m(plate, waveform.band_high_hz)
+    shortest_m = kirchhoff_wavelength_m(plate, waveform.band_high_hz)
     channels = len(board.actuators)
     contrast = design.contrast(bandwidth_hz, tc_s, channels, duration_s, decay_s)
     return [

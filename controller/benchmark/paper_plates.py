@@ -10,8 +10,8 @@ import numpy as np
 from controller.benchmark.focus_figures import emit
 from controller.benchmark.paper_panel import PaperPanel
 from controller.benchmark.paper_row import Row
+from controller.board.bending_waves import mindlin_shift
 from controller.board.panel import Foam
-from controller.physics import design
 from controller.physics.plate_twin import PlateTwin
 
 # The paper does not name its foam. This is an ordinary one, soft and 0.75 mm thick, chosen because its damping is about the paper's
@@ -35,7 +35,7 @@ def shift_rows(panel: PaperPanel) -> list[Row]:
             f"mindlin_{hz / 1e3:g}_khz",
             f"a mode at {hz / 1e3:g} kHz is lower by (%)",
             trial,
-            design.mindlin_frequency_shift(plate, hz) * 100,
+            mindlin_shift(plate, hz) * 100,
             "Mindlin's theory; the paper's equations are Kirchhoff's",
             trial=True,
         )

@@ -20,6 +20,7 @@ from controller.bank.packing import CHANNELS, WORD, channel_bits
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.board.panel import Driver
+from controller.board.stage_heat import half_charge_j, worst_edge_j
 from controller.physics.driver import DriverResponse
 
 Floats = NDArray[np.float64]
@@ -47,11 +48,6 @@ class StageLimits:
     max_duty: float
     max_channel_edge_rate_hz: float
     max_total_edge_rate_hz: float
-
-
-def half_charge_j(driver: Driver) -> float:
-    """Loss of an isolated edge: C V^2 / 2, in J."""
-    return driver.capacitance_f * driver.supply_v**2 / 2
 
 
 def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: float) -> Floats:
@@ -87,17 +83,6 @@ def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: 
         older = twice * after
     loss: Floats = 2 * half_charge_j(driver) * (edges / 2 - work_sum)
     return loss
-
-
-def worst_edge_j(driver: Driver) -> float:
-    """Return an upper bound of the average loss per edge, over all waveforms, in J.
-
-    The piezo's deviation from a step is largest at multiples of half its damped period, with alternating sign: a
-    square wave with that half period maximises the sum. An overdamped driver does not ring: `C V^2 / 2`.
-    """
-    pole = complex(DriverResponse.of(driver).poles[0])
-    ringing = np.exp(np.pi * pole.real / abs(pole.imag)) if abs(pole.imag) > 1e-9 * abs(pole.real) else 0.0
-    return half_charge_j(driver) * float((1 + ringing) / (1 - ringing))
 
 
 def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> tuple[NDArray[np.int64], Floats]:

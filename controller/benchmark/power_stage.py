@@ -19,9 +19,9 @@ from typing import Final
 
 import numpy as np
 
-from controller.benchmark.power import worst_edge_j
 from controller.board.board import Board, load_board
 from controller.board.lookup import data_folder, find_board
+from controller.board.stage_heat import worst_edge_j
 from controller.console import program, say, tell
 from controller.fpga.build_parameters import BuildParameters
 from controller.physics.driver import DriverResponse

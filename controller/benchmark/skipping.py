@@ -25,9 +25,9 @@ from threadpoolctl import threadpool_limits
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.benchmark.power import half_charge_j
 from controller.board.board import Board
 from controller.board.lookup import find_board
+from controller.board.stage_heat import half_charge_j
 from controller.fpga.capture import Capture
 from controller.loop.skips import ALL, EXACT, Skips
 from controller.metrics import Counters

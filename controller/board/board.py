@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
@@ -19,14 +19,14 @@ from msgspec import Meta
 
 from controller.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, find_board, in_system_folder
-from controller.board.panel import CHANNELS, Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
-from controller.board.patches import TOUCHING_MM, Patches
+from controller.board.panel import Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
+from controller.board.patches import Patches
 from controller.board.records import Record, as_record, load_toml
+from controller.board.relation import Relation
+from controller.board.relations import judge
 from controller.board.touch_panels import Touch
 from controller.errors import ConfigError
 
-MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES
-MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
 LATER_KEYS = {"layers": (), "damping": None}  # of the plate: where left out, they are not part of the digest
 SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
 
@@ -93,30 +93,6 @@ class Board(Record, frozen=True):
     compose: Compose = Compose()
     patches: Patches | None = None
     folder: Path = msgspec.field(default_factory=Path)
-
-    def __post_init__(self) -> None:
-        if not 1 <= len(self.actuators) <= CHANNELS:
-            raise ValueError(f"actuators are {len(self.actuators)}; a board has 1 to {CHANNELS} channels")
-        channels = [a.channel for a in self.actuators]
-        for index, a in enumerate(self.actuators):
-            if a.channel in channels[:index]:
-                raise ValueError(
-                    f"actuators[{index}].channel = {a.channel} is taken by actuators[{channels.index(a.channel)}] already"
-                )
-            half = a.size_mm / 2
-            for axis, value, extent in (("x_mm", a.x_mm, self.plate.length_mm), ("y_mm", a.y_mm, self.plate.width_mm)):
-                if not half <= value <= extent - half:
-                    raise ValueError(f"actuators[{index}].{axis} = {value} puts the patch off the plate (0 to {extent} mm)")
-            for other, b in enumerate(self.actuators[:index]):
-                apart_mm = max(abs(a.x_mm - b.x_mm), abs(a.y_mm - b.y_mm))
-                if apart_mm < (a.size_mm + b.size_mm) / 2 - TOUCHING_MM:
-                    raise ValueError(
-                        f"actuators[{index}] lies on actuators[{other}]: their centres are {apart_mm:g} mm apart along x or y,"
-                        f" less than half of their sizes together, {(a.size_mm + b.size_mm) / 2:g} mm"
-                    )
-        if self.patches is not None:
-            self.patches.on(self.plate, self.actuators)
-        self.touch.check_no_finger(self.plate.length_mm, self.plate.width_mm)
 
     @property
     def called(self) -> str:
@@ -194,43 +170,25 @@ def sha256(data: bytes) -> bytes:
     raise AssertionError("every Python has hashlib")
 
 
-def load_board(path: Path) -> Board:
+def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
     """Read and check a board.toml.
 
     Parameters
     ----------
     path : Path
         The file, or the folder that holds it.
+    without : collection of Relation
+        Relations between keys that it need not keep: a command that mends these keys has to read them first.
 
     Raises
     ------
     ConfigError
-        Naming file, key and value.
+        Naming file, key and value; all keys that are missing or unknown, and all relations that refuse (`relations`).
     """
     file = path / "board.toml" if path.is_dir() else path
     board = load_toml(file, Board)
-    if board.link.clock_hz < MIN_BIT_TICKS * board.waveform.bit_clock_hz:
-        raise ConfigError(
-            f"{file}: waveform.bit_clock_hz = {board.waveform.bit_clock_hz} is above"
-            f" a {MIN_BIT_TICKS}th of link.clock_hz = {board.link.clock_hz}"
-        )
-    if board.limits.min_pulse_us * 1e-6 * board.waveform.bit_clock_hz > 1:
-        raise ConfigError(
-            f"{file}: limits.min_pulse_us = {board.limits.min_pulse_us:g} is longer than a drive word,"
-            f" {1e6 / board.waveform.bit_clock_hz:g} us at waveform.bit_clock_hz = {board.waveform.bit_clock_hz}"
-        )
-    if board.waveform.duration_ms > board.limits.longest_emission_ms:
-        raise ConfigError(
-            f"{file}: waveform.duration_ms = {board.waveform.duration_ms:g} is longer than"
-            f" limits.longest_emission_ms = {board.limits.longest_emission_ms:g}"
-        )
-    _check_scaled_bit_clock(board, file)
-    frame_ms = MAX_FRAME_BYTES * 8 / board.link.sck_hz * 1e3
-    if frame_ms > board.limits.heartbeat_timeout_ms / 2:
-        raise ConfigError(
-            f"{file}: limits.heartbeat_timeout_ms = {board.limits.heartbeat_timeout_ms:g} is less than twice the {frame_ms:.3g} ms"
-            f" that one frame takes at link.sck_hz = {board.link.sck_hz}"
-        )
+    if refused := judge(board, without).refused:
+        raise ConfigError(f"{file}: {'; '.join(refused)}")
     return msgspec.structs.replace(board, folder=file.parent)
 
 
@@ -262,29 +220,6 @@ def on_other_plate(board: Board, given: Sequence[str]) -> Board:
         there = {name: kept for name, kept in msgspec.to_builtins(board.plate).items() if kept is not None}
         board = msgspec.structs.replace(board, plate=as_record("--plate: ", there | keys, Plate))
     return board
-
-
-def _check_scaled_bit_clock(board: Board, file: Path) -> None:
-    """Refuse a range of temperatures at whose bit clock the FPGA would take no drive word, or no emission."""
-    temperature, limits = board.temperature, board.limits
-    if temperature is None:
-        return
-    for key, at_c in (("lowest_c", temperature.lowest_c), ("highest_c", temperature.highest_c)):
-        scale = temperature.scale(at_c)
-        where = f"{file}: temperature.{key} = {at_c:g} scales the bit clock by {scale:.5g}"
-        if not 0.5 < scale < 2:
-            raise ConfigError(f"{where}: by coefficient_per_k = {temperature.coefficient_per_k:g}, which is no glass")
-        if board.waveform.duration_ms / scale > limits.longest_emission_ms:
-            raise ConfigError(
-                f"{where}: an emission of {board.waveform.duration_ms / scale:.5g} ms is longer than"
-                f" limits.longest_emission_ms = {limits.longest_emission_ms:g}"
-            )
-        word_ticks = int(board.link.clock_hz / board.waveform.bit_clock_hz / scale)
-        if word_ticks < max(MIN_BIT_TICKS, limits.min_pulse_us * 1e-6 * board.link.clock_hz):
-            raise ConfigError(
-                f"{where}: a drive word of {word_ticks} clocks of the FPGA is shorter than limits.min_pulse_us ="
-                f" {limits.min_pulse_us:g}, or than {MIN_BIT_TICKS} clocks"
-            )
 
 
 def on_plate_of(board: Board, real: Board) -> Board:

@@ -6,7 +6,7 @@ GPIO chips by label, lines by name or, where they have none, by number.
 
 from __future__ import annotations
 
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
 from msgspec import Meta
 
@@ -15,8 +15,39 @@ from controller.board.records import Record
 SERIAL_BITS_PER_BYTE = 10  # 8N1
 MIN_SCK_TICKS = 2  # gateware.SCK_TICKS
 
+OF_LINKS = {  # keys that a kind of link needs
+    "serial": {"device": "the serial port of the FPGA, such as /dev/ttyUSB0"},
+    "spi": {
+        key: f"a link of kind 'spi' needs it, such as {example!r}"
+        for key, example in (("device", "/dev/spidev0.0"), ("gpio_chip", "pinctrl-bcm2711"), ("trigger_line", "GPIO25"))
+    },
+}
+
 Address = Annotated[int, Meta(ge=0x08, le=0x77)]
 Name = Annotated[str, Meta(min_length=1)]
+
+
+def divided_hz(source_hz: int, asked_hz: int) -> float:
+    """Actual SCK of a controller that divides its own clock by an even number.
+
+    Linux: spi-bcm2835.c (Pi 1 to 4), spi-dw-core.c (Pi 5).
+
+    Parameters
+    ----------
+    source_hz : int
+        The controller's clock.
+    asked_hz : int
+        SCK asked for.
+
+    Returns
+    -------
+    float
+        In Hz; at most `asked_hz`, unless the largest divider is too small.
+    """
+    if asked_hz >= source_hz / 2:
+        return source_hz / 2
+    divider = -(-source_hz // asked_hz)
+    return source_hz / min(divider + divider % 2, 65536)
 
 
 class LinkSettings(Record, frozen=True, kw_only=True):
@@ -65,12 +96,14 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     def __post_init__(self) -> None:
         if self.sck_hz * MIN_SCK_TICKS > self.clock_hz:
             raise ValueError(f"sck_hz = {self.sck_hz} is above half of clock_hz = {self.clock_hz}")
-        if self.kind == "serial" and not self.device:
-            raise ValueError("device is missing: the serial port of the FPGA, such as /dev/ttyUSB0")
-        if self.kind == "spi":
-            for key, example in (("device", "/dev/spidev0.0"), ("gpio_chip", "pinctrl-bcm2711"), ("trigger_line", "GPIO25")):
-                if not getattr(self, key):
-                    raise ValueError(f"{key} is missing: a link of kind 'spi' needs it, such as {example!r}")
+        for key, said in self.also_required({"kind": self.kind}).items():
+            if not getattr(self, key):
+                raise ValueError(f"{key} is missing: {said}")
+
+    @classmethod
+    def also_required(cls, table: dict[str, Any]) -> dict[str, str]:
+        """Keys that a kind of link makes required."""
+        return OF_LINKS.get(str(table.get("kind")), {})
 
     def wire_s(self, size_bytes: int) -> float:
         """Time that bytes take on the wire, in s, without the pauses between frames."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 from msgspec import Meta
@@ -12,8 +12,11 @@ from controller.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, Layer, lami
 from controller.board.records import NotNegative, PlaceMm, Positive, Record, Share, SizeMm
 
 CHANNELS = 32
+EDGE_WINDOW_S = 0.25  # over which the FPGA counts the edges of a stage
 
 OF_LAYERS = ("thickness_mm", "young_modulus_pa", "poisson_ratio", "density_kg_m3")  # keys of a plate that follow from its layers
+
+OF_FOAM = 'an edge is "foam", so give [plate.foam] with stiffness_n_m3 and width_mm'
 
 Support = Literal["simply_supported", "clamped", "free", "foam"]
 
@@ -141,12 +144,19 @@ class Plate(Record, frozen=True, kw_only=True):
     layers: tuple[Layer, ...] = ()
     damping: Damping | None = None
 
+    @classmethod
+    def also_required(cls, table: dict[str, Any]) -> dict[str, str]:
+        """Keys that others make required: thickness and material without layers; foam under an edge of foam."""
+        edges = table.get("edges")
+        foam = edges == "foam" or (isinstance(edges, dict) and "foam" in edges.values())
+        return dict.fromkeys(() if table.get("layers") else OF_LAYERS, "") | ({"foam": OF_FOAM} if foam else {})
+
     def __post_init__(self) -> None:
         self._take_layers()
         sides = self.sides
         if self.foam is None:
             if "foam" in (sides.x0, sides.x1, sides.y0, sides.y1):
-                raise ValueError('foam is missing: an edge is "foam", so give [plate.foam] with stiffness_n_m3 and width_mm')
+                raise ValueError(f"foam is missing: {OF_FOAM}")
             return
         for key, ends in (("length_mm", (sides.x0, sides.x1)), ("width_mm", (sides.y0, sides.y1))):
             extent_mm = getattr(self, key)
@@ -292,6 +302,11 @@ class Waveform(Record, frozen=True):
     def samples(self) -> int:
         """Drive words in one emission."""
         return round(self.duration_ms * 1e-3 * self.bit_clock_hz)
+
+    @property
+    def middle_hz(self) -> float:
+        """Middle of the band."""
+        return (self.band_low_hz + self.band_high_hz) / 2
 
     @property
     def bit_period_s(self) -> float:

@@ -59,7 +59,7 @@ class Patches(Record, frozen=True):
         size_mm = min(sizes) if self.size_mm is None else self.size_mm
         centres = self.centres_mm
         if not centres:
-            centres = tuple((a.x_mm, a.y_mm) for a in actuators) if self.shape == "square" else _discs(actuators)
+            centres = tuple((a.x_mm, a.y_mm) for a in actuators) if self.shape == "square" else _middles(actuators)
         for index, (x_mm, y_mm) in enumerate(centres):
             for axis, value, extent in (("x", x_mm, plate.length_mm), ("y", y_mm, plate.width_mm)):
                 if not size_mm / 2 - TOUCHING_MM <= value <= extent - size_mm / 2 + TOUCHING_MM:
@@ -72,8 +72,8 @@ class Patches(Record, frozen=True):
         return tuple(Patch(x_mm, y_mm, size_mm) for x_mm, y_mm in centres)
 
 
-def _discs(actuators: Sequence[Actuator]) -> tuple[tuple[float, float], ...]:
-    """Middles of the groups of actuators that are near each other."""
+def discs(actuators: Sequence[Actuator]) -> list[list[Actuator]]:
+    """Groups of actuators that are near each other: the sectors of one disc."""
     left, found = list(actuators), []
     while left:
         group = [left.pop(0)]
@@ -81,5 +81,11 @@ def _discs(actuators: Sequence[Actuator]) -> tuple[tuple[float, float], ...]:
             near = [a for a in left if max(abs(a.x_mm - member.x_mm), abs(a.y_mm - member.y_mm)) <= ONE_DISC * member.size_mm]
             group += near
             left = [a for a in left if a not in near]
-        found.append((sum(a.x_mm for a in group) / len(group), sum(a.y_mm for a in group) / len(group)))
-    return tuple(found)
+        found.append(group)
+    return found
+
+
+def _middles(actuators: Sequence[Actuator]) -> tuple[tuple[float, float], ...]:
+    """Middles of the discs that actuators are cut from."""
+    groups = discs(actuators)
+    return tuple((sum(a.x_mm for a in group) / len(group), sum(a.y_mm for a in group) / len(group)) for group in groups)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Annotated, Any, Final, TypeVar
 import msgspec
 from msgspec import Meta
 
+from controller.board.table_keys import wrong_keys
 from controller.board.validation import dotted, explain
 from controller.errors import ConfigError
 from controller.regular_file import read_regular
@@ -19,6 +21,8 @@ from controller.text_file import decoded
 T = TypeVar("T")
 
 BYTES_MAX: Final = 1 << 25  # of a board or a scene; the largest here has 20 kB
+
+KEY = re.compile(r" is missing\b|: unknown key\b")  # what msgspec or a record says of one key, of which `wrong_keys` names all
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
@@ -70,7 +74,7 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
     Raises
     ------
     ConfigError
-        Naming key and value; also for a number that is not finite.
+        Naming key and value; all keys that are missing or unknown, and of values the first that is wrong or not finite.
     """
     for path, value in _leaves(tables, ()):
         if isinstance(value, float) and not math.isfinite(value):
@@ -78,7 +82,9 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
     try:
         return msgspec.convert(tables, kind)
     except msgspec.ValidationError as error:
-        raise ConfigError(f"{before}{explain(str(error), tables, kind)}") from error
+        keys, first = wrong_keys(tables, kind), explain(str(error), tables, kind)
+        said = keys if keys and (first in keys or KEY.search(first)) else [first, *keys]
+        raise ConfigError(f"{before}{'; '.join(said)}") from error
 
 
 def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:

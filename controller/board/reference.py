@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,6 +16,7 @@ import msgspec
 from msgspec.inspect import DictType, Field, ListType, NoneType, StructType, TupleType, Type, UnionType, VarTupleType
 
 from controller.board.descriptions import END, described, fields_of, structs_of, type_info, unit_of
+from controller.board.relation import Relation
 
 SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -65,6 +66,24 @@ def reference(title: str, kind: type, named: Mapping[str, type] | None = None) -
             cells = (f"`{name}`", described(field.type, unit_of(name)), _default(field), attributes(cls)[name])
             lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
         lines.append("")
+    return "\n".join(lines)
+
+
+def relations_reference(relations: Iterable[Relation]) -> str:
+    """Describe what must hold of several keys of board.toml together, as a table in Markdown."""
+    lines = [
+        "## Keys that belong together",
+        "",
+        "Checked whenever a board is read. A board that is unsafe or cannot work is refused by every command, with exit code 78"
+        " (wrong axes not by `calibrate-touch`, which finds them); what is odd is a warning of `board check`, `bank build`, `run`,"
+        " `gateware build` and `doctor`. What the values of one table alone decide, such as a band upside down, is refused as an"
+        " invalid value is.",
+        "",
+        "| keys | what holds | else |",
+        "|---|---|---|",
+        *(f"| {one.keys} | {one.rule} | {'refused' if one.refuses else 'a warning'} |" for one in relations),
+        "",
+    ]
     return "\n".join(lines)
 
 

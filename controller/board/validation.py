@@ -59,12 +59,12 @@ def explain(message: str, value: Any, kind: Any) -> str:
     root = type_info(kind)
     if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", text, re.DOTALL):
         path = (*path, unknown[1])
-        return f"{_shown_at(path, value)}: unknown key{_nearest(unknown[1], keys_of(_type_at(root, path[:-1], value)))}"
+        return f"{shown_at(path, value)}: unknown key{nearest(unknown[1], keys_of(_type_at(root, path[:-1], value)))}"
     if missing := re.fullmatch(r"Object missing required field `(.*)`", text, re.DOTALL):
         path = (*path, missing[1])
         valid = described(_type_at(root, path, value), unit_of(missing[1]))
         return f"{dotted(path)} is missing" + (f": {valid}" if valid else "")
-    found, at = _shown_at(path, value), _type_at(root, path, value)
+    found, at = shown_at(path, value), _type_at(root, path, value)
     if isinstance(at, CustomType):  # a field that the program sets, such as a board's folder
         return f"{found}: unknown key"
     if in_keys and isinstance(at, DictType):
@@ -73,7 +73,7 @@ def explain(message: str, value: Any, kind: Any) -> str:
     said = f"must be {valid}" if valid else text
     refused, names = _found(value, path), choices(at)
     if names and isinstance(refused, str):
-        said += _nearest(refused, names, listed=True)
+        said += nearest(refused, names, listed=True)
     return f"{found}: {said}" if found else said
 
 
@@ -93,7 +93,7 @@ def _found(value: Any, path: Path) -> Any:
     return value
 
 
-def _shown_at(path: Path, value: Any) -> str:
+def shown_at(path: Path, value: Any) -> str:
     """Key and value at a path; tables and lists are not repeated."""
     found = _found(value, path)
     if isinstance(found, dict | list):
@@ -110,7 +110,7 @@ def _unit_at(path: Path) -> str:
 def _type_at(kind: Type | None, path: Path, value: Any) -> Type | None:
     """Type of what is at a path; None where it is not known."""
     for part in path:
-        kind = _chosen(kind, value)
+        kind = chosen(kind, value)
         match kind:
             case StructType() if part == kind.tag_field:
                 kind = LiteralType((kind.tag,))
@@ -129,10 +129,10 @@ def _type_at(kind: Type | None, path: Path, value: Any) -> Type | None:
             case _:
                 return None
         value = _found(value, (part,))
-    return _chosen(kind, value)
+    return chosen(kind, value)
 
 
-def _chosen(kind: Type | None, value: Any) -> Type | None:
+def chosen(kind: Type | None, value: Any) -> Type | None:
     """The member of a union that a value is meant to be: the table with its tag, or the only one beside None; else the union."""
     if not isinstance(kind, UnionType):
         return kind
@@ -145,7 +145,7 @@ def _chosen(kind: Type | None, value: Any) -> Type | None:
     return others[0] if len(others) == 1 else kind
 
 
-def _nearest(name: str, known: list[str], *, listed: bool = False) -> str:
+def nearest(name: str, known: list[str], *, listed: bool = False) -> str:
     """The nearest known name as the end of a message; where none is near, all of them, unless they are `listed` already."""
     near = difflib.get_close_matches(name, known, 1) if len(name) <= MAX_MATCHED else []
     if near:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.board.bending_waves import MindlinPlate
 from controller.board.panel import Plate
-from controller.physics.mindlin import MindlinPlate
 
 Floats = NDArray[np.float64]
 

@@ -240,6 +240,12 @@ def read_settings(folder: Path) -> MeasurementFile:
         parts = PurePosixPath(name or "x")
         if name == "" or parts.is_absolute() or ".." in parts.parts or "\0" in str(parts):
             raise CalibrationError(f"{file}: {key} = {name!r}: must be the name of a file in the folder of the measurement")
+    drive, period_ms = settings.drive, settings.records.period_ms
+    if isinstance(drive, SweepDrive) and period_ms is not None and drive.duration_ms > period_ms:
+        raise CalibrationError(
+            f"{file}: drive.duration_ms = {drive.duration_ms:g} is longer than records.period_ms = {period_ms:g}: each sweep"
+            " would run into the record of the next"
+        )
     if "channel" in settings.records.fields:
         channels = getattr(settings.drive, "channels", None)
         if channels is None:

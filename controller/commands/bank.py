@@ -28,6 +28,7 @@ from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path, build_line, is_there
+from controller.commands.named_board import named_board
 from controller.commands.output import progress_bar, show
 from controller.console import tell
 from controller.errors import BankError, ConfigError, UsageError
@@ -88,7 +89,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def bank_build(options: argparse.Namespace) -> int:
     """Build a bank for a board: for the whole plate, or for the cells that a scene can reach."""
-    board = load_board(find_board(options.board))
+    board = named_board(options.board)
     scene_file = find_scene(board, options.scene) if options.scene else None
     scene = load_scene(scene_file, board) if scene_file else None
     if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too

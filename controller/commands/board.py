@@ -7,8 +7,10 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from controller.board.board import Board, load_board
+from controller.board.fpga_part import FILE, check_top, find_part
 from controller.board.lookup import find_board
-from controller.board.reference import reference, schema
+from controller.board.reference import reference, relations_reference, schema
+from controller.board.relations import RELATIONS, judge
 from controller.commands.output import show
 from controller.console import is_unicode, say
 from controller.errors import ConfigError
@@ -30,9 +32,10 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     check = actions.add_parser(
         "check",
         parents=[common],
-        help="read and check board.toml, its scene and its recording",
-        description="Read and check board.toml, its scene and its recording, without any device. Exit code 78 if one is invalid, "
-        "with file, key and what is valid. `haptic-panel doctor` looks at the devices.",
+        help="read and check board.toml, its scene, recording and FPGA",
+        description="Read and check board.toml, its scene, its recording and its fpga.toml, without any device: every key, and "
+        "whether keys go together. Exit code 78 if one is invalid, or if together they are unsafe or cannot work; what is odd is a "
+        "warning. `haptic-panel doctor` looks at the devices.",
     )
     check.add_argument("name", nargs="?", metavar="BOARD", help="as for --board")
     check.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
@@ -50,10 +53,12 @@ def board_check(options: argparse.Namespace) -> int:
     Raises
     ------
     ConfigError, TouchError
-        If board, scene or recording is invalid.
+        If board, scene or recording is invalid, or the board is refused as a whole.
     """
     folder = find_board(options.name or options.board)
     board = load_board(folder)
+    if (folder / FILE).is_file():
+        check_top(board, find_part(folder, None)[0])
     scene_file = find_scene(board, options.scene)
     scene = read_scene(scene_file, board)
     recording = None
@@ -77,6 +82,7 @@ def board_check(options: argparse.Namespace) -> int:
         "regions": len(scene.regions),
         "effects": sorted(scene.playable),
         "recording": recording.name if recording else None,
+        "warnings": list(judge(board).odd),
     }
     show(options, figures, _table)
     return 0
@@ -84,7 +90,8 @@ def board_check(options: argparse.Namespace) -> int:
 
 def board_reference(_: argparse.Namespace) -> int:
     """Print the reference that is committed as board/reference.md."""
-    say(reference("board.toml", Board) + "\n" + reference("scene.toml", SceneTable, NAMED), end="")
+    parts = (reference("board.toml", Board), relations_reference(RELATIONS), reference("scene.toml", SceneTable, NAMED))
+    say("\n".join(parts), end="")
     return 0
 
 
@@ -113,4 +120,7 @@ def _table(figures: dict[str, Any]) -> str:
         lines.append(f"no finger in {len(figures['no_finger_mm'])} rectangles (touch.no_finger_mm)")
     if figures["recording"]:
         lines.append(f"recording: {figures['recording']}")
-    return "\n".join([*lines, "PASS: every key is valid"])
+    lines += [f"WARNING: {warning}" for warning in figures["warnings"]]
+    count = len(figures["warnings"])
+    odd = f", with {count} warning{'s' * (count > 1)}" if count else ""
+    return "\n".join([*lines, f"PASS: every key is valid, and they go together{odd}"])

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from controller.board.board import Board, load_board
+from controller.board.device_relations import axes
 from controller.board.lookup import find_board
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
@@ -69,7 +70,7 @@ def calibrate_touch(options: argparse.Namespace) -> int:
         from controller.commands.calibrate_lag import calibrate_lag
 
         return calibrate_lag(options)
-    board = load_board(find_board(options.board))
+    board = load_board(find_board(options.board), without=[axes])
     targets = (
         [(x_mm, y_mm) for x_mm, y_mm in options.at] if options.at else default_targets(board.plate, options.targets or MAX_TARGETS)
     )

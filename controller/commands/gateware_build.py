@@ -13,9 +13,9 @@ from typing import Any
 
 import msgspec
 
-from controller.board.board import load_board
-from controller.board.fpga_part import find_part
+from controller.board.fpga_part import check_top, find_part
 from controller.board.lookup import find_board
+from controller.commands.named_board import named_board
 from controller.commands.output import show
 from controller.console import tell
 from controller.errors import ConfigError, GatewareError, UsageError
@@ -38,8 +38,9 @@ def add(step: argparse.ArgumentParser) -> None:
 def gateware_build(options: argparse.Namespace) -> int:
     """Build a bitstream, and write its figures beside it."""
     folder = find_board(options.board)
-    board = load_board(folder)
+    board = named_board(options.board)
     top, part = find_part(folder, options.top)
+    check_top(board, top)
     device = options.device or part.devices[0]
     if device not in part.devices:
         raise UsageError(f"--device: {top.name} is built for {' or '.join(part.devices)}, not for {device!r}")

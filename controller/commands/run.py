@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from controller.board.board import Board, load_board, on_other_plate, simulated
-from controller.board.lookup import find_board
+from controller.board.board import Board, on_other_plate, simulated
 from controller.board.paths import state_folder
 from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
+from controller.commands.named_board import named_board
 from controller.commands.output import picture_path, progress_bar, show
 from controller.console import tell
 from controller.errors import ConfigError, UsageError
@@ -79,7 +79,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the board's panel, or simulate it."""
-    board = load_board(find_board(options.board))
+    board = named_board(options.board)
     devices = board.link.kind != "simulated" or not isinstance(board.touch, RecordingTouch)
     if devices and options.link is None:
         return _serve(options, board)

@@ -7,9 +7,8 @@ from dataclasses import asdict, dataclass
 from typing import Self
 
 from controller.board.board import Board
+from controller.board.panel import EDGE_WINDOW_S
 from controller.fpga.registers import DUTY_FULL
-
-EDGE_WINDOW_S = 0.25  # over which the edges of a stage are counted
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from typing import Final
 
 import spidev
 
-from controller.board.devices import LinkSettings
+from controller.board.devices import LinkSettings, divided_hz
 from controller.errors import LinkError
 from controller.fpga.gpio_lines import GpioLines
 from controller.fpga.spi_messages import SpiMessages
@@ -40,29 +40,6 @@ def read_bufsiz() -> int:
         return int(BUFSIZ.read_text())
     except (OSError, ValueError):
         return BUFSIZ_DEFAULT
-
-
-def divided_hz(source_hz: int, asked_hz: int) -> float:
-    """Actual SCK of a controller that divides its own clock by an even number.
-
-    Linux: spi-bcm2835.c (Pi 1 to 4), spi-dw-core.c (Pi 5).
-
-    Parameters
-    ----------
-    source_hz : int
-        The controller's clock.
-    asked_hz : int
-        SCK asked for.
-
-    Returns
-    -------
-    float
-        In Hz; at most `asked_hz`, unless the largest divider is too small.
-    """
-    if asked_hz >= source_hz / 2:
-        return source_hz / 2
-    divider = -(-source_hz // asked_hz)
-    return source_hz / min(divider + divider % 2, 65536)
 
 
 class SpiLink:

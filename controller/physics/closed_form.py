@@ -16,10 +16,10 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Actuator, Plate
 from controller.errors import ConfigError
 from controller.physics.modes import by_factor
-from controller.physics.plate import bending_stiffness
 
 Floats = NDArray[np.float64]
 

@@ -15,9 +15,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.panel import Plate
 from controller.physics.modes import Modes
-from controller.physics.plate import bending_wavelength_m
 from controller.physics.retuned import Retuned, retuned
 from controller.physics.ritz_modes import RitzModes
 

@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import math
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Plate
-from controller.physics.mindlin import MindlinPlate
-from controller.physics.plate import bending_stiffness
 
 
 def characteristic_time_s(plate: Plate) -> float:
@@ -48,23 +47,6 @@ def half_wave_m(wavelength_m: float) -> float:
 def gate_duration_s(highest_hz: float) -> float:
     """Eq. (4): Rt, half a period of the highest frequency."""
     return 1 / (2 * highest_hz)
-
-
-def kirchhoff_wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """Eq. (5): wavelength of a bending wave in a plate much thinner than it."""
-    slowness = math.sqrt(plate.young_modulus_pa / (3 * plate.density_kg_m3 * (1 - plate.poisson_ratio**2)))
-    return math.sqrt(math.pi * plate.thickness_m / frequency_hz * slowness)
-
-
-def mindlin_wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """The same with shear and rotary inertia: shorter."""
-    return 2 * math.pi / float(MindlinPlate.of(plate).wavenumber(2 * math.pi * frequency_hz))
-
-
-def mindlin_frequency_shift(plate: Plate, frequency_hz: float) -> float:
-    """How much lower a mode lies than Kirchhoff's `frequency_hz`, as a share of it: same wavelength, other theory."""
-    wavenumber = 2 * math.pi / kirchhoff_wavelength_m(plate, frequency_hz)
-    return 1 - float(MindlinPlate.of(plate).angular_frequency(wavenumber)) / (2 * math.pi * frequency_hz)
 
 
 def repetition_factor(period_s: float, decay_s: float) -> float:

@@ -12,6 +12,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
+from controller.board.bending_waves import kirchhoff_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.board.board import Board
 from controller.board.panel import OF_LAYERS, Driver, Plate
 from controller.board.records import Record
@@ -50,8 +51,8 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
     middle_hz, width_hz = (low_hz + high_hz) / 2, high_hz - low_hz
     spectrum = FocalSpectrum.of(plate, driver, given.size_mm * 1e-3, (low_hz, high_hz), given.bit_clock_hz)
     tc_s = design.characteristic_time_s(plate)
-    kirchhoff_m = [design.kirchhoff_wavelength_m(plate, f) for f in (low_hz, middle_hz, high_hz)]
-    mindlin_m = [design.mindlin_wavelength_m(plate, f) for f in (low_hz, middle_hz, high_hz)]
+    kirchhoff_m = [kirchhoff_wavelength_m(plate, f) for f in (low_hz, middle_hz, high_hz)]
+    mindlin_m = [mindlin_wavelength_m(plate, f) for f in (low_hz, middle_hz, high_hz)]
     resolution_m = design.half_wave_m(kirchhoff_m[2])
     possible_m = spectrum.amplitude_m(driver.supply_v / 2, given.channels, duration_s, decay_s)
     amplitude_m = possible_m if given.amplitude_um is None else given.amplitude_um * 1e-6
@@ -79,7 +80,7 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
         "repetition_factor": repeated,
         "wavelength_mm": {"low": kirchhoff_m[0] * 1e3, "middle": kirchhoff_m[1] * 1e3, "high": kirchhoff_m[2] * 1e3},
         "mindlin_wavelength_mm": {"low": mindlin_m[0] * 1e3, "middle": mindlin_m[1] * 1e3, "high": mindlin_m[2] * 1e3},
-        "mindlin_shift": -design.mindlin_frequency_shift(plate, high_hz),
+        "mindlin_shift": -mindlin_shift(plate, high_hz),
         "resolution_mm": resolution_m * 1e3,
         "spot_mm": spot_m * 1e3,
         "spot_3db_mm": spectrum.width_m(math.sqrt(0.5)) * 1e3,

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from controller.board.panel import Plate
+from controller.board.plate_relations import FEWEST_MODES, FEWEST_WAVES, LONGEST_DECAYS, THICKEST
 from controller.physics.design import energy_j
 
 Figures = dict[str, Any]
@@ -17,7 +18,6 @@ PAPERS = {  # section IV-A: what its equations (5) and (6) depend on
     "density_kg_m3": 2510.0,
     "band_high_hz": 70e3,
 }
-FEW_MODES = 50
 COUPLED = 1.0  # modal overlap below which single modes ring
 
 
@@ -41,10 +41,10 @@ def _warnings(found: Figures, given: Figures) -> Iterator[str]:
             f"eq. (5) is Kirchhoff's: shear and inertia make the shortest wave {found['mindlin_wavelength_mm']['high']:.3g} mm and"
             f" lower its frequency by {-100 * found['mindlin_shift']:.2g} %; an error of 0.5 % costs a bank 40 %"
         )
-    if waves["thickness_of_shortest"] > 0.3:
+    if waves["thickness_of_shortest"] > THICKEST:
         yield (
             f"the plate is {waves['thickness_of_shortest']:.2g} of its shortest wave thick: not even Mindlin's theory holds"
-            " above 0.3; take a lower band"
+            f" above {THICKEST:g}; take a lower band"
         )
     if _differ(found["energy_uj"], found["energy_with_background_uj"], 0.1):
         yield (
@@ -61,20 +61,23 @@ def _warnings(found: Figures, given: Figures) -> Iterator[str]:
             f"patches of {given['size_mm']:g} mm are {waves['patch_of_shortest']:.2g} of the shortest wave, over a half: they drive"
             " the upper edge of the band weakly (section IV-A)"
         )
-    if found["modes_in_band"] < FEW_MODES:
+    if found["modes_in_band"] < FEWEST_MODES:
         yield f"only {found['modes_in_band']:.3g} modes in the band: equations of averages over modes, (1) above all, do not hold"
     elif found["modal_overlap"] < COUPLED:
         yield (
             f"modes overlap {found['modal_overlap']:.2g} times: single modes ring, and the contrast differs from place to place"
             " more than eq. (1) says"
         )
-    if min(waves["length"], waves["width"]) < 2:
+    if min(waves["length"], waves["width"]) < FEWEST_WAVES:
         yield f"the plate is only {min(waves['length'], waves['width']):.2g} wavelengths wide: there is no place outside a focus"
     counted = found["modes_counted"]
     if counted and _differ(counted, found["modes_in_band"], 0.1):
         yield f"edges count: {counted} modes are in the band, not Tc B = {found['modes_in_band']:.3g}"
-    if given["duration_ms"] > 3 * given["decay_time_ms"]:
-        yield f"T is {given['duration_ms'] / given['decay_time_ms']:.3g} tau: what is emitted more than 3 tau before T is lost"
+    if given["duration_ms"] > LONGEST_DECAYS * given["decay_time_ms"]:
+        yield (
+            f"T is {given['duration_ms'] / given['decay_time_ms']:.3g} tau: what is emitted more than {LONGEST_DECAYS:g} tau before"
+            " T is lost"
+        )
 
 
 def _slips(found: Figures, plate: Plate) -> Iterator[str]:

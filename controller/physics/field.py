@@ -14,9 +14,10 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
 from controller.physics.modes import Modes, at_points
-from controller.physics.plate import MIDDLE_HZ, WAVELENGTH_M, bending_wavelength_m, middle_hz, wave_scale
+from controller.physics.plate import MIDDLE_HZ, WAVELENGTH_M, wave_scale
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
@@ -67,8 +68,8 @@ class FocusScale:
     def of(cls, board: Board) -> FocusScale:
         """Scale of a board, its factors rounded to three digits: exactly one for the shipped boards."""
         longer = wave_scale(board)
-        slower = float(f"{MIDDLE_HZ / middle_hz(board.waveform):.3g}")
-        wave_m = bending_wavelength_m(board.plate, middle_hz(board.waveform))
+        slower = float(f"{MIDDLE_HZ / board.waveform.middle_hz:.3g}")
+        wave_m = bending_wavelength_m(board.plate, board.waveform.middle_hz)
         return cls(MAP_STEP_M * longer, OUTSIDE_M * longer, LINE_M * longer, CREST_M * longer, AROUND_S * slower, wave_m)
 
 

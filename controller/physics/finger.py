@@ -23,10 +23,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from controller.bank.packing import channel_bits
+from controller.board.bending_waves import bending_stiffness
 from controller.board.board import Board
 from controller.physics.driver import DriverResponse
 from controller.physics.modes import Modes
-from controller.physics.plate import bending_stiffness
 from controller.physics.step_response import channel_forces
 
 Floats = NDArray[np.float64]

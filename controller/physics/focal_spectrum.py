@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 from scipy.special import j0
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Driver, Plate
 from controller.physics.design import characteristic_time_s, one_bit_share, point_impedance_kg_s
 from controller.physics.driver import DriverResponse
-from controller.physics.plate import bending_stiffness
 
 Floats = NDArray[np.float64]
 

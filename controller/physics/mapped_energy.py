@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Plate
 from controller.physics.field import Field, map_axis
 from controller.physics.modal_history import Energy
-from controller.physics.plate import bending_stiffness
 
 Floats = NDArray[np.float64]
 

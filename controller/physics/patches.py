@@ -20,11 +20,11 @@ from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from scipy.linalg import eigh
 
+from controller.board.bending_waves import bending_stiffness, bending_wavelength_m
 from controller.board.panel import Actuator, Plate
 from controller.board.patches import Patch, Patches
 from controller.errors import ConfigError
 from controller.physics.modes import Modes, TensorFactors
-from controller.physics.plate import bending_stiffness, bending_wavelength_m
 
 Floats = NDArray[np.float64]
 

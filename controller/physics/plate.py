@@ -1,12 +1,10 @@
-"""The plate's constants: bending stiffness, wavelength, and the frequency up to which its modes are taken."""
+"""How long the waves of a board are beside those of the paper's plate, and the frequency up to which its modes are taken."""
 
 from __future__ import annotations
 
-import numpy as np
-
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
-from controller.board.panel import Plate, Waveform
-from controller.physics.mindlin import MindlinPlate
+from controller.board.panel import Waveform
 
 # On the paper's plate, in whose band's middle waves are 10.54 mm long; `wave_scale` says what they are on others
 MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
@@ -22,27 +20,9 @@ def mode_cut_hz(waveform: Waveform) -> float:
     return max(LEAST_CUT_HZ, waveform.band_high_hz * 10 / 7)
 
 
-def bending_stiffness(plate: Plate) -> float:
-    """D = E h^3 / (12 (1 - nu^2)) in N m."""
-    return plate.young_modulus_pa * plate.thickness_m**3 / (12 * (1 - plate.poisson_ratio**2))
-
-
-def bending_wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """Wavelength of a bending wave in the free plate at a frequency, in m, by the plate's theory."""
-    if plate.theory == "mindlin":
-        return float(2 * np.pi / MindlinPlate.of(plate).wavenumber(2 * np.pi * frequency_hz))
-    per_area = plate.density_kg_m3 * plate.thickness_m
-    return float((bending_stiffness(plate) / per_area) ** 0.25 * (2 * np.pi / frequency_hz) ** 0.5)
-
-
-def middle_hz(waveform: Waveform) -> float:
-    """Middle of a waveform's band."""
-    return (waveform.band_low_hz + waveform.band_high_hz) / 2
-
-
 def wave_scale(board: Board) -> float:
     """How much longer the waves of a board are than those of the paper's plate, each in the middle of its band.
 
     Lengths that were found on the paper's plate go with it. Rounded to three digits: exactly one for the shipped boards.
     """
-    return float(f"{bending_wavelength_m(board.plate, middle_hz(board.waveform)) / WAVELENGTH_M:.3g}")
+    return float(f"{bending_wavelength_m(board.plate, board.waveform.middle_hz) / WAVELENGTH_M:.3g}")

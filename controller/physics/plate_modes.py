@@ -7,13 +7,14 @@ from functools import lru_cache
 
 import msgspec
 
+from controller.board.bending_waves import MindlinPlate
 from controller.board.board import Board
 from controller.board.panel import Plate
 from controller.board.patches import Patch, Patches
 from controller.errors import ConfigError
 from controller.physics.closed_form import SimplySupported
 from controller.physics.damping import damped
-from controller.physics.mindlin import MindlinPlate
+from controller.physics.mindlin import corrected
 from controller.physics.modes import Modes
 from controller.physics.patches import BASIS, CombinedModes, with_patches
 from controller.physics.plate import mode_cut_hz
@@ -56,7 +57,7 @@ def _bare(plate: Plate, highest_hz: float) -> Modes:
     theory = MindlinPlate.of(plate)
     without_hz = theory.without_correction_hz(highest_hz)
     try:
-        return theory.corrected(_of_edges(plate, without_hz))
+        return corrected(theory, _of_edges(plate, without_hz))
     except ConfigError as error:
         raise ConfigError(f"{error} ({without_hz:g} Hz by Kirchhoff's theory are {highest_hz:g} Hz by Mindlin's)") from error
 

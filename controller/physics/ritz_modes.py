@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Actuator, Plate
 from controller.errors import ConfigError
 from controller.physics.closed_form import MAX_MODES
 from controller.physics.mode_cache import solved
 from controller.physics.mode_count import mode_count
 from controller.physics.modes import TensorFactors
-from controller.physics.plate import bending_stiffness
 from controller.physics.ritz import ModeClass, PlateShape, longest_matrix
 
 Floats = NDArray[np.float64]

@@ -19,6 +19,7 @@ from controller.board.board import Board
 from controller.board.devices import LinkSettings, Realtime
 from controller.board.panel_status import FOLDER, NAME, read_now
 from controller.board.paths import SERVICE, service_user
+from controller.board.relations import judge
 from controller.board.touch_panels import I2cTouch, LinuxInputTouch, RecordingTouch, SerialTouch
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga.frames import UPLOAD_BYTES
@@ -81,7 +82,8 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
             ("priority", lambda: _priority(board.realtime, allowed())),
             ("locked memory", lambda: _memory(board.realtime, allowed())),
         ]
-    findings = [*(_tried(about, check) for about, check in checks), *look_at_pi(board)]
+    findings = [Finding("board.toml", True, odd, warns=True) for odd in judge(board).odd]
+    findings += [*(_tried(about, check) for about, check in checks), *look_at_pi(board)]
     return [finding for finding in findings if finding.good or finding.about != "responses"]  # an invalid bank is reported once
 
 

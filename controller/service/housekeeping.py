@@ -15,7 +15,10 @@ from controller.service.observed import Panel, Thermometer, Watched
 from controller.service.reloading import ReloadFile
 from controller.service.systemd import Notifier, Watchdog
 from controller.service.touch_faults import TouchFaults
+from controller.touch.reports import off_plate_warning
+from controller.touch.source import Counts
 
+OFF_PLATE_TOLD = 50  # positions off the plate, at most half a second of a finger
 PLAYING_S = 1.0  # after an emission, for which the state is PLAYING
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
 OFF = {
@@ -69,6 +72,7 @@ class Housekeeping:
         self._loop: Watched | None = None
         self._panel: Panel | None = None
         self._touch_faults: TouchFaults | None = None
+        self._counts: Counts | None = None  # None also once it was said
         self._told: Sequence[Callable[[Condition], None]] = ()
         self._board_name = board.name
         self._reloading = False
@@ -87,7 +91,13 @@ class Housekeeping:
         """Factor of the bit clock that the FPGA uses now."""
         return 1.0 if self._bit_clock is None else self._bit_clock.scale
 
-    def watch(self, loop: Watched, panel: Panel | None, told: Sequence[Callable[[Condition], None]] = ()) -> None:
+    def watch(
+        self,
+        loop: Watched,
+        panel: Panel | None,
+        told: Sequence[Callable[[Condition], None]] = (),
+        counts: Counts | None = None,
+    ) -> None:
         """Set what is reported.
 
         Parameters
@@ -97,7 +107,10 @@ class Housekeeping:
             None: a recording is replayed.
         told : sequence of callable
             Each is called with each new condition, the first included.
+        counts : Counts, optional
+            Of the touch panel: said once if most positions lie off the plate.
         """
+        self._counts = counts
         self._loop = loop
         self._panel = panel
         self._touch_faults = None if panel is None else TouchFaults(panel)
@@ -126,6 +139,10 @@ class Housekeeping:
         self._look(loop, now_s)
         if self._touch_faults is not None:
             self._touch_faults.look(now_s)
+        counts = self._counts
+        if counts is not None and counts.off_plate >= OFF_PLATE_TOLD and counts.off_plate * 2 > counts.points:
+            self._counts = None
+            log(off_plate_warning(counts.points, counts.off_plate), Event.OFF_PLATE)
         if loop.reloading != self._reloading:
             self._reloading = loop.reloading
             if self._reloading:

@@ -24,7 +24,7 @@ from controller.service.scene_reload import SceneChanger
 from controller.service.status_file import StatusFile
 from controller.service.systemd import Notifier, Watchdog
 from controller.touch.live_source import LiveSource
-from controller.touch.reports import describe_warnings
+from controller.touch.reports import describe_warnings, off_plate_warning
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
 
@@ -117,7 +117,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             source.counts,
             lambda: (source.warnings, panel.description.remark if panel else ""),
         )
-        housekeeping.watch(assembly.loop, panel, (status.changed,) if commands is None else (status.changed, commands.changed))
+        told = (status.changed,) if commands is None else (status.changed, commands.changed)
+        housekeeping.watch(assembly.loop, panel, told, source.counts)
         for warning in enter_realtime(board.realtime):
             log(warning, Event.NOT_REALTIME)
         log(f"board {board.name!r}, scene {scene_name!r}, {len(cells)} cells of {bank.path}", Event.STARTED)
@@ -132,13 +133,16 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
 
 
 def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, source: Tracker) -> dict[str, Any]:
+    counts = source.counts
+    off = off_plate_warning(counts.points, counts.off_plate)
     said = {
         "board": board.name,
         "state": housekeeping.condition.state.value,
         "cause": housekeeping.condition.cause,
         "log_lines_lost": LOG.lost,
-        "warnings": describe_warnings(source.warnings),
+        "warnings": describe_warnings(source.warnings) + ([off] if off else []),
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),
+        "positions": {"reported": counts.points, "off_plate": counts.off_plate},
     }
     return said | assembly.counters.export() | {"schedule": assembly.timing.figures()}

@@ -11,7 +11,7 @@ import numpy as np
 from controller.metrics import STAGES, Counters
 from controller.simulation.focus_evaluation import Focus
 from controller.simulation.simulated_run import Run
-from controller.touch.reports import describe_warnings
+from controller.touch.reports import describe_warnings, off_plate_warning
 
 SPOILED_S = (
     10e-3  # host latency from which figures of foci are not those of the panel: a finger moves by a third of a spot meanwhile
@@ -30,6 +30,9 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         for stage in STAGES
     }
     tracked = [focus for focus in foci if focus.emission.finger is not None]
+    warnings = describe_warnings(run.source.warnings)
+    if off := off_plate_warning(counts.points, counts.off_plate):
+        warnings.append(off)
     return {
         "board": run.board.name,
         "plate": run.plate.name,
@@ -39,7 +42,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
             "contacts": counts.contacts,
             "max_fingers": counts.max_fingers,
         },
-        "warnings": [f"{run.recording.name}: {warning}" for warning in describe_warnings(run.source.warnings)]
+        "warnings": [f"{run.recording.name}: {warning}" for warning in warnings]
         + ([f"{counters.skipped.bad_entries} × no emission: {counters.bad_entry}"] if counters.bad_entry else []),
         "emissions": int(run.capture.focus_ticks.size),
         "triggers": counters.emissions,
@@ -63,6 +66,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "link_counts": asdict(counters.link),
         "skipped": asdict(counters.skipped),
         "touch": run.touch,
+        "positions": {"reported": counts.points, "off_plate": counts.off_plate},
         "response_section_mapped": run.response_mapped,
         "latency_us": latency,
         "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 from controller.board.board import Board
 from controller.board.touch_panels import TouchPanel
+
+OFF_M: Final = 2e-3  # beyond the plate's edge: the map of a calibrated panel is not better than that
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,7 @@ from math import inf, nan
 from typing import Final
 
 from controller.touch.associate import IMPLIED, Contact
-from controller.touch.axes import Axes
+from controller.touch.axes import OFF_M, Axes
 from controller.touch.hand_steps import goes_on, moving_s, reaches
 from controller.touch.reports import PanelHabits, ReportRate
 from controller.touch.source import Counts, TouchSample, touch_sample
@@ -295,8 +295,10 @@ class Plausibility:
         length_m, width_m = self._plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
         y_m = y_by_x * x + y_by_y * y + y_at_0
-        x_m = 0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m
-        y_m = 0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m
+        if not (0.0 <= x_m <= length_m and 0.0 <= y_m <= width_m):
+            self._counts.off_plate += not (-OFF_M <= x_m <= length_m + OFF_M and -OFF_M <= y_m <= width_m + OFF_M)
+            x_m = 0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m
+            y_m = 0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m
         if self._no_finger_m:
             for left_m, low_m, right_m, high_m in self._no_finger_m:
                 if left_m <= x_m <= right_m and low_m <= y_m <= high_m:

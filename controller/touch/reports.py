@@ -69,6 +69,22 @@ def describe_warnings(warnings: Mapping[str, int]) -> list[str]:
     return [f"{count} × {WARNINGS.get(kind, kind)}" for kind, count in warnings.items() if count]
 
 
+def off_plate_warning(positions: int, off_plate: int) -> str:
+    """Line that says that the board's map of the axes does not fit the panel; empty unless most positions lie off the plate.
+
+    Parameters
+    ----------
+    positions, off_plate : int
+        As in `source.Counts`.
+    """
+    if off_plate * 2 <= positions:
+        return ""
+    return (
+        f"{off_plate} of {positions} positions lie off the plate by touch.x_mm_from_axes and y_mm_from_axes, and were moved to its"
+        " edge: these are not of this panel; haptic-panel calibrate-touch finds them"
+    )
+
+
 class ReportClock:
     """Corrects the times of reports: never later than now, never decreasing.
 

@@ -68,6 +68,8 @@ class Counts:
         Contacts that were palms, by tool or by size.
     devices : int
         Devices opened: one more after each reconnection.
+    off_plate : int
+        Those that the board's map puts off the plate, by more than `axes.OFF_M`; they were moved to its edge.
     """
 
     reports: int = 0
@@ -79,6 +81,7 @@ class Counts:
     confirmed: int = 0
     palms: int = 0
     devices: int = 0
+    off_plate: int = 0
 
 
 @dataclass(slots=True)

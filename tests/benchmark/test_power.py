@@ -10,13 +10,12 @@ from controller.bank.reader import Bank
 from controller.benchmark.power import (
     Resistor,
     bank_losses,
-    half_charge_j,
     power_report,
     resistor_loss_j,
     stage_limits,
-    worst_edge_j,
 )
 from controller.board.panel import Driver
+from controller.board.stage_heat import half_charge_j, worst_edge_j
 from controller.gateware_model.pins import ramp_bits
 
 PAPER = Driver(supply_v=60.0, resistance_ohm=2000.0, inductance_h=6.8e-3, capacitance_f=2e-9, moment_n_per_v=1e-3)

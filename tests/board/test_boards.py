@@ -10,13 +10,13 @@ import msgspec
 import pytest
 
 from controller.board.board import load_board
+from controller.board.devices import divided_hz
 from controller.board.fpga_part import load_part
 from controller.board.lookup import data_folder, find_board
 from controller.fpga.bitstream import read_figures, read_identity
 from controller.fpga.bitstream_build import Design
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.spi_link import divided_hz
 from controller.simulation.rtl_build import verilator_root
 
 BOARDS = data_folder("boards")

@@ -14,7 +14,8 @@ import controller.board
 from controller.board.board import Board
 from controller.board.lookup import data_folder, find_board
 from controller.board.records import Record
-from controller.board.reference import attributes, reference, schema
+from controller.board.reference import attributes, reference, relations_reference, schema
+from controller.board.relations import RELATIONS
 from controller.commands.board import NAMED
 from controller.scene.scene_tables import SceneTable
 
@@ -26,7 +27,16 @@ SCENE_FILES = sorted(file for file in BOARDS.glob("simulated/*.toml") if "region
 def test_the_committed_reference_is_that_of_the_records():
     """Else: `haptic-panel board reference > controller/board/reference.md`."""
     committed = Path(controller.board.__file__).with_name("reference.md").read_text()
-    assert committed == reference("board.toml", Board) + "\n" + reference("scene.toml", SceneTable, NAMED)
+    parts = (reference("board.toml", Board), relations_reference(RELATIONS), reference("scene.toml", SceneTable, NAMED))
+    assert committed == "\n".join(parts)
+
+
+def test_the_reference_has_every_relation_with_what_comes_of_it():
+    rows = [line for line in relations_reference(RELATIONS).splitlines() if line.startswith("| `")]
+    assert len(rows) == len(RELATIONS)
+    assert {row.rsplit("|", 2)[1].strip() for row in rows} == {"refused", "a warning"}
+    heat = next(row for row in rows if "resistor_rating_w" in row)
+    assert heat.endswith("| No resistor gets hotter than it may. | refused |")
 
 
 @pytest.mark.parametrize(("name", "kind", "named"), [("board", Board, None), ("scene", SceneTable, NAMED)])

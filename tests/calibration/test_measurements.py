@@ -100,7 +100,7 @@ def test_a_record_that_was_interrupted_is_missing_and_an_old_one_stays(tmp_path,
 
 def test_records_that_run_through_are_cut_at_the_periods(tmp_path):
     running = np.random.default_rng(2).normal(size=(3, 700))
-    folder_of(tmp_path, running, period_ms=0.1002)
+    folder_of(tmp_path, running, period_ms=0.1002, drive=msgspec.structs.replace(SWEEP, duration_ms=0.1))
     found = read_measurement(tmp_path, board()).records(1)
     starts = np.round(np.arange(6) * 100.2).astype(int)
     assert found.values.shape == (2, 3, 100)
@@ -235,6 +235,7 @@ def test_a_damaged_folder_is_refused_with_file_and_point(tmp_path, damage, said)
         ("channels = [4, 9]", "channels = [4, 32]", r"drive.channels\[1\] = 32: must be a whole number from 0 to 31"),
         ('kind = "sweep"', 'kind = "sweap"', r"drive.kind = 'sweap'.*did you mean sweep\?"),
         ("stop_hz = 74000.0", "stop_hz = 16000.0", r"start_hz and stop_hz are both 16000"),
+        ("repetitions = 3", "repetitions = 3\nperiod_ms = 1.9", r"drive.duration_ms = 2 is longer than records.period_ms = 1.9"),
         ("sample_rate_hz = 1000000.0", "sample_rate_hz = nan", r"sample_rate_hz = nan: must be a finite number"),
         ("sample_rate_hz = 1000000.0", "sample_rate_hz = 44.1", r"sample_rate_hz = 44.1: must be a number from 1000 to"),
         ('"2026-11-22T18:40:00Z"', '"yesterday"', r"date = 'yesterday'"),

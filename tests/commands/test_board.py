@@ -22,7 +22,7 @@ def test_a_board_is_checked_with_its_scene_and_recording(copied, capsys):
     assert lines[0].startswith(f"{copied / 'board.toml'}: board 'simulated', plate 210 × 148 × 0.5 mm, 32 channels")
     assert lines[1] == "devices: touch panel recording, link simulated"
     assert lines[2].startswith(f"{copied / 'scene.toml'}: 13 regions")
-    assert lines[-1] == "PASS: every key is valid"
+    assert lines[-1] == "PASS: every key is valid, and they go together"
 
 
 @pytest.mark.parametrize("name", sorted(file.parent.name for file in data_folder("boards").glob("*/board.toml")))

@@ -135,10 +135,13 @@ def test_a_scene_that_the_fpga_will_end_is_warned_of_before_it_plays(capsys, sma
     run = ("run", "--board", small_board, "--speed", "max", "--json")
     good = json.loads(printed(capsys, *run).out)
     assert good["warnings"] == []
-    file.write_text(re.sub(r"max_channel_edge_rate_hz = \S+", "max_channel_edge_rate_hz = 2000.0", file.read_text()))
+    few = re.sub(r"max_channel_edge_rate_hz = \S+", "max_channel_edge_rate_hz = 3000.0", file.read_text())
+    file.write_text(re.sub(r"ramp_ms = \S+", "ramp_ms = 2.0", few))  # else the first ramp has too many
     assert main([str(argument) for argument in run]) == 1, "the FPGA's own limit is there for the rest"
     err = capsys.readouterr().err
-    warning, fault = err.splitlines()
+    duty, total, warning, fault = err.splitlines()
+    assert "limits.max_duty = 1 of waveforms with max_edge_rate_hz" in duty
+    assert "limits.max_total_edge_rate_hz = 4e+06 is above what 32 channels" in total
     assert re.search(
         r"scene\.toml: up to 25 emissions a second make \d+ edges a second on one channel, above limits\.max_channel", warning
     )
@@ -329,10 +332,11 @@ def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file, tmp_p
     assert figures["full_duty_w"]["all"]["median"] == pytest.approx(8.0, rel=0.05)
     assert [row["channel"] for row in figures["channels"]] == sorted(actuator.channel for actuator in board.actuators)
     table = printed(capsys, "bank", "info", bank_file, "--power").out
-    assert "a resistor of 1 W, derated to 0.5, may burn 0.5 W: holds at max_duty" in table
+    assert "a resistor of 1.5 W, derated to 0.5, may burn 0.75 W: holds at max_duty" in table
     assert f"{figures['full_duty_w']['all']['median']:.4g}" in table
     text = (find_board("simulated") / "board.toml").read_text()
-    (tmp_path / "board.toml").write_text(text.replace("resistor_rating_w = 1.0", "resistor_rating_w = 0.5"))
+    small = text.replace("resistor_rating_w = 1.5", "resistor_rating_w = 0.5")
+    (tmp_path / "board.toml").write_text(small.replace("max_channel_edge_rate_hz = 150e3", "max_channel_edge_rate_hz = 53e3"))
     table = printed(capsys, "bank", "info", bank_file, "--power", "--board", tmp_path).out
     assert "a resistor of 0.5 W, derated to 0.5, may burn 0.25 W: TOO LITTLE at max_duty" in table
 

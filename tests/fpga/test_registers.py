@@ -1,8 +1,8 @@
 import re
 
-from controller.board.board import MIN_BIT_TICKS
+from controller.board.limit_relations import BIT_CLOCK_HZ, MAX_FRAME_BYTES, MIN_BIT_TICKS
 from controller.board.lookup import data_folder
-from controller.fpga import registers
+from controller.fpga import frames, registers
 from controller.fpga.register_table import main, rewritten
 from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Register, Result, Start, State
 
@@ -73,3 +73,5 @@ def test_readable_memory_does_not_overlap_registers_or_itself():
 
 def test_the_boards_shortest_word_is_the_gatewares():
     assert MIN_BIT_TICKS == registers.BIT_TICKS_MIN
+    assert BIT_CLOCK_HZ == (registers.BIT_CLOCK_HZ_MIN, registers.BIT_CLOCK_HZ_MAX)
+    assert MAX_FRAME_BYTES == frames.LOAD_FRAME_BYTES

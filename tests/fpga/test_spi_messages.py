@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from controller.board.devices import divided_hz
 from controller.errors import LinkError
-from controller.fpga.spi_link import divided_hz
 from controller.fpga.spi_messages import DMA_ALIGN_BYTES, TRANSFERS_MAX, SpiMessages, message_request, split
 
 UPLOAD = [512] * 8 + [36] * 4

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller.benchmark.power import resistor_loss_j
+from controller.board.bending_waves import kirchhoff_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.board.board import load_board
 from controller.board.layers import Layer
 from controller.board.lookup import find_board
@@ -47,7 +48,7 @@ PAPERS = {  # digits that the paper prints, or that its own numbers give (shared
     "bound of eq. (1)": (lambda: design.contrast_bound(50e3, 19.54e-3), 31.3, 0.05),
     "eq. (1)": (lambda: design.contrast(50e3, 19.54e-3, 32, 2e-3, 1e-3), 24.3, 0.05),
     "eq. (4) in us": (lambda: design.gate_duration_s(70e3) * 1e6, 7.14, 0.005),
-    "eq. (5) at 70 kHz in mm": (lambda: design.kirchhoff_wavelength_m(GLASS, 70e3) * 1e3, 8.45, 0.005),
+    "eq. (5) at 70 kHz in mm": (lambda: kirchhoff_wavelength_m(GLASS, 70e3) * 1e3, 8.45, 0.005),
     "eq. (6) of 7.68 um and 5.2 mm in uJ": (lambda: design.energy_j(GLASS, 7.68e-6, 5.2e-3) * 1e6, 35.8, 0.05),
     "eq. (6) of 7.68 um and 4.05 mm in uJ": (lambda: design.energy_j(GLASS, 7.68e-6, 4.05e-3) * 1e6, 59, 0.4),
     "repetition at Tr = tau": (lambda: design.repetition_factor(1e-3, 1e-3), 0.93, 0.005),
@@ -72,11 +73,11 @@ def test_a_finger_of_140_mg_leaves_70_percent_where_the_paper_says_so():
 @pytest.mark.parametrize(("at_hz", "share"), [(20e3, 0.993617), (70e3, 0.978306), (100e3, 0.969532)])
 def test_mindlins_waves_are_those_of_rayleigh_and_lamb(at_hz, share):
     """Frequency at the same wavenumber, against roots of the exact A0 equation for this plate."""
-    same(1 - design.mindlin_frequency_shift(GLASS, at_hz), share, 3e-5, f"frequency over Kirchhoff's {at_hz:g} Hz")
+    same(1 - mindlin_shift(GLASS, at_hz), share, 3e-5, f"frequency over Kirchhoff's {at_hz:g} Hz")
 
 
 def test_mindlins_wave_is_kirchhoffs_where_the_plate_is_thin():
-    assert design.mindlin_wavelength_m(GLASS, 100.0) == pytest.approx(design.kirchhoff_wavelength_m(GLASS, 100.0), rel=1e-4)
+    assert mindlin_wavelength_m(GLASS, 100.0) == pytest.approx(kirchhoff_wavelength_m(GLASS, 100.0), rel=1e-4)
 
 
 @pytest.mark.parametrize(("changes", "high_hz"), [({}, 300e3), (PHONE, 300e3), (FLOOR, 30e3)], ids=["paper", "phone", "floor"])

@@ -6,14 +6,13 @@ import pytest
 from physics.lamb import layered_a0, rayleigh_lamb_a0
 from small_plate import small_board
 
+from controller.board.bending_waves import MindlinPlate, bending_stiffness, bending_wavelength_m
 from controller.board.board import load_board
 from controller.board.layers import MOST_SHEAR, Layer, laminate
 from controller.board.lookup import find_board
 from controller.board.panel import Plate
 from controller.errors import ConfigError
 from controller.physics.field import FocusScale
-from controller.physics.mindlin import MindlinPlate
-from controller.physics.plate import bending_stiffness, bending_wavelength_m
 from controller.physics.plate_modes import modes_of
 
 BOARD = load_board(find_board("simulated"))

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from small_plate import WHOLE, small_board
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Actuator, Damping
 from controller.board.patches import Patch, Patches
 from controller.errors import ConfigError
 from controller.physics.closed_form import SimplySupported
 from controller.physics.patches import BASIS, added, first_order, with_patches
-from controller.physics.plate import bending_stiffness
 from controller.physics.plate_modes import in_words, modes_of
 
 BOARD = small_board()

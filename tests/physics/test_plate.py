@@ -2,10 +2,10 @@ import msgspec
 import numpy as np
 import pytest
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Actuator, Plate
 from controller.errors import ConfigError
 from controller.physics.closed_form import SimplySupported
-from controller.physics.plate import bending_stiffness
 
 PAPER = Plate(
     length_mm=210.0,

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from physics.levy import levy_wavenumbers
 from small_plate import small_board
 
+from controller.board.bending_waves import bending_stiffness
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.board.panel import Actuator, Edges, Foam
@@ -20,7 +21,6 @@ from controller.physics.driver import DriverResponse
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.mode_count import edge_term, mode_count
-from controller.physics.plate import bending_stiffness
 from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 from controller.physics.ritz import PlateShape

@@ -9,10 +9,10 @@ from physics.levy import levy_wavenumbers
 from physics.test_ritz import BOARD, LETTERS, PAPER, plate_of, shape_of, wavenumber
 
 from controller.bank.packing import channel_bits
+from controller.board.bending_waves import bending_stiffness
 from controller.physics import ritz
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import bending_stiffness
 
 pytestmark = pytest.mark.slow
 

@@ -139,7 +139,7 @@ def panel(board, tmp_path, monkeypatch):
     scene = folder / "scene.toml"
     scene.write_text('[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 100\ny_mm = 70\nradius_mm = 5\neffects = ["click"]\n')
     (folder / "board.toml").write_text(
-        text.replace("../simulated/scene.toml", "scene.toml").replace("pitch_mm = 2.5", "pitch_mm = 40")
+        text.replace("../simulated/scene.toml", "scene.toml").replace("pitch_mm = 2.5", "pitch_mm = 40\ncoarse = true")
     )
     monkeypatch.setattr(lookup, "SYSTEM_BOARDS", folder.parent)
     monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "state"))

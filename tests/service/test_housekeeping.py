@@ -18,6 +18,8 @@ from controller.touch.replay import RecordingSource
 
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
 PER_K = -2e-4
+TAPS = [r for k in range(6) for r in ((0.5 * k, {0: (40.0 + 20 * k, 70.0)}), (0.5 * k + 0.1, {0: None}))]
+DRAG = [*((0.01 * k, {0: (60.0 + 2 * k, 70.0)}) for k in range(60)), (0.7, {0: None})]
 
 
 @pytest.fixture
@@ -32,14 +34,14 @@ def sensor(tmp_path):
 def kept(board, bank_file, tmp_path, sensor, evemu_text, capsys):
     """Run a loop with housekeeping; `at` maps times to what the sensor says from then on."""
 
-    def run(at):
+    def run(at, taps=TAPS, shift_mm=0.0):
         temperature = Temperature(kind="hwmon", device=str(sensor), coefficient_per_k=PER_K, period_s=0.1)
-        warm = msgspec.structs.replace(board, temperature=temperature)
+        shifted = msgspec.structs.replace(board.touch, x_mm_from_axes=(210.0, 0.0, shift_mm))
+        warm = msgspec.structs.replace(board, temperature=temperature, touch=shifted)
         (tmp_path / "s.toml").write_text(CLICK)
         clock = VirtualClock()
         link = open_simulated(warm, clock.now_s)
         session = open_session(link, warm, clock.now_s)
-        taps = [r for k in range(6) for r in ((0.5 * k, {0: (40.0 + 20 * k, 70.0)}), (0.5 * k + 0.1, {0: None}))]
         recording = Recording(evemu_text(*taps))
         notifier = Notifier("")
         thermometer = Thermometer(temperature)
@@ -57,7 +59,7 @@ def kept(board, bank_file, tmp_path, sensor, evemu_text, capsys):
             scene = load_scene(tmp_path / "s.toml", warm)
             told = {"emission_started": housekeeping.emission_started, "scene_changed": housekeeping.scene_changed}
             assembly = assemble(warm, scene, bank, clock, session, source, progress=progress, **told)
-            housekeeping.watch(assembly.loop, None)
+            housekeeping.watch(assembly.loop, None, (), source.counts)
             assembly.loop.run()
             link.close()
         return link, housekeeping, assembly.counters, capsys.readouterr().err
@@ -95,3 +97,16 @@ def test_nonsense_changes_nothing(kept):
     _, housekeeping, _, log = kept({0.5: 99999, 0.9: -273150})
     assert housekeeping.scale == 1.0
     assert "temperature sensor says" in log
+
+
+def test_touches_that_lie_off_the_plate_are_told_once_with_both_numbers(kept):
+    *_, log = kept({}, DRAG, shift_mm=180.0)
+    assert log.count("lie off the plate") == 1
+    assert "50 of 50 positions lie off the plate by touch.x_mm_from_axes and y_mm_from_axes" in log
+
+
+@pytest.mark.parametrize(("taps", "shift_mm"), [(DRAG, 60.0), (TAPS, 180.0)])
+def test_some_touches_off_the_plate_are_not_told(kept, taps, shift_mm):
+    """The panel reaches beyond the glass; or there were too few to know."""
+    *_, log = kept({}, taps, shift_mm=shift_mm)
+    assert "off the plate" not in log

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from stress.boards import changed, focus_on, scaled
 
+from controller.board.bending_waves import bending_wavelength_m
 from controller.fpga.capture import Capture
 from controller.physics.field import AROUND_S, CREST_M, LINE_M, MAP_STEP_M, OUTSIDE_M, FocusScale
-from controller.physics.plate import bending_wavelength_m
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 
 POINT = (0.08, 0.06)

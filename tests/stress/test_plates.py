@@ -13,12 +13,12 @@ from controller.bank.packing import channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.benchmark.focus_figures import emit
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.panel import Actuator
 from controller.cli import main
 from controller.errors import ConfigError
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import bending_wavelength_m
 from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin
 

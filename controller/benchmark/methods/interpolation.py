@@ -13,9 +13,9 @@ from scipy.special import j0
 
 from controller.bank.grid import Grid
 from controller.benchmark.methods.response_table import Stencil
+from controller.board.bending_waves import bending_wavelength_m
 from controller.board.board import Board
 from controller.physics.modes import Modes
-from controller.physics.plate import bending_wavelength_m
 
 Interpolation = Callable[[Grid, float, float], Stencil]
 LOOKUP_STEPS = 20  # of a pitch, for tabulated weights

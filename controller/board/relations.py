@@ -1,0 +1,44 @@
+"""The list of relations between the keys of a board.toml, and the verdict on a board.
+
+`load_board` refuses what breaks a relation that refuses, and so does every command; `board check`, `bank build`, `run`,
+`gateware build` and `doctor` also say what is odd. What makes a single table meaningless, such as a band upside down, is refused
+by its record.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING, NamedTuple
+
+from controller.board import device_relations, limit_relations, panel_relations, plate_relations, stage_relations
+
+if TYPE_CHECKING:
+    from controller.board.board import Board
+    from controller.board.relation import Relation
+
+PARTS = (panel_relations, plate_relations, limit_relations, stage_relations, device_relations)
+RELATIONS = tuple(relation for part in PARTS for relation in part.RELATIONS)
+
+
+class Verdict(NamedTuple):
+    """What is wrong with a board as a whole, one line each.
+
+    Attributes
+    ----------
+    refused : tuple of str
+        Unsafe or impossible.
+    odd : tuple of str
+        Works, but hardly as it is meant.
+    """
+
+    refused: tuple[str, ...]
+    odd: tuple[str, ...]
+
+
+def judge(board: Board, without: Collection[Relation] = ()) -> Verdict:
+    """Check all relations of a board, but for those `without` which it is to be mended."""
+    found: dict[bool, list[str]] = {True: [], False: []}
+    for relation in RELATIONS:
+        if relation not in without:
+            found[relation.refuses] += relation.broken(board)
+    return Verdict(tuple(found[True]), tuple(found[False]))
