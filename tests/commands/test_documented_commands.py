@@ -74,6 +74,14 @@ def test_every_module_that_a_page_calls_is_there_and_knows_its_options(page):
                 assert f'"{option}"' in source, text
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_file_of_the_checkout_that_a_page_names_is_there(page):
+    for text, _ in code(page):
+        for path in re.findall(r"(?<![\w/.-])((?:tests|controller|boards|systemd|fpga_rtl)/[\w./*-]*[\w*])", text):
+            places = (ROOT, page.parent, ROOT / "controller")
+            assert any(next(place.glob(path), None) for place in places), f"{text}: {path}"
+
+
 def test_every_option_that_a_text_names_by_itself_is_one_of_ours_or_of_a_program_that_is_known():
     ours = {option for action in arguments(parser()) for option in action.option_strings}
     for file in (*(ROOT / "controller").rglob("*.py"), *(ROOT / "tests").rglob("*.py")):
