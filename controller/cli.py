@@ -31,7 +31,7 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
     "record": "store the events of a touch panel",
     "calibrate": "a bank from measurements of the plate: plan, measure, check, build",
     "calibrate-touch": "map the touch panel's axes to the plate",
-    "update": "check, fetch, install and take back signed releases; make and sign them",
+    "update": "check, fetch, install and roll back signed releases; make and sign them",
     "metrics": "figures of a running panel for Prometheus",
     "reload": "have the service read its scene again, and report the result (for ExecReload=)",
     "completion": "print a shell's completion of this command line",

@@ -12,12 +12,18 @@ case $extra in
   *) echo "usage: sh controller/set_up.sh offline | test | test,gateware" >&2 && exit 2 ;;
 esac
 echo "haptic-panel: Debian packages, then Python packages (about $megabytes MB): 1 to 4 minutes"
+missing= as_root=
+for package in $packages; do dpkg -s "$package" >/dev/null 2>&1 || missing="$missing $package"; done
 if ! command -v apt-get >/dev/null; then
   echo "no apt-get here; needed are a C compiler, and Python 3.11 or later with its headers and venv" >&2
-elif ! dpkg -s $packages >/dev/null 2>&1; then
-  as_root=$([ "$(id -u)" = 0 ] || echo sudo)
-  $as_root apt-get update -q
-  $as_root apt-get install -y -q --no-install-recommends $packages
+elif [ "$missing" ]; then
+  lacking() { echo "set_up.sh: $1: ask the administrator for: apt-get install$missing; then call this again" >&2 && exit 1; }
+  if [ "$(id -u)" != 0 ]; then
+    as_root=sudo
+    command -v sudo >/dev/null || lacking "Debian packages are missing, and there is no sudo here"
+  fi
+  { $as_root apt-get update -q && $as_root apt-get install -y -q --no-install-recommends $missing; } ||
+    lacking "Debian packages are missing, and ${as_root:-apt-get} did not install them"
 fi
 python3 -m venv .venv
 exec .venv/bin/pip install --disable-pip-version-check -e ".[$extra]"

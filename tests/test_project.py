@@ -148,10 +148,14 @@ def test_the_three_lines_of_the_readme_are_short_and_whole():
     ]
 
 
-def set_up(folder, extra, missing=False, user=0, programs=("apt-get",)):
+def set_up(folder, extra, missing=False, user=0, programs=("apt-get", "sudo")):
     """Lines that `set_up.sh` prints, with `dpkg`, `apt-get` and Python replaced by programs that print how they are called."""
     said = "#!/bin/sh\necho $(basename $0) $@\n"
-    own = {"dpkg": f"#!/bin/sh\nexit {int(missing)}\n", "id": f"#!/bin/sh\necho {user}\n", "sudo": said, "python3": said}
+    own = {
+        "dpkg": missing if isinstance(missing, str) else f"#!/bin/sh\nexit {int(missing)}\n",
+        "id": f"#!/bin/sh\necho {user}\n",
+        "python3": said,
+    }
     for name, text in (own | dict.fromkeys(programs, said)).items():
         (folder / "bin").mkdir(exist_ok=True)
         (folder / "bin" / name).write_text(text)
@@ -187,6 +191,21 @@ def test_what_is_missing_is_installed_and_then_the_package_into_venv(tmp_path, u
 
 def test_nothing_is_asked_of_apt_where_nothing_is_missing(tmp_path):
     assert "apt-get" not in set_up(tmp_path, ["test"]).stdout
+
+
+@pytest.mark.parametrize("sudo", [None, "#!/bin/sh\nexit 1\n"])
+def test_who_may_install_nothing_gets_one_line_with_what_to_ask_the_administrator_for(tmp_path, sudo):
+    """There is no sudo, or it refuses; half of the packages are there."""
+    (tmp_path / "bin").mkdir()
+    if sudo:
+        (tmp_path / "bin" / "sudo").write_text(sudo)
+        (tmp_path / "bin" / "sudo").chmod(0o755)
+    there = "#!/bin/sh\ncase $2 in python3-*) exit 0 ;; esac\nexit 1\n"
+    done = set_up(tmp_path, ["test"], missing=there, user=1000, programs=("apt-get",))
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert "ask the administrator for: apt-get install build-essential iverilog strace; then call this again" in done.stderr
+    assert "pip install" not in done.stdout
 
 
 def test_a_system_without_apt_is_told_what_is_needed(tmp_path):

@@ -106,6 +106,12 @@ class Board(Record, frozen=True):
         return Path(os.path.abspath(self.folder)).name or self.name  # noqa: PTH100 - a symbolic link keeps its name
 
     @property
+    def bitstream(self) -> str:
+        """File that its FPGA is loaded with: as board.toml names it, else after its folder."""
+        named = self.gateware.bitstream if self.gateware is not None else None
+        return named or f"{self.key}.bit"
+
+    @property
     def is_the_systems(self) -> bool:
         """Whether its folder is in /etc, where the service looks for its board."""
         return in_system_folder(Path(os.path.abspath(self.folder)))  # noqa: PTH100

@@ -161,13 +161,14 @@ class GatewareLoading(Record, frozen=True, kw_only=True):
         Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file. It is to load the
         FPGA's memory, not its flash: what the flash holds is what a lost supply goes back to.
     bitstream
-        The file: in the folder `gateware` of the release that runs, else beside board.toml.
+        The file: in the folder `gateware` of the release that runs, else beside board.toml. Left out: `NAME.bit`, after the
+        board's folder, as `haptic-panel gateware build` calls it; so a copy of a board does not load the bitstream of the original.
     limit_s
         Longest time that it may take; then it is ended, and the FPGA refused.
     """
 
     load: Annotated[tuple[Annotated[str, Meta(min_length=1)], ...], Meta(min_length=1)]
-    bitstream: Annotated[str, Meta(min_length=1)]
+    bitstream: Annotated[str, Meta(min_length=1)] | None = None
     limit_s: Annotated[float, Meta(gt=0, le=60)] = 20.0
 
     def __post_init__(self) -> None:

@@ -65,6 +65,7 @@ def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: EventCapture
 
     def played(start: Played) -> None:
         emissions.append(emission_event(start.trigger_s, board.waveform.duration_s))
+        knocks.begun(start.trigger_s)
 
     def stop() -> None:
         loop.stop()

@@ -42,7 +42,7 @@ def gateware_load(options: argparse.Namespace) -> int:
         if TO_MEMORY not in command:
             raise ConfigError(f"board {board.name!r}: --flash: gateware.load has no {TO_MEMORY} that {TO_FLASH} could replace")
         command[command.index(TO_MEMORY)] = TO_FLASH
-    file = Path(options.file) if options.file else bitstream_path(board, board.gateware.bitstream)
+    file = Path(options.file) if options.file else bitstream_path(board)
     if not file.is_file():
         raise ConfigError(f"{file}: there is no such bitstream: haptic-panel gateware build --board {options.board} --out {file}")
     if complaints := differences(read_identity(file), board, gateware_hash()):

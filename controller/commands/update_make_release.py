@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -40,7 +41,12 @@ def add(step: argparse.ArgumentParser) -> None:
     step.add_argument("--board", nargs="+", default=[], metavar="B", help="boards with their scenes: names, or folders")
     step.add_argument("--bank", nargs="+", default=[], type=Path, metavar="FILE", help="banks of these boards")
     step.add_argument(
-        "--gateware", nargs="+", default=[], type=Path, metavar="FILE", help="bitstreams, by the names boards call them"
+        "--gateware",
+        nargs="+",
+        default=[],
+        type=Path,
+        metavar="FILE",
+        help="bitstreams that are not beside their board.toml, by the names that boards load: PANEL.bit of PANEL",
     )
     step.add_argument(
         "--platform", default=this_platform(), metavar="P", help="such as aarch64-cp311 (default: that of this computer and Python)"
@@ -211,14 +217,21 @@ def _gateware_made_by(file: Path) -> dict[str, str]:
 
 
 def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, Path]:
-    """Bitstreams by the names under which boards load them; each is one that the bring-up of its boards takes."""
+    """Bitstreams by the names under which boards load them; each is one that the bring-up of its boards takes.
+
+    One beside a board.toml goes with the files of its board.
+    """
     found = {file.name: file for file in files}
     if len(found) < len(files):
         raise UsageError("two bitstreams have the same name: boards know them by their names")
     for name, board in boards.items():
-        loaded = Path(board.gateware.bitstream).name if board.gateware else None
-        if loaded and loaded not in found:
-            raise UpdateError(f"board {name} loads gateware {loaded}: give it with --gateware")
-        if loaded and (complaints := differences(read_identity(found[loaded]), board, build_hash(data_folder("fpga_rtl")))):
-            raise UpdateError(f"{found[loaded]}: bring-up of board {name} would refuse it: {'; '.join(complaints)}")
+        if board.gateware is None:
+            continue
+        loaded = Path(board.bitstream).name
+        file = found.get(loaded, board.folder / loaded)
+        if loaded not in found and not file.is_file():
+            build = shlex.join(["haptic-panel", "gateware", "build", "--board", board.called])
+            raise UpdateError(f"board {name} loads {loaded}: give it with --gateware, or put it beside its board.toml: {build}")
+        if complaints := differences(read_identity(file), board, build_hash(data_folder("fpga_rtl"))):
+            raise UpdateError(f"{file}: bring-up of board {name} would refuse it: {'; '.join(complaints)}")
     return {f"gateware/{name}": file for name, file in found.items()}

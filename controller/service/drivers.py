@@ -92,15 +92,15 @@ def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Sessi
     link = LazyLink(lambda: open_link(board, now_s), now_s)
     session = Session(link, board, gateware_hash(), now_s, bring_up=False)
     if board.gateware is not None:
-        session.loader = BitstreamLoader(board.gateware, bitstream_path(board, board.gateware.bitstream), now_s)
+        session.loader = BitstreamLoader(board.gateware, bitstream_path(board), now_s)
     return link, session
 
 
-def bitstream_path(board: Board, name: str) -> Path:
-    """Path of a bitstream that board.toml names: that of the release that runs, if there is one."""
+def bitstream_path(board: Board) -> Path:
+    """Path of a board's bitstream: that of the release that runs, if it has one, else beside board.toml."""
     release = running_release()
-    ours = release / "gateware" / name if release else None
-    return ours if ours is not None and ours.is_file() else board.beside(name)
+    ours = release / "gateware" / board.bitstream if release else None
+    return ours if ours is not None and ours.is_file() else board.beside(board.bitstream)
 
 
 def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Session:

@@ -160,7 +160,8 @@ class Knocks:
         self._progress = progress
         self._random = random.Random(seed)
         self._asked = 0
-        self._next_s = -NEVER
+        self._asked_s = self._next_s = -NEVER
+        self._gap_s = GAP_S[1]
         self._begin_s = NEVER
         self._on = False
         self._wait = os.eventfd(0)  # the loop needs a file to wait on; this one is never readable
@@ -177,6 +178,10 @@ class Knocks:
         """Note that the outputs are on."""
         self._on = True
 
+    def begun(self, start_s: float) -> None:
+        """Note when the click began, in s of the host's clock: the next keeps its distance from there."""
+        self._next_s = start_s + self._duration_s + self._gap_s
+
     def serve(self, now_s: float, control: PanelControl) -> None:
         """Play the next click if it is due, or end the measurement."""
         if now_s < self._next_s:
@@ -191,7 +196,8 @@ class Knocks:
             self._give_up(None)
         else:
             self._asked += 1
-            self._next_s = now_s + self._duration_s + self._random.uniform(*GAP_S)
+            self._gap_s = self._random.uniform(*GAP_S)
+            self._asked_s, self._next_s = now_s, now_s + PATIENCE_S  # until it begins: over a slow link that takes an upload
             try:
                 control.play(self._asked, KNOCK, *self._random.choice(self._places), None, 1.0, now_s)
             except ControllerError as error:
@@ -207,8 +213,10 @@ class Knocks:
         return self.played >= MIN_EMISSIONS and self._panel.ghosts >= MIN_GHOSTS
 
     def outcome(self, _ticket: int, outcome: Outcome, _age_s: float) -> None:
-        """Count a click that was played."""
+        """Count a click that was played; the next follows one that was not."""
         self.played += outcome is Outcome.PLAYED
+        if outcome is not Outcome.PLAYED:
+            self.begun(self._asked_s)
         self._progress(self.played, MOST_EMISSIONS)
 
     def touches(self, samples: Sequence[TouchSample]) -> None:

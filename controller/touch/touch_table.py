@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from controller.board.board import load_board
+from controller.board.lookup import SYSTEM_BOARDS, running_release
 from controller.errors import CalibrationError
 from controller.text_file import decoded
 from controller.touch.calibration import Calibration, Row
@@ -48,8 +49,12 @@ def check_writable(file: Path) -> None:
     Raises
     ------
     CalibrationError
-        If this user may not create files in its folder.
+        If this user may not create files in its folder, or it is part of a release, which is signed and will be followed by others.
     """
+    release = running_release()
+    if release is not None and release.resolve() in file.resolve().parents:
+        copy = f"cp -r {file.parent} {SYSTEM_BOARDS / file.parent.name}"
+        raise CalibrationError(f"{file}: is part of a release; measure for a copy of the board, which is used in its place: {copy}")
     if not os.access(file.resolve().parent, os.W_OK | os.X_OK):
         raise CalibrationError(
             f"{file}: cannot be written (Permission denied): without --write, and as root with `| /usr/lib/haptic-panel/set-touch"

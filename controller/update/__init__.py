@@ -1,1 +1,1 @@
-"""Releases in the field: trusted, fetched, installed beside the running one, tried, and taken back."""
+"""Releases in the field: trusted, fetched, installed beside the running one, tried, and rolled back."""

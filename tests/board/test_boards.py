@@ -55,7 +55,7 @@ WAIVERS = """`verilator_config
 lint_off -file "*/primitives.v"
 lint_off -rule DECLFILENAME -file "*/top.v"
 lint_off -rule PROCASSINIT -file "*/top.v" -match "*released_q*"
-lint_off -rule SYNCASYNCNET -file "*/ulx3s/top.v" -match "*'gp'*"
+lint_off -rule SYNCASYNCNET -file "*/top.v" -match "*'gp'*"
 """  # all builds ask for top; a reset generator begins with a value of its own; SCK shares the bus of a header with others
 
 

@@ -3,6 +3,7 @@
 import copy
 import re
 import tomllib
+from typing import get_args
 
 import msgspec
 import pytest
@@ -13,6 +14,7 @@ from controller.application_socket.messages import AnyRequest
 from controller.board.board import Board
 from controller.board.lookup import find_board
 from controller.board.records import as_record
+from controller.board.touch_panels import Touch
 from controller.board.validation import explain
 from controller.errors import ConfigError
 from controller.scene.scene_tables import SceneTable
@@ -46,7 +48,7 @@ def changed(tables, *path, to):
 
 SUPPORTS = "'clamped', 'foam', 'free', 'simply_supported'"
 SIDES = {"x0": "free", "x1": "clamped", "y0": "free", "y1": "simply_supported"}
-PANELS = "'recording', 'linux_input', 'ft5x06', 'gt911', 'serial_panel'"
+PANELS = ", ".join(repr(panel.__struct_config__.tag) for panel in get_args(Touch))
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from controller.bank.inspection import bank_info
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.board.board import load_board
-from controller.board.lookup import find_board
+from controller.board.lookup import board_places, find_board
 from controller.board.paths import bank_path
 from controller.cli import main
 from controller.fpga import bring_up
@@ -26,6 +26,8 @@ from controller.simulation.rtl_build import verilator_root
 from controller.simulation.run_figures import report, spoiled
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
+
+BOARDS = sorted({file.parent.name for place in board_places() for file in place.glob("*/board.toml")})
 
 RECORDINGS = Path(__file__).parent.parent / "touch" / "recordings"
 DEMO = find_board("simulated") / "demo.evemu"
@@ -212,7 +214,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: ice40_hx8k, simulated"),
+        (("run", "--board", "nothing"), 78, f"board 'nothing' not found; there are: {', '.join(BOARDS)}"),
         (("run", "--scene", "nothing"), 78, "board 'simulated' has: keyboard, library, plate, scene, slider, spots"),
         (("run", "--replay", "/nothing.evemu"), 69, "/nothing.evemu: the recording cannot be read"),
         (("run", "--replay", "/"), 69, "the recording cannot be read"),

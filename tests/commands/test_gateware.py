@@ -231,7 +231,7 @@ def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_told(tool
 
 def test_a_bitstream_that_is_not_whole_is_told_and_not_loaded(tools, panel, loader, capsys, tmp_path):
     """openFPGALoader would write it, into the flash too; the FPGA would find its CRC wrong, or wait for the rest."""
-    out = panel / "ulx3s.bit"
+    out = panel / "panel.bit"
     assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
     whole = out.read_bytes()
     unsealed = whole.replace(whole[whole.index(b"Haptic-panel-SHA-256") : whole.index(BODY) - 1], b"")
@@ -310,7 +310,7 @@ def loader(tmp_path, monkeypatch):
 
 
 def test_what_bring_up_would_take_is_loaded_into_the_memory_and_the_flash_only_if_told(tools, panel, loader, capsys, tmp_path):
-    out = panel / "ulx3s.bit"
+    out = panel / "panel.bit"
     assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
     assert main(["gateware", "load", "--board", str(panel)]) == 0
     assert loader() == [f"--board ulx3s --write-sram {out}"]
@@ -322,7 +322,7 @@ def test_what_bring_up_would_take_is_loaded_into_the_memory_and_the_flash_only_i
 
 
 def test_nothing_is_loaded_that_bring_up_would_refuse_or_while_another_program_has_the_link(tools, panel, loader, capsys, tmp_path):
-    out = panel / "ulx3s.bit"
+    out = panel / "panel.bit"
     assert "there is no such bitstream" in said(capsys, "load", "--board", panel, code=78)
     assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
     text = (panel / "board.toml").read_text()
@@ -341,7 +341,7 @@ def test_nothing_is_loaded_that_bring_up_would_refuse_or_while_another_program_h
 
 
 def test_a_loader_that_is_not_there_and_boards_that_have_none(tools, panel, capsys, monkeypatch, tmp_path):
-    assert main(["gateware", "build", "--board", str(panel), "--out", str(panel / "ulx3s.bit")]) == 0
+    assert main(["gateware", "build", "--board", str(panel), "--out", str(panel / "panel.bit")]) == 0
     monkeypatch.setenv("PATH", str(tmp_path))
     line = said(capsys, "load", "--board", panel, code=78)
     assert line.endswith("openFPGALoader is not installed: apt-get install openfpgaloader")

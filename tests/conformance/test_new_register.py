@@ -1,7 +1,7 @@
 """Registers and a fault cause more, added to a copy of the tree at the places that fpga_rtl/README.md names, and nowhere else.
 
 A counter of TEST frames, the setting up to which it counts, a number that is built in, and a fault while the bit period has one
-certain length.
+certain length. Their addresses and their bit are the next that are free, whatever the tree has by now.
 """
 
 import importlib.util
@@ -14,10 +14,14 @@ from pathlib import Path
 
 import pytest
 
+from controller.fpga.registers import Fault, Register
+
 ROOT = Path(__file__).parent.parent.parent
-RECORDS = """    TESTS_MAX = 51, Kind.SETTING, 20, "TEST frames that are counted", 1000, 1, 5000
-    TESTS = 52, Kind.COUNTER, 20, "TEST frames accepted, up to TESTS_MAX"
-    TESTS_BUILT = 53, Kind.BUILT_IN, 32, "a number of the board"
+AT = max(Register) + 1  # the next address that is free
+BIT = max(Fault).bit_length()  # and the next bit of a cause
+RECORDS = f"""    TESTS_MAX = {AT}, Kind.SETTING, 20, "TEST frames that are counted", 1000, 1, 5000
+    TESTS = {AT + 1}, Kind.COUNTER, 20, "TEST frames accepted, up to TESTS_MAX"
+    TESTS_BUILT = {AT + 2}, Kind.BUILT_IN, 32, "a number of the board"
 """
 VERILOG = """    reg [19:0] tests_q;
     assign tests = tests_q;
@@ -29,7 +33,7 @@ VERILOG = """    reg [19:0] tests_q;
 MODEL = """        counts, most = self.telemetry.counts, self.registers.read(Register.TESTS_MAX) or 0
         counts[Register.TESTS] += frame.kind == FrameType.TEST and counts[Register.TESTS] < most
 """
-FAULT = """    TEST_PERIOD = 9, "The bit period was that of the test."
+FAULT = f"""    TEST_PERIOD = {BIT}, "The bit period was that of the test."
 """
 FAULT_VERILOG = """    assign wrong[`FAULT_TEST_PERIOD] = bit_ticks_i == 16'd110;
 """
@@ -39,9 +43,10 @@ FAULT_MODEL = """        if self._registers.bit_ticks == 110:
 FAULT_FORESEEN = """        if self._registers.bit_ticks == 110:
             ticks.append(now)
 """
-PLACES = (  # file, what is written there, before which line
+PLACES = (  # file, what is written there, before what
     ("controller/fpga/registers.py", RECORDS, r"\n    @property\n    def access"),
     ("fpga_rtl/haptic_core.v", VERILOG, r"    // Waveforms\n"),
+    ("fpga_rtl/haptic_core.v", " || TESTS_BUILT == 32'd0", r"\) begin : not_given\n"),
     ("controller/gateware_model/commands.py", MODEL, r"        \w+\.sequence = frame\.sequence\n"),
     ("controller/fpga/build_parameters.py", "    tests_built: int\n", r"\n    @classmethod\n    def of"),
     ("controller/fpga/build_parameters.py", "            tests_built=4321,\n", r"        \)\n\n    def verilog"),
@@ -96,6 +101,7 @@ if len(sys.argv) > 1:
 # The same of register_file.v alone: what is on its port can be read, the setting leaves, nothing behind them is known
 BENCH = """
 module bench;
+    localparam [15:0] AT = ADDRESS;
     reg clk = 0, rst = 1, write = 0;
     reg [15:0] address = 0;
     reg [31:0] word = 0;
@@ -110,12 +116,12 @@ module bench;
         .quiet_i(1'b1), .permitted_i(1'b1), .refused_i(2'b00), .gap_i(1'b0), .tests_i(20'd777), .tests_max_o(tests_max)
     );
     initial begin
-        #4 rst = 0; address = 51; #4 $display("%0d %0d %0d", read_result, data, tests_max);
+        #4 rst = 0; address = AT; #4 $display("%0d %0d %0d", read_result, data, tests_max);
         word = 5001; #4 $display("%0d", write_result);
         word = 5000; #4 write = 1; #2 write = 0; #4 $display("%0d %0d", data, tests_max);
-        address = 52; #4 $display("%0d %0d %0d", read_result, data, write_result);
-        address = 53; #4 $display("%0d %0d", read_result, data);
-        address = 54; #4 $display("%0d", read_result);
+        address = AT + 1; #4 $display("%0d %0d %0d", read_result, data, write_result);
+        address = AT + 2; #4 $display("%0d %0d", read_result, data);
+        address = AT + 3; #4 $display("%0d", read_result);
         $finish;
     end
 endmodule
@@ -163,16 +169,16 @@ def test_the_model_has_the_fault(tree):
 def test_the_readme_shows_it(tree):
     rows = [line for line in (tree / "fpga_rtl" / "README.md").read_text().splitlines() if "| TESTS" in line]
     assert rows == [
-        "| 51 | TESTS_MAX | RW | 19:0 | 1000 | TEST frames that are counted; 1 to 5000 |",
-        "| 52 | TESTS | RO | 19:0 | 0 | TEST frames accepted, up to TESTS_MAX |",
-        "| 53 | TESTS_BUILT | RO | 31:0 | built in | a number of the board |",
+        f"| {AT} | TESTS_MAX | RW | 19:0 | 1000 | TEST frames that are counted; 1 to 5000 |",
+        f"| {AT + 1} | TESTS | RO | 19:0 | 0 | TEST frames accepted, up to TESTS_MAX |",
+        f"| {AT + 2} | TESTS_BUILT | RO | 31:0 | built in | a number of the board |",
     ]
 
 
 def test_the_verilog_of_the_register_file_reads_it(tree, tmp_path):
     if not shutil.which("iverilog"):
         pytest.skip("no Icarus: apt-get install iverilog")
-    (tmp_path / "bench.v").write_text(BENCH)
+    (tmp_path / "bench.v").write_text(BENCH.replace("ADDRESS", str(AT)))
     sources = [tmp_path / "bench.v", *(tree / "fpga_rtl" / name for name in ("register_file.v", "link_counters.v"))]
     subprocess.run(["iverilog", "-g2005", f"-I{tree / 'fpga_rtl'}", "-o", tmp_path / "bench", *sources], check=True)
     said = subprocess.run(["vvp", "-n", tmp_path / "bench"], capture_output=True, text=True, check=True).stdout
@@ -187,7 +193,7 @@ def test_the_whole_verilog_has_no_warning(tree):
     from controller.fpga.build_parameters import BuildParameters
     from controller.simulation.rtl_build import verilator_root
 
-    values = BuildParameters.of(load_board(find_board("simulated")), 1).verilog()
+    values = BuildParameters.of(load_board(find_board("simulated")), 1).verilog() | {"TESTS_BUILT": 4321}
     root, rtl = verilator_root(), tree / "fpga_rtl"
     options = ["--lint-only", "-Wall", "--quiet", "--language", "1364-2005", "--top-module", "haptic_core", f"-I{rtl}"]
     command = [root / "bin" / "verilator_bin", *options, *(f"-G{name}=32'd{value}" for name, value in values.items())]

@@ -1,10 +1,13 @@
 """Runs in the container, as root: a panel of one's own put into service, by the lines of boards/README.md and systemd/README.md.
 
-The board is a copy of the ULX3S's with another plate, other actuators and another kind of touch panel, whose axes lie
-otherwise; its FPGA is the model. Lines are taken from the documents; `editor` is a program that makes our changes.
+The board is a copy of the ULX3S's with another plate, fewer actuators elsewhere and another kind of touch panel, whose axes lie
+otherwise. Its FPGA is the model at a serial port, and empty until a bitstream is loaded; it is then what that bitstream's
+parameters say. Lines are taken from the documents; `editor` is a program that makes our changes, `openFPGALoader` one that has the
+FPGA read the file.
 """
 
 import contextlib
+import grp
 import itertools
 import math
 import os
@@ -12,17 +15,40 @@ import re
 import shutil
 import signal
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import panel_board
+from far_end_serial import FarEnd
 from serial_finger import LARGEST, SerialPanel
 from the_service import CHECKOUT, UNIT, fresh_start, journal, main_pid, run, shown, wait_for
 
 from controller.application_socket.client import PanelClient
+from controller.board.board import load_board
 
 LENGTH_MM, WIDTH_MM = 165.0, 100.0
-DISCS_MM = ((20, 12), (70, 13), (125, 12), (152, 45), (135, 88), (80, 87), (30, 88), (13, 52))  # no two are mirror images
+DISCS_MM = ((20, 12), (70, 13), (125, 12), (152, 45), (135, 88), (80, 87), (30, 88))  # no two are mirror images
 PANEL = SerialPanel()
+BOARD = Path("/etc/haptic-panel/boards/panel/board.toml")
+BITSTREAM = BOARD.with_name("panel.bit")
+FPGA, JTAG = Path("/run/fpga"), Path("/run/jtag")
+LINK = f"""kind = "serial"
+device = "{FPGA}"
+baud = 1_000_000
+clock_hz = 62_500_000
+sck_hz = 25_000_000
+slots = 16
+"""
+LOADER = f"""#!/opt/haptic-panel/current/venv/bin/python -I
+import socket, sys
+
+which, board, option, file = sys.argv[1:]
+assert (which, board) == ("--board", "ulx3s")
+with socket.socket(socket.AF_UNIX) as jtag:
+    jtag.connect("{JTAG}")
+    jtag.sendall(f"{{option}}\\n{{file}}".encode())
+    sys.exit(jtag.recv(16) != b"done")
+"""
 BANK = Path("/var/lib/haptic-panel/banks/panel.v4.bank")
 TOOLS = Path("/run/tools")
 SOCKET = "/tmp/panel.sock"
@@ -126,7 +152,7 @@ def seven_inches(text):
     }.items():
         text, count = re.subn(rf"^{key} = \S+", f"{key} = {value}", text, flags=re.MULTILINE)
         assert count == 1, key
-    text = text.replace('kind = "spi"', 'kind = "simulated"')
+    text = panel_board.table(text, "link", LINK)
     return f'{text}\n[application_socket]\npath = "{SOCKET}"\n'
 
 
@@ -153,17 +179,42 @@ def test_the_package_the_user_and_the_unit_are_installed_as_written():
 
 def test_a_copied_board_is_made_ones_own():
     done(step("cp -r"))
-    board = Path("/etc/haptic-panel/boards/panel/board.toml")
     TOOLS.mkdir()
-    (TOOLS / "changed.toml").write_text(seven_inches(board.read_text()))
-    (TOOLS / "editor").write_text(f'#!/bin/sh\nexec cp {TOOLS}/changed.toml "$1"\n')
-    (TOOLS / "editor").chmod(0o755)
+    (TOOLS / "changed.toml").write_text(seven_inches(BOARD.read_text()))
+    for name, text in (("editor", f'#!/bin/sh\nexec cp {TOOLS}/changed.toml "$1"\n'), ("openFPGALoader", LOADER)):
+        (TOOLS / name).write_text(text)
+        (TOOLS / name).chmod(0o755)
     done(step("editor "))
-    assert f"length_mm = {LENGTH_MM}" in board.read_text()
+    assert f"length_mm = {LENGTH_MM}" in BOARD.read_text()
 
 
 def test_the_changed_board_is_checked_without_any_device():
     assert "panel/board.toml" in done(step("board check"))
+
+
+@cache
+def fpga():
+    """As it was delivered: nothing is in its flash."""
+    return FarEnd(load_board(BOARD.parent), None, FPGA, grp.getgrnam("dialout").gr_gid, JTAG)
+
+
+def test_an_fpga_that_was_never_loaded_is_told_and_there_is_nothing_to_load_yet():
+    fpga()
+    assert re.search(
+        r"^NOT OK +link +.* does not answer: is it the panel's port, and is gateware loaded",
+        done(step("doctor --link"), code=1),
+        re.MULTILINE,
+    )
+    assert f"{BITSTREAM}: there is no such bitstream: haptic-panel gateware build --board panel" in done(
+        step("gateware load"), code=78
+    )
+
+
+def test_its_bitstream_is_built_and_loaded_and_there_after_a_loss_of_supply():
+    assert f"{BITSTREAM}: " in done(step("gateware build"))
+    assert f"{BITSTREAM}: loaded" in done(step("gateware load"))
+    fpga().lose_supply()
+    assert re.search(r"^ok +identity", done(step("doctor --link"), code=1), re.MULTILINE), "all but the bank is there"
 
 
 def test_the_bank_is_where_run_looks_for_it_and_belongs_to_the_service():
@@ -182,7 +233,7 @@ def test_the_doctor_looks_with_the_services_eyes():
         assert re.search(r"NOT OK +bank +.*Permission denied", done(step("doctor --board"), code=1)), "root itself could read it"
     finally:
         BANK.chmod(0o644)
-    assert "no error from" in done(step("doctor --link"))
+    assert re.search(r"^ok +bits +0 errors in", done(step("doctor --link")), re.MULTILINE)
 
 
 def calibrated(line):
@@ -208,12 +259,12 @@ def test_five_touches_put_the_axes_into_the_board():
         assert max(abs(a - b) for a, b in zip(row, expected, strict=True)) < 0.1, said
 
 
-def test_ghosts_are_not_looked_for_where_no_panel_hears_the_fpga():
-    """The one step that needs a real FPGA: its computed one is told apart at once, and nothing is written."""
-    board = Path("/etc/haptic-panel/boards/panel/board.toml")
-    before = board.read_text()
-    assert "has a simulated FPGA: --ghosts needs the one whose emissions the panel hears\n" in done(step("--ghosts"), code=78)
-    assert board.read_text() == before
+def test_a_panel_that_hears_nothing_of_the_fpga_gets_no_dead_time():
+    """Two minutes, as the page says."""
+    said = done(step("--ghosts"))
+    assert re.search(r"^ghost_ms = 0(\.0)?$", said, re.MULTILINE), said
+    assert re.search(r"^no ghost in \d{3} emissions: ", said, re.MULTILINE), said
+    assert "ghost_ms = 0" in BOARD.read_text()
 
 
 def recorded(line, user, folder):
@@ -275,9 +326,8 @@ def test_the_service_plays_what_was_commissioned():
 
 
 def test_a_pitch_changed_in_the_board_is_said_by_the_service_with_what_to_do():
-    board = Path("/etc/haptic-panel/boards/panel/board.toml")
-    good = board.read_text()
-    board.write_text(good.replace("pitch_mm = 4.5", "pitch_mm = 4.0"))
+    good = BOARD.read_text()
+    BOARD.write_text(good.replace("pitch_mm = 4.5", "pitch_mm = 4.0"))
     try:
         run("systemctl", "stop", UNIT)
         subprocess.run(["systemctl", "start", UNIT], check=False, capture_output=True)
@@ -289,4 +339,4 @@ def test_a_pitch_changed_in_the_board_is_said_by_the_service_with_what_to_do():
         done(advice)
         assert fresh_start()
     finally:
-        board.write_text(good)
+        BOARD.write_text(good)

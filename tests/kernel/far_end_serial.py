@@ -1,16 +1,20 @@
 """The FPGA at the far end of a serial port: the gateware's model, in a process that stays up whatever becomes of the service.
 
-The time of each focus is noted, so that how long nothing could be felt is measured where it counts.
+The time of each focus is noted, so that how long nothing could be felt is measured where it counts. An FPGA may begin empty, as
+it is delivered: it answers nothing until a bitstream is loaded, and is then what the bitstream's parameters make of it.
 """
 
 import contextlib
 import multiprocessing
 import os
 import selectors
+import socket
 import time
 import tty
+from dataclasses import replace
 from pathlib import Path
 
+from controller.fpga.bitstream import read_identity
 from controller.fpga.build_parameters import BuildParameters
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
@@ -25,18 +29,38 @@ class _Fpga:
         self._hv = 0
         self._focus_s = []
         self._between_frames = True
-        self.configure(gateware_hash)
+        self._flash = self._panel = None
+        if gateware_hash is not None:
+            self.configure(gateware_hash)
 
     def configure(self, gateware_hash):
         """Be a bitstream of this hash from now on, just out of reset."""
-        self._clock_hz = self._board.link.clock_hz
+        self._begin(BuildParameters.of(self._board, gateware_hash))
+
+    def program(self, option, file):
+        """What openFPGALoader does by JTAG: configure the FPGA from a file, by way of the flash if it is told so."""
+        built = {name.lower(): value for name, value in read_identity(Path(file)).parameters.items()}
+        parameters = replace(BuildParameters.of(self._board, 0), **built)
+        if {"--write-sram": False, "--write-flash": True}[option]:
+            self._flash = parameters
+        self._begin(parameters)
+
+    def lose_supply(self):
+        """Be without supply for a moment, then what the flash has, or empty."""
+        self._panel, self._hv = None, 0
+        if self._flash is not None:
+            self._begin(self._flash)
+
+    def _begin(self, parameters):
+        self._clock_hz = parameters.clock_hz
         self._start_s = time.monotonic()
-        model = GatewareModel(BuildParameters.of(self._board, gateware_hash))
-        self._panel = UartPanel(model, self._clock_hz, self._board.link.baud, time.monotonic)
+        self._panel = UartPanel(GatewareModel(parameters), self._clock_hz, self._board.link.baud, time.monotonic)
         self._hv = 0
 
     def receive(self, data):
         """Bytes from the host; those of the answers."""
+        if self._panel is None:
+            return b""
         answers = self._panel.receive(data)
         self._between_frames = data.endswith(b"\0")
         self._note()
@@ -48,7 +72,8 @@ class _Fpga:
 
     def hv(self):
         """Whether the outputs are on."""
-        self._advance()
+        if self._panel is not None:
+            self._advance()
         return bool(self._hv)
 
     def focus_times_s(self):
@@ -78,17 +103,20 @@ class FarEnd:
     ----------
     board : Board
         Clock, baud rate and limits that the gateware is built for.
-    gateware_hash : int
+    gateware_hash : int or None
+        None: it is empty.
     link : Path
         Becomes a symbolic link to the port.
     group : str
         Who may open it.
+    jtag : Path, optional
+        Unix socket through which a loader programs it: its option, a line break, the file.
     """
 
-    def __init__(self, board, gateware_hash, link, group):
+    def __init__(self, board, gateware_hash, link, group, jtag=None):
         context = multiprocessing.get_context("fork")
         self._pipe, theirs = context.Pipe()
-        self._process = context.Process(target=self._serve, args=(theirs, board, gateware_hash), daemon=True)
+        self._process = context.Process(target=self._serve, args=(theirs, board, gateware_hash, jtag), daemon=True)
         self._process.start()
         theirs.close()
         device = Path(self._pipe.recv())
@@ -105,15 +133,21 @@ class FarEnd:
         return self._pipe.recv()
 
     @staticmethod
-    def _serve(pipe, board, gateware_hash):
+    def _serve(pipe, board, gateware_hash, jtag):
         fpga = _Fpga(board, gateware_hash)
         wire, terminal = os.openpty()  # the terminal stays open here, so that the service may come and go
         tty.setraw(terminal)
         os.set_blocking(wire, False)  # like a UART: bytes that nobody reads are lost
+        loader = socket.socket(socket.AF_UNIX)
+        if jtag is not None:
+            loader.bind(str(jtag))
+            loader.listen()
         pipe.send(os.ttyname(terminal))
         with selectors.DefaultSelector() as selector:
             selector.register(wire, selectors.EVENT_READ)
             selector.register(pipe, selectors.EVENT_READ)
+            if jtag is not None:
+                selector.register(loader, selectors.EVENT_READ)
             while True:
                 ready = {key.fileobj for key, _ in selector.select()}
                 if wire in ready:
@@ -123,3 +157,7 @@ class FarEnd:
                 if pipe in ready:
                     what, arguments = pipe.recv()
                     pipe.send(getattr(fpga, what)(*arguments))
+                if loader in ready:
+                    with loader.accept()[0] as asked:
+                        fpga.program(*asked.recv(4096).decode().split("\n"))
+                        asked.sendall(b"done")

@@ -150,7 +150,7 @@ class Reference:
         return Result.OK, value
 
 
-BUILT_IN_LIMITS = [name for name in Register.__members__ if name.endswith(("_MAX", "_MIN"))] + ["HV_SETTLE_TICKS"]
+BUILT_IN_LIMITS = [r.name for r in Register if r.kind is Kind.BUILT_IN and r >= Register.HV_SETTLE_TICKS]
 LIMITED = ("HEARTBEAT_TICKS", "CHANNEL_EDGES", "TOTAL_EDGES", "EMISSION_TICKS", "DUTY_SHARE", "DUTY_TICKS")
 
 

@@ -1,6 +1,7 @@
 """Effects and regions as they stand in a file: what they mean, and what is refused with file, key and value."""
 
 import re
+import tomllib
 from typing import get_args
 
 import msgspec
@@ -79,7 +80,7 @@ BUZZ = f"{PRESS}, rate_hz = 100"
             ".when = ['press', 'move']: 'move' does not go with 'press': a single emission takes press, release, enter, ",
         ),
         ('{ when = "command" }', 'when = "command": an application plays it'),
-        ('"boom"', " = 'boom' is no effect; known: always, buzz, click, detent, double_click, edge, grating, notification, te"),
+        ('"boom"', f" = 'boom' is no effect; known: {', '.join(sorted(library()))}"),
         (f"{{ {PRESS}, amplitude = 0.2 }}", ".amplitude = 0.2"),
         (f"{{ {PRESS}, amplitude = 1.1 }}", ".amplitude = 1.1"),
         (
@@ -246,13 +247,15 @@ def test_a_scenes_own_effects_build_on_those_above_them_and_may_take_a_library_n
 
 def test_commands_can_play_all_but_spots_what_a_moving_finger_feels_and_what_the_board_cannot(scene_of):
     spatial = {name for name, effect in library().items() if set(effect.occasions) & {"move", "always"}}
-    assert spatial == {"texture", "detent", "grating", "always"}
+    assert spatial >= {"texture", "detent", "grating", "always"}
     assert set(scene_of(square(CLICK)).effects) == set(library()) - spatial
     slow = msgspec.structs.replace(BOARD, limits=msgspec.structs.replace(BOARD.limits, max_duty=0.21))
-    assert set(library()) - set(scene_of(square(CLICK), board=slow).effects) == spatial | {"buzz"}
+    fast = {name for name, effect in library().items() if (effect.rate_hz or 0) > 0.21 / BOARD.waveform.duration_s}
+    assert "buzz" in fast
+    assert set(library()) - set(scene_of(square(CLICK), board=slow).effects) == spatial | fast
 
 
-@pytest.mark.parametrize("name", ["simulated", "ulx3s", "ice40_hx8k"])
+@pytest.mark.parametrize("name", sorted(file.parent.name for file in data_folder("boards").glob("*/board.toml")))
 @pytest.mark.parametrize("effect", sorted(library()))
 def test_every_effect_of_the_library_can_be_named_by_a_region_or_a_command_of_every_board(scene_of, name, effect):
     board = load_board(data_folder("boards") / name)
@@ -297,7 +300,7 @@ EXAMPLES = re.findall(r"^\| .* \| `([{\"].*[}\"])` \|$", README, re.MULTILINE)
 
 
 def test_the_readme_has_an_example_of_every_key():
-    assert len(EXAMPLES) == 11
+    assert EXAMPLES
     for key in EffectTable.__struct_fields__:
         assert any(re.search(rf"\b{key} =", example) for example in EXAMPLES), key
 
@@ -320,11 +323,14 @@ def library_file(tmp_path, monkeypatch):
 
 def test_a_new_effect_is_a_table_in_the_librarys_file_and_nothing_else(scene_of, library_file):
     (table,) = re.findall(r"^```toml\n(\[effects\..*?)^```$", README, re.MULTILINE | re.DOTALL)
-    library_file.write_text(f"{LIBRARY.read_text()}\n{table}")
-    scene = scene_of(square('"heartbeat", { effect = "heartbeat", when = "enter", amplitude = 0.5 }'))
+    (shown,) = re.findall(r"^\[effects\.(\w+)\]", table, re.MULTILINE)
+    taken = tomllib.loads(LIBRARY.read_text())["effects"]
+    name = next(name for name in (shown, *(f"{shown}_{number}" for number in range(99))) if name not in taken)
+    library_file.write_text(f"{LIBRARY.read_text()}\n{table.replace(f'effects.{shown}', f'effects.{name}')}")
+    scene = scene_of(square(f'"{name}", {{ effect = "{name}", when = "enter", amplitude = 0.5 }}'))
     assert [train.beats for train in (*scene.regions[0].press, *scene.regions[0].enter)] == [5, 5]
-    emissions = ActiveEffects(scene, "command 1", 0.1, 0.1).start("heartbeat", 1.0, 0.0, ticket=1)
-    assert [(e.region, e.amplitude, e.ticket) for e in emissions] == [("heartbeat", 0.5, 1)]
+    emissions = ActiveEffects(scene, "command 1", 0.1, 0.1).start(name, 1.0, 0.0, ticket=1)
+    assert [(e.region, e.amplitude, e.ticket) for e in emissions] == [(name, 0.5, 1)]
 
 
 def test_a_library_whose_keys_do_not_go_together_is_refused_with_its_key(scene_of, library_file):

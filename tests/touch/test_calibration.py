@@ -25,7 +25,7 @@ from controller.touch.calibration import (
     default_targets,
 )
 from controller.touch.source import TouchSample
-from controller.touch.touch_table import board_lines, with_calibration, write_calibration
+from controller.touch.touch_table import board_lines, check_writable, with_calibration, write_calibration
 
 BOARD = load_board(data_folder("boards") / "simulated")
 PLATE = BOARD.plate  # 210 mm x 148 mm
@@ -293,6 +293,18 @@ def test_a_board_that_would_not_be_valid_is_not_written(board_folder):
 def test_a_board_that_cannot_be_written_is_said_in_words(tmp_path):
     with pytest.raises(CalibrationError, match="cannot be written"):
         write_calibration(tmp_path / "absent" / "board.toml", FOUND)
+
+
+def test_the_board_of_a_release_is_not_changed_and_the_way_to_one_of_the_devices_own_is_shown(tmp_path, monkeypatch):
+    file = tmp_path / "release" / "boards" / "panel" / "board.toml"
+    file.parent.mkdir(parents=True)
+    shutil.copy(BOARD.folder / "board.toml", file)
+    check_writable(file)
+    monkeypatch.setattr("controller.touch.touch_table.running_release", lambda: tmp_path / "release")
+    with pytest.raises(CalibrationError, match=rf": cp -r {file.parent} /etc/haptic-panel/boards/panel$"):
+        check_writable(file)
+    (tmp_path / "own").mkdir()
+    check_writable(tmp_path / "own" / "board.toml")
 
 
 def recording(tmp_path, evemu_text, panel, missed_mm=0.0):

@@ -116,7 +116,7 @@ def test_a_new_kind_of_panel_takes_the_places_that_the_readme_says(tmp_path, own
         "controller/touch/made_up.py": DRIVER,
         "controller/touch/panels.py": [
             (r"    LinuxInputTouch: ", lambda found: entry + found[0]),
-            (r"import Ft5x06Touch, ", lambda found: found[0] + "MadeUpTouch, "),
+            (r"from controller\.board\.touch_panels import ", lambda found: found[0] + "MadeUpTouch, "),
         ],
     }
     section = (CONTROLLER / "touch" / "README.md").read_text().split("### A new kind of panel")[1].split("\n#")[0]

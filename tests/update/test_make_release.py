@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -141,7 +142,8 @@ def test_what_does_not_fit_is_refused_in_one_line_and_leaves_nothing(place, bank
     (thicker / "board.toml").write_text(re.sub(r"(?m)^thickness_mm = .*", "thickness_mm = 3.3", text))
     refuses(78, "was built for another board than thicker", "--board", thicker, "--bank", bank_file)
     refuses(2, "is a second bank for banks/simulated.bank", "--board", "simulated", "--bank", bank_file, bank_file)
-    refuses(1, "board ulx3s loads gateware ulx3s.bit: give it with --gateware", "--board", "ulx3s")
+    lacks = "board ulx3s loads ulx3s.bit: give it with --gateware, or put it beside its board.toml: haptic-panel gateware build"
+    refuses(1, lacks, "--board", "ulx3s")
     refuses(78, "as no --board is given", "--bank", bank_file)
     refuses(78, "cannot be read", "--board", "simulated", "--bank", tmp_path / "none.bank")
     refuses(1, "must be like aarch64-cp311", "--platform", "arm")
@@ -224,3 +226,48 @@ def test_a_bitstream_that_the_bring_up_would_refuse_is_not_released(place, capsy
     refused(make(place, "out", "--board", "ulx3s", "--gateware", file), "No such file")
     assert released("good") == 0
     assert (place / "good/gateware/ulx3s.bit").read_bytes() == file.read_bytes()
+
+
+def bitstream_of(board, file):
+    """A file that says that it is a board's bitstream."""
+    parameters = top_parameters(board, build_hash(ROOT / "fpga_rtl"))
+    identity = Identity(board=board.name, top="ulx3s", device="d", seed=1, parameters=parameters, sources="0", tools={})
+    file.parent.mkdir(exist_ok=True)
+    file.write_bytes(sealed(b"\xff\x00" + identity.comment().encode() + b"\0\xff" + bytes(100)))
+    return file
+
+
+def test_a_board_copied_from_ulx3s_is_released_by_the_lines_of_the_page(place, monkeypatch):
+    """Those of systemd/README.md and those of publishing.md; Yosys and nextpnr alone are left out, which take minutes."""
+    panel = place / "panel"
+    shutil.copytree(ROOT / "boards/ulx3s", panel)
+    text = (panel / "board.toml").read_text()
+    for key, value in (("length_mm", "215.0"), ("thickness_mm", "0.7"), ("pitch_mm", "15.0\ncoarse = true"), ("snap_mm", "7.0")):
+        text, count = re.subn(rf"(?m)^{key} = .*", f"{key} = {value}", text)
+        assert count == 1
+    (panel / "board.toml").write_text(text)
+    monkeypatch.chdir(place)
+    monkeypatch.setenv("STATE_DIRECTORY", str(place / "state"))
+    (block,) = re.findall(
+        r"^```console\n([^`]*make-release.*?)^```", (ROOT / "systemd/README.md").read_text(), re.MULTILINE | re.DOTALL
+    )
+    bank, gateware, release, _package = block.splitlines()
+    assert main(shlex.split(bank.replace("PANEL", "panel"))[1:]) == 0
+    assert shlex.split(gateware)[1:] == ["gateware", "build", "--board", "PANEL"]
+    bitstream_of(load_board(panel), place / "build/panel.bit")
+    assert main([*shlex.split(release.replace("PANEL", "panel"))[1:], "--wheels", "wheels"]) == 0
+    files = {file.path for file in read_release(place / "release-1.0").files}
+    assert {"boards/panel/board.toml", "banks/panel.bank", "gateware/panel.bit"} <= files
+    (shown,) = re.findall(r"`(--board \S+ --bank.*?)`", (ROOT / "controller/update/publishing.md").read_text())
+    assert make(place, "published", *shlex.split(shown.replace("../", ""))) == 0
+
+
+def test_a_bitstream_beside_the_board_goes_with_it(place, capsys):
+    panel = place / "panel"
+    shutil.copytree(ROOT / "boards/ulx3s", panel)
+    file = bitstream_of(load_board(panel), panel / "panel.bit")
+    assert make(place, "out", "--board", panel) == 0
+    assert (place / "out/boards/panel/panel.bit").read_bytes() == file.read_bytes()
+    file.write_bytes(b"gateware")
+    assert make(place, "other", "--board", panel) == 1
+    assert f"{file}: is no bitstream" in capsys.readouterr().err
