@@ -20,6 +20,7 @@ from msgspec import Meta
 from controller.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, find_board, in_system_folder
 from controller.board.panel import Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
+from controller.board.panel_relations import PLACES
 from controller.board.patches import Patches
 from controller.board.records import Record, as_record, load_toml
 from controller.board.relation import Relation
@@ -210,7 +211,7 @@ def on_other_plate(board: Board, given: Sequence[str]) -> Board:
     Raises
     ------
     ConfigError
-        If there is no such board, key or value.
+        If there is no such board, key or value, or the patches do not fit on that plate.
     """
     keys: dict[str, Any] = {}
     for text in given:
@@ -225,6 +226,8 @@ def on_other_plate(board: Board, given: Sequence[str]) -> Board:
     if keys:
         there = {name: kept for name, kept in msgspec.to_builtins(board.plate).items() if kept is not None}
         board = msgspec.structs.replace(board, plate=as_record("--plate: ", there | keys, Plate))
+    if refused := [said for relation in PLACES for said in relation.broken(board)]:
+        raise ConfigError(f"--plate: {'; '.join(refused)}")
     return board
 
 

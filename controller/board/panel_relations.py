@@ -188,6 +188,7 @@ def _bank_size(board: Board) -> Iterator[str]:
         )
 
 
+PLACES = (_count, _channels, _on_plate, _apart, _patches)  # of patches on a plate: what any plate must keep, whatever plays on it
 RELATIONS = (
     _count,
     _channels,

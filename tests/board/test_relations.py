@@ -162,6 +162,10 @@ JUST = {
     "_edges_of_waveforms": ({"limits__max_edge_rate_hz": 90e3}, {"limits__max_edge_rate_hz": 89.9e3}),
     "axes": ({"touch__x_mm_from_axes": (10.6, 0.0, 0.0)}, {"touch__x_mm_from_axes": (10.4, 0.0, 0.0)}),
     "_axes_in_part": ({"touch__x_mm_from_axes": (105.1, 0.0, 0.0)}, {"touch__x_mm_from_axes": (104.9, 0.0, 0.0)}),
+    "_no_finger": (
+        {"touch__no_finger_mm": ((210.0, 0.0, 10.0, 148.0),)},
+        {"touch__no_finger_mm": ((210.1, 0.0, 10.0, 148.0),)},
+    ),
     "_lines": ({"link__permit_line": "GPIO26"}, {"link__permit_line": "GPIO25"}),
     "_bus_lines": ({"link__permit_line": "GPIO7"}, {"link__permit_line": "GPIO8"}),
     "_ports": (

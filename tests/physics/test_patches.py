@@ -1,5 +1,7 @@
 """Modes with patches: integrals against closed forms, limits that are known exactly, and Rayleigh's bounds."""
 
+import re
+
 import msgspec
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ from small_plate import WHOLE, small_board
 from controller.board.bending_waves import bending_stiffness
 from controller.board.panel import Actuator, Damping
 from controller.board.patches import Patch, Patches
+from controller.board.relations import judge
 from controller.errors import ConfigError
 from controller.physics.closed_form import SimplySupported
 from controller.physics.patches import BASIS, added, first_order, with_patches
@@ -146,8 +149,10 @@ def test_a_plate_of_too_many_modes_is_refused():
     ],
 )
 def test_patches_off_the_plate_or_on_each_other_are_refused(change, said):
+    wrong = msgspec.structs.replace(BOARD, patches=msgspec.structs.replace(DISC, **change))
+    assert any(re.search(said, refused) for refused in judge(wrong).refused)
     with pytest.raises(ValueError, match=said):
-        msgspec.structs.replace(BOARD, patches=msgspec.structs.replace(DISC, **change))
+        modes_of(wrong, 50e3)
 
 
 def test_patches_are_part_of_the_digest():

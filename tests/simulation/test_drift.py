@@ -290,3 +290,11 @@ def test_keys_of_the_plate_one_by_one(board):
     ):
         with pytest.raises(ConfigError, match=said):
             on_other_plate(board, [text])
+
+
+def test_a_plate_on_which_the_patches_do_not_fit_is_refused(board):
+    assert on_other_plate(board, ["length_mm=203"]).plate.length_mm == 203
+    with pytest.raises(
+        ConfigError, match=r"^--plate: actuators\[\d+\]\.x_mm = 197\.5 puts the patch off the plate \(0 to 199.0 mm\)"
+    ):
+        on_other_plate(board, ["length_mm=199"])

@@ -49,21 +49,6 @@ def test_a_panel_larger_than_the_glass_is_held_to_the_plate():
     assert axes.position_m(100, 100) == (BOARD.plate.length_m, BOARD.plate.width_m)
 
 
-def test_positions_off_the_plate_are_known_and_those_at_its_edge_are_not():
-    axes = Axes(board((230.0, 0.0, -10.0), (0.0, 160.0, -6.0)), AxisRange(0, 230), AxisRange(0, 160))
-    for x, y, off in (
-        (0, 80, True),
-        (7, 80, True),
-        (8, 80, False),
-        (222, 80, False),
-        (223, 80, True),
-        (100, 3, True),
-        (100, 160, True),
-    ):
-        axes.position_m(x, y)
-        assert axes.off_plate is off, (x, y)
-
-
 def test_an_axis_without_extent_reads_as_its_middle():
     axes = Axes(BOARD, AxisRange(500, 500), AxisRange(0, 100))
     assert axes.position_m(500, 25) == pytest.approx((0.105, 0.037))

@@ -1,5 +1,6 @@
 import math
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -517,3 +518,17 @@ def test_any_stream_gives_fingers_that_begin_move_and_end(protocol, stream):
             assert len(down) <= min(MAX_PLAYED, d.counts.max_fingers)
     assert {s.finger for s in d.release(1.0) if not s.contact} == down
     assert d.fingers() == []
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "off"),
+    [(0, 800, 1), (79, 800, 1), (80, 800, 0), (2200, 800, 0), (2221, 800, 1), (1000, 39, 1), (1000, 40, 0), (1000, 1600, 1)],
+)
+def test_positions_off_the_plate_are_counted_and_those_at_its_edge_are_not(x, y, off):
+    """Of a panel that reaches 10 and 6 mm beyond the glass: 2 mm beyond the edge are no more than the map is wrong."""
+    touch = msgspec.structs.replace(BOARD.touch, x_mm_from_axes=(230.0, 0.0, -10.0), y_mm_from_axes=(0.0, 160.0, -6.0))
+    axes = Axes(msgspec.structs.replace(BOARD, touch=touch), AxisRange(0, 2300), AxisRange(0, 1600))
+    source = Decoder(axes, Protocol.B)
+    ((_, x_mm, y_mm, _),) = play(source, (ID, 1), (X, x), (Y, y), REPORT)
+    assert source.counts.off_plate == off
+    assert (x_mm, y_mm) == (pytest.approx(min(max(x / 10 - 10, 0), 210)), pytest.approx(min(max(y / 10 - 6, 0), 148)))
