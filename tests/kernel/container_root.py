@@ -7,9 +7,10 @@ import argparse
 import os
 import pwd
 import re
+import subprocess
 from pathlib import Path
 
-from the_package import done, install
+from the_package import ENVIRONMENT, done, install, package
 from the_service import CHECKOUT, UNIT, wait_for
 
 from controller.cli import COMMANDS, parser
@@ -21,7 +22,7 @@ PLANTED = (  # a unit may write nowhere but to the journal
     f"import os; ids = {IDS}; os.write(2, f'planted {{ids}}\\n'.encode()) if 'INVOCATION_ID' in os.environ else "
     f"open('{SEEN}/' + ids, 'a').write(open('/proc/self/cmdline').read() + '\\n')\n"
 )
-LASTS = {"run", "record", "calibrate-touch", "judge"}  # until Ctrl-C, or a verdict: called for their help alone
+LASTS = {"run", "record", "calibrate-touch", "judge", "--listen"}  # until Ctrl-C, or a verdict: called for their help alone
 DOCUMENTS = (
     "README.md",
     "systemd/README.md",
@@ -64,10 +65,6 @@ def leaves(commands, words=()):
 
 def said(*command):
     """What a command of root's says, whatever becomes of it."""
-    import subprocess
-
-    from the_package import ENVIRONMENT
-
     ended = subprocess.run(
         ["timeout", "120", *command], env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         text=True, check=False, cwd="/root",
@@ -153,7 +150,7 @@ def test_units_start_a_release_as_its_users():
     said("systemctl", "stop", UNIT, "haptic-panel-metrics")
     told = re.findall("^planted ([0-9-]+)$", done("journalctl", "-b", "-o", "cat", "-g", "^planted "), re.MULTILINE)
     uids = {int(uid) for ids in told for uid in ids.split("-")[:3]}
-    assert {pwd.getpwuid(uid).pw_name for uid in uids} == {"haptic-update", UNIT}
+    assert {pwd.getpwuid(uid).pw_name for uid in uids} == {"haptic-update", "haptic-metrics", UNIT}
 
 
 def test_dpkg_installs_upgrades_removes_and_purges_without_running_a_release_as_root():
@@ -163,7 +160,7 @@ def test_dpkg_installs_upgrades_removes_and_purges_without_running_a_release_as_
         "-y",
         "--reinstall",
         "--allow-downgrades",
-        next(iter(map(str, Path("/packages").glob("haptic-panel_1.0-1_*")))),
+        package("1.0"),
     )
     install("2.0")
     assert users() <= {"haptic-update", UNIT}
