@@ -158,7 +158,7 @@ def test_when_there_is_no_more_room_the_recording_ends_with_a_whole_report(tmp_p
 
 
 PROGRAM = "import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))"
-STREAM = touch(0, 0, INITIAL) + touch(1000, 500) + touch(2000, 1500) + touch(2000, 1500, UNTOUCH) + touch(4095, 4095, INITIAL)
+STREAM = touch(0, 0, INITIAL) + touch(20, 10) + touch(40, 30) + touch(40, 30, UNTOUCH) + touch(4095, 4095, INITIAL)
 
 
 @pytest.fixture
