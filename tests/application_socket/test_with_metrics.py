@@ -69,10 +69,10 @@ def test_twenty_scrapers_make_two_lines_at_the_panel(panel):
     assert len(answers) >= 100
     assert all(b"haptic_panel_up 1.0\n" in answer and b"haptic_panel_emissions_total 7.0\n" in answer for answer in answers)
     counters = panel.socket.counters
-    assert (counters.lines, counters.clients) == (2, 1)  # hello and figures
+    assert (counters.lines, counters.clients_accepted) == (2, 1)  # hello and figures
     now_s[0] += 1.0
     turning(panel, lambda: asyncio.run(scraped(1)))
-    assert (counters.lines, counters.clients) == (3, 1)
+    assert (counters.lines, counters.clients_accepted) == (3, 1)
     figures.close()
 
 
@@ -82,7 +82,7 @@ def test_a_panel_that_was_started_anew_is_asked_by_another_connection(panel):
     for client in list(panel.socket._clients):
         panel.socket._clients._disconnect(client)
     assert turning(panel, figures)[2]["emissions"] == 7
-    assert panel.socket.counters.clients == 2
+    assert panel.socket.counters.clients_accepted == 2
     panel.close()
     for _ in range(2):
         with pytest.raises(ControllerError, match="no panel to talk to"):

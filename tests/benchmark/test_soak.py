@@ -44,7 +44,7 @@ def test_an_hour_is_told_by_itself(board, bank_file, scene, evemu_text, monkeypa
 def test_a_bank_that_is_not_there_is_one_line(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(soak, "bank_path", lambda *_: tmp_path / "no.bank")
     recording = tmp_path / "r.evemu"
-    recording.write_text("# EVEMU 1.3\n")
+    recording.write_text("# EVEMU 1.3\nA: 35 0 10 0 0 0\nE: 0.0 0003 0035 1\nE: 0.0 0000 0000 0\n")
     assert soak.main([str(recording), "--json"]) == 78
     out, err = capsys.readouterr()
     assert out == ""

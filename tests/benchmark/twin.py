@@ -145,7 +145,7 @@ class Twin:
             self._panel = which
             x, y = (AxisRange(*self._descriptions[which].axes[code][:2]) for code in POSITIONS)
             axes = Axes(self._board, x, y)
-            from_axes = (ctypes.c_double * 6)(*axes._from_axes)
+            from_axes = (ctypes.c_double * 6)(*axes.from_axes)
             panel = PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum)
             self._call("twin_panel", ctypes.byref(panel))
         at = 0
