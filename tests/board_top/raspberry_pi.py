@@ -125,6 +125,11 @@ class Chip(contextlib.nullcontext):
         return Request(self._board, config)
 
 
+def name_of(line):
+    """Name of a line that is given by its name or its number, as libgpiod takes both."""
+    return f"GPIO{line}" if isinstance(line, int) else line
+
+
 class Request:
     """Lines held: outputs drive their wires until they are released."""
 
@@ -132,6 +137,7 @@ class Request:
 
     def __init__(self, board, config):
         self._board = board
+        config = {name_of(line): settings for line, settings in config.items()}
         self.lines = list(config)
         self.fd = os.open(os.devnull, os.O_RDWR)
         self.held[self.fd] = self
@@ -139,12 +145,14 @@ class Request:
         for name in self._outputs:
             self.set_value(name, config[name].output_value)
 
-    def set_value(self, name, value):
+    def set_value(self, line, value):
+        name = name_of(line)
         assert name in self._outputs
         self._board.drive(wires()[name], value == Value.ACTIVE)
         self._board.run(CALL_PS)
 
-    def get_value(self, name):
+    def get_value(self, line):
+        name = name_of(line)
         assert name not in self._outputs
         self._board.run(CALL_PS)
         return Value.ACTIVE if self._board.high(wires()[name]) else Value.INACTIVE
