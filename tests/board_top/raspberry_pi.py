@@ -137,6 +137,7 @@ class Request:
 
     def __init__(self, board, config):
         self._board = board
+        self.offsets = [int(name_of(line).removeprefix("GPIO")) for line in config]
         config = {name_of(line): settings for line, settings in config.items()}
         self.lines = list(config)
         self.fd = os.open(os.devnull, os.O_RDWR)
