@@ -24,6 +24,8 @@ class Belief:
     ----------
     waiting : list of int
         For each play that was accepted and has not begun, first in, first out, the tick at which it is to begin, or TRIGGERED.
+    just_triggered : bool
+        No heartbeat was compared since the last trigger, whose edge may be on its way still.
     """
 
     __slots__ = (
@@ -35,11 +37,13 @@ class Belief:
         "_last_count",
         "_triggers",
         "_unscheduled",
+        "just_triggered",
         "waiting",
     )
 
     def __init__(self) -> None:
         self.waiting: list[int] = []
+        self.just_triggered = False
         self._counts: list[int] = []  # emissions of each, 0: endless
         self._last_count = 1  # of the play that began last
         self._unscheduled = False  # a play was to begin as soon as the plate is free: when that is, only the FPGA knows
@@ -75,6 +79,7 @@ class Belief:
     def triggered(self) -> None:
         """The trigger was pulsed."""
         self._triggers += 1
+        self.just_triggered = True
         if self.waiting and self.waiting[0] == TRIGGERED:
             self.begin_first()
         else:
@@ -140,7 +145,7 @@ class Belief:
         self.waiting.clear()
         self._counts.clear()
         self._last_count = 1
-        self._unscheduled = False
+        self._unscheduled = self.just_triggered = False
 
     def began(self, count: int) -> None:
         """A play of `count` emissions, 0 for endless, has begun."""

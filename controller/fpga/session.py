@@ -202,6 +202,10 @@ class Session(Supervision):
         belief, ticks = self.belief, status.timestamp_ticks
         if not self._armed or belief.unsure(ticks):
             return status
+        early = belief.just_triggered and not belief.saw_triggers(status)
+        belief.just_triggered = False
+        if early:  # the next heartbeat, or the next play, decides
+            return status
         surplus = status.queued - belief.at(ticks)
         if surplus > 0 and belief.waiting:
             raise OutOfStep(f"the FPGA holds {status.queued} plays where {len(belief.waiting)} were accepted")
