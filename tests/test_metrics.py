@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 from controller.commands.tables import service_table
 from controller.metrics import BOUNDS_US, P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
+from controller.touch.plausibility import figures
+from controller.touch.source import Counts as TouchCounts
 
 durations = st.lists(st.integers(0, 10**12), min_size=1, max_size=300)
 
@@ -90,6 +92,7 @@ def test_an_exported_histogram_has_every_record_below_its_upper_bound(durations_
 
 def test_the_table_of_a_service_says_how_it_ended():
     said = {"board": "panel", "bank": "panel.bank", "state": "waiting for FPGA", "cause": "there is no serial port", "warnings": []}
+    said["touch"] = {"plausibility": figures(TouchCounts(), {})}
     table = service_table(Counters().export() | said)
     assert "at the end: waiting for FPGA (there is no serial port)\n" in table
     assert "at the end: armed\n" in service_table(Counters().export() | said | {"state": "armed", "cause": ""})

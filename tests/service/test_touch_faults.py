@@ -48,7 +48,7 @@ def test_each_fault_is_logged_once_however_often_it_comes(logged):
 
 def status_of(folder, warnings, remark=""):
     file = StatusFile(folder, "glass")
-    file.watch(Counters(), int, lambda: (warnings, remark))
+    file.watch(Counters(), int, touch=lambda: (warnings, remark))
     file.changed(Condition(PanelState.ARMED, "", True, True))
     file.use(file.due_s, file.due_s + 1)
     return read_status(folder / "status.json")
