@@ -141,6 +141,7 @@ class FarEnd:
         loader = socket.socket(socket.AF_UNIX)
         if jtag is not None:
             loader.bind(str(jtag))
+            jtag.chmod(0o666)  # a loader need not be root's
             loader.listen()
         pipe.send(os.ttyname(terminal))
         with selectors.DefaultSelector() as selector:

@@ -50,6 +50,7 @@ touch "$folder/.complete"
 ln -s "releases/$release" "$tree/opt/haptic-panel/current"
 echo "$release" >"$tree/opt/haptic-panel/state/current"
 install -m 755 "$checkout/systemd/haptic-panel" "$tree/over/bin/"
+ln -s /run/tools/openFPGALoader "$tree/over/bin/" # where a test may put one: as-user gives a command no PATH of root's
 install -m 755 "$checkout"/systemd/{fall-back,as-user,set-touch} "$tree/over/lib/haptic-panel/"
 
 # the simulated board with a coarse bank, and a bit clock for which compiled Verilog is fast enough; the test files write what else their board has
