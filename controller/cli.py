@@ -14,27 +14,32 @@ from functools import partial
 from importlib import import_module
 
 from controller import __version__
+from controller.commands.common.arguments import Parser
 from controller.console import program
 from controller.errors import ConfigError
 
 COMMANDS = {  # in the order of --help, which prints these texts; each is a module of `commands`
-    "run": "run a panel; without devices: replay a touch recording on the simulated panel",
-    "status": "how the running panel fares, and whether it serves",
-    "client": "ask a running panel to play, switch it off and on, load a scene, show its state",
-    "doctor": "check every device, file and permission of a panel, and say what to do",
+    "run": "run a panel; without devices, replay a touch recording on the simulated panel",
+    "serve": "simulate a panel with an application socket, to develop a user interface against",
+    "status": "show the state of the running panel and of its updates",
+    "client": "ask a running panel to play, switch it off or on, load a scene, or show its state",
+    "doctor": "check every device, file and permission of a panel, and name the remedies",
     "board": "check a board and its scene; describe the keys of both files",
     "gateware": "build, describe and load bitstreams; bring up an FPGA",
     "bank": "build, describe and verify banks of precomputed waveforms",
-    "design": "what a panel of given numbers will be, by the equations of the paper",
-    "focus": "focus on given points of the plate model, and measure the focus",
+    "effect": "make effects of files from haptic designers, and such files of effects",
+    "design": "estimate a panel's performance from its parameters",
+    "focus": "focus on given points of the plate model, and measure the result",
     "benchmark": "compare methods of finding drive words: time, memory, bytes and energy against error",
     "record": "store the events of a touch panel",
-    "calibrate": "a bank from measurements of the plate: plan, measure, check, build",
+    "calibrate": "build a bank from measurements of the plate: plan, measure, check, build",
     "calibrate-touch": "map the touch panel's axes to the plate",
-    "update": "check, fetch, install and roll back signed releases; make and sign them",
-    "metrics": "figures of a running panel for Prometheus",
+    "update": "check for, fetch, install and roll back signed releases; make and sign them",
+    "page": "serve web pages that are felt, and a page that shows the panel",
+    "trace": "say why pulses were late, from a trace that the service has written",
+    "metrics": "export the figures of a running panel to Prometheus",
     "reload": "have the service read its scene again, and report the result (for ExecReload=)",
-    "completion": "print a shell's completion of this command line",
+    "completion": "print the shell completion of this command line",
 }
 
 
@@ -50,7 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         command: Callable[[argparse.Namespace], int] = options.command
         return command(options)
     except ModuleNotFoundError as error:
-        from controller.service.installation import missing_package
+        from controller.device.service.installation import missing_package
 
         missing = missing_package(error.name)
         if missing is None:
@@ -67,8 +72,9 @@ def parser(named: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:
         Commands whose modules are imported to declare their arguments; of the others only name and help text are known. Words
         that are no commands are ignored.
     """
-    main_parser = argparse.ArgumentParser(
+    main_parser = Parser(
         prog="haptic-panel",
+        example="haptic-panel run --speed max",
         description="Controller of a glass panel that pushes back under each finger.",
         epilog="exit codes: 0 done, 2 usage, 69 device missing, 78 configuration or bank, 1 otherwise",
     )

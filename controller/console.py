@@ -106,7 +106,7 @@ def _exit_code(command: Callable[[], int]) -> int:
     except KeyboardInterrupt:
         tell("interrupted", Priority.ERROR)
         code = INTERRUPTED
-    with contextlib.suppress(OutputError):  # of an error; it has been told
+    with contextlib.suppress(OutputError):  # of an error; it has been reported
         flush()
     if ended is not None:
         raise ended

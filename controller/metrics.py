@@ -52,7 +52,7 @@ class LatencyHistogram:
         Returns
         -------
         list of float
-            For each fraction the duration in ns that so many of the records do not exceed, within 0.8 %; NaN without records.
+            For each fraction the duration in ns that this many of the records do not exceed, within 0.8 %; NaN without records.
         """
         if not self.count:
             return [math.nan] * len(fractions)
@@ -78,9 +78,9 @@ class LatencyHistogram:
         """[upper bound in µs, count] of every bucket with records."""
         return [[_upper_ns(index) * 1e-3, count] for index, count in enumerate(self._buckets) if count]
 
-    def export(self, histogram: bool = True) -> dict[str, Any]:
-        """`summary_us`, with `histogram` also the buckets as `buckets_us` returns them; ready for JSON."""
-        return self.summary_us() | ({"histogram": self.buckets_us()} if histogram else {})
+    def export(self, *, histograms: bool = True) -> dict[str, Any]:
+        """`summary_us`, with `histograms` also the buckets as `buckets_us` returns them; ready for JSON."""
+        return self.summary_us() | ({"histogram": self.buckets_us()} if histograms else {})
 
     def summary_us(self) -> dict[str, float | int | None]:
         """`{count, p50, p99, p999, worst}`, durations in µs; None where there are too few records."""
@@ -155,9 +155,9 @@ class Stages:
         self.host.record(host_ns)
         self.total.record(host_ns + wire_ns + wait_ns)
 
-    def export(self, histograms: bool = True) -> dict[str, dict[str, Any]]:
+    def export(self, *, histograms: bool = True) -> dict[str, dict[str, Any]]:
         """`LatencyHistogram.export` of each stage, by its name."""
-        return {name: getattr(self, name).export(histograms) for name in STAGES}
+        return {name: getattr(self, name).export(histograms=histograms) for name in STAGES}
 
 
 @dataclass(slots=True)
@@ -211,7 +211,7 @@ class Counters:
     resident: int = 0
     heartbeats: int = 0
     scheduled: int = 0  # of `emissions`: started by the FPGA at a time given beforehand
-    late: int = 0  # beats that reached the FPGA too late for their time, and were played at once
+    late: int = 0  # pulses that reached the FPGA too late for their time, and were played at once
     prefetched: int = 0  # waveforms uploaded for a predicted emission of a moving finger
     prefetch_wasted: int = 0  # of these, those that were not played so far
     composed_beforehand: int = 0  # of `uploads`: waveforms of several points that the bank has ready
@@ -236,7 +236,7 @@ class Counters:
     upload_latency: Stages = field(default_factory=Stages)
     resident_latency: Stages = field(default_factory=Stages)
 
-    def export(self, histograms: bool = True) -> dict[str, Any]:
+    def export(self, *, histograms: bool = True) -> dict[str, Any]:
         """All counters and latencies, ready for JSON; with histograms it takes 12 ms and 200 kB, without 0.4 ms and 2 kB."""
         plain = {name: getattr(self, name) for name in self.__slots__ if isinstance(getattr(self, name), int | float | str)}
         return plain | {
@@ -244,9 +244,9 @@ class Counters:
             "link_counts": asdict(self.link),
             "skipped": asdict(self.skipped),
             "latency_us": {
-                "report": self.report_latency.export(histograms),
-                "uploads": self.upload_latency.export(histograms),
-                "resident": self.resident_latency.export(histograms),
+                "report": self.report_latency.export(histograms=histograms),
+                "uploads": self.upload_latency.export(histograms=histograms),
+                "resident": self.resident_latency.export(histograms=histograms),
             },
         }
 

@@ -67,14 +67,12 @@ def run_program(
 
     Parameters
     ----------
-    command : sequence of str or Path
     limit_s : float
         Time after which it is ended, with all that it started.
     attempts : int
         How often it is run at most: more than once where a bus, a network or a machine short of memory may fail for a moment.
     package : str
         Debian's package of it, named where it is missing.
-    cwd : Path, optional
     environment : mapping, optional
         Instead of this process's.
     good : collection of int
@@ -92,7 +90,7 @@ def run_program(
     words = [os.fspath(word) for word in command]
     for left in reversed(range(attempts)):
         try:
-            return _run(words, limit_s, package, cwd, environment, good, shown)
+            return _run(words, limit_s, package, cwd, environment, good, shown=shown)
         except CannotStart:
             raise
         except ProgramError as error:
@@ -140,6 +138,14 @@ def end(process: subprocess.Popen[bytes]) -> None:
         process.wait(ENDS_S)
 
 
+def repeat(out: BinaryIO, shown: int) -> int:
+    """Repeat on standard error what a program has written into a file after its first `shown` bytes; how many bytes that is."""
+    new = os.pread(out.fileno(), 1 << 20, shown)
+    with contextlib.suppress(OSError):  # full or closed
+        os.write(sys.__stderr__.fileno() if sys.__stderr__ else 2, new)
+    return len(new)
+
+
 def how_it_ended(name: str, code: int, said: str) -> str:
     """Sentence on a program that failed, by its exit code (negative: a signal) and what it said."""
     ended = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
@@ -159,6 +165,7 @@ def _run(
     cwd: Path | None,
     environment: Mapping[str, str] | None,
     good: Collection[int],
+    *,
     shown: bool,
 ) -> Output:
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:  # a pipe is held open by what a program leaves behind
@@ -188,10 +195,7 @@ def _shown_until_it_ends(process: subprocess.Popen[bytes], out: BinaryIO, limit_
             code = process.wait(SHOWN_EVERY_S)
         except subprocess.TimeoutExpired:
             code = None
-        new = os.pread(out.fileno(), 1 << 20, shown)
-        shown += len(new)
-        with contextlib.suppress(OSError):  # full or closed
-            os.write(sys.__stderr__.fileno() if sys.__stderr__ else 2, new)
+        shown += repeat(out, shown)
         if code is not None:
             return code
         if time.monotonic() >= end_s:

@@ -22,7 +22,6 @@ def open_regular(path: Path, *, owner: int | None = None, links: bool = False) -
 
     Parameters
     ----------
-    path : Path
     owner : int, optional
         User that it has to belong to.
     links : bool
@@ -63,7 +62,6 @@ def read_regular(path: Path, most_bytes: int, *, owner: int | None = None, links
 
     Parameters
     ----------
-    path : Path
     most_bytes : int
         A larger file is refused.
     owner, links

@@ -39,7 +39,6 @@ def read_text(file: Path, max_bytes: int = MAX_BYTES) -> str:
 
     Parameters
     ----------
-    file : Path
     max_bytes : int
         Size that it may have.
 

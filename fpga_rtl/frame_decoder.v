@@ -29,6 +29,8 @@ module frame_decoder (
     output wire [31:0] word_o,
     output wire        load_word_o      // pulse: it is one of a LOAD for the landing buffer
 );
+    localparam [15:0] SYNC = `FRAME_SYNC;
+
     reg        accept_q, refuse_q;
     reg [7:0]  refusal_q;
     reg        sync_good_q;
@@ -53,7 +55,7 @@ module frame_decoder (
                 ? length_q >= `LOAD_PAYLOAD_MIN_BYTES && length_q <= `LOAD_PAYLOAD_MAX_BYTES && length_q[1:0] == 2'b00
                 : length_q == `SHORT_PAYLOAD_BYTES;
         end
-        if (release_i) whole = length_good_q && !partial_i && {7'd0, count_q} == {1'b0, length_q} + 17'd12;
+        if (release_i) whole = length_good_q && !partial_i && {7'd0, count_q} == {1'b0, length_q} + `FRAME_OVERHEAD_BYTES;
     end
 
     wire [31:0] crc;
@@ -72,14 +74,14 @@ module frame_decoder (
             recent_q <= {byte_i, recent_q[31:8]};
             if (count_q != 10'h3FF) count_q <= count_q + 10'd1;
             case (count_q)
-                10'd0: sync_good_q      <= byte_i == 8'h5A;
-                10'd1: sync_good_q      <= sync_good_q && {byte_i, 8'h5A} == `FRAME_SYNC;
-                10'd2: type_q           <= byte_i;
-                10'd3: sequence_q       <= byte_i;
-                10'd4: length_q[7:0]    <= byte_i;
-                10'd5: length_q[15:8]   <= byte_i;
-                10'd6: argument_q[7:0]  <= byte_i;
-                10'd7: argument_q[15:8] <= byte_i;
+                `FRAME_SYNC_AT:             sync_good_q      <= byte_i == SYNC[7:0];
+                `FRAME_SYNC_AT + 10'd1:     sync_good_q      <= sync_good_q && byte_i == SYNC[15:8];
+                `FRAME_TYPE_AT:             type_q           <= byte_i;
+                `FRAME_SEQUENCE_AT:         sequence_q       <= byte_i;
+                `FRAME_LENGTH_AT:           length_q[7:0]    <= byte_i;
+                `FRAME_LENGTH_AT + 10'd1:   length_q[15:8]   <= byte_i;
+                `FRAME_ARGUMENT_AT:         argument_q[7:0]  <= byte_i;
+                `FRAME_ARGUMENT_AT + 10'd1: argument_q[15:8] <= byte_i;
                 default: ;
             endcase
         end

@@ -5,7 +5,7 @@
 `include "registers.vh"
 
 module haptic_core #(
-    // of the board: controller/fpga/build_parameters.py makes them from its board.toml; without them nothing is built
+    // of the board: controller/device/fpga/build_parameters.py makes them from its board.toml; without them nothing is built
     parameter [31:0] CLOCK_HZ            = 32'd0,
     parameter [31:0] SLOTS               = 32'd0,          // 1 to 16
     parameter [31:0] BUILD_HASH          = 32'd0,
@@ -56,7 +56,7 @@ module haptic_core #(
     localparam BUFFER_BITS = $clog2(SLOTS + 1);
     localparam ALIVE_HALF_TICKS = CLOCK_HZ / 40_000 > 0 ? CLOCK_HZ / 40_000 : 1;
 
-    // Registers' telemetry and settings. The lines between `generated` and `end of` come from controller/fpga/registers.py.
+    // Registers' telemetry and settings. The lines between `generated` and `end of` come from controller/device/fpga/registers.py.
     // generated: wires
     wire [31:0] idle_word;
     wire [31:0] channel_mask;
@@ -254,7 +254,7 @@ module haptic_core #(
         .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .look_i(kind == `TYPE_STORE),
         .write_i(load_word), .write_word_i(word_number), .write_data_i(word),
         .load_i(load), .store_i(store),
-        .argument_i(argument), .word0_i(words[31:0]), .word1_i(words[63:32]), .load_words_i(payload_words),
+        .argument_i(argument), .word0_i(words[`STORE_LENGTH_WORDS_BITS]), .word1_i(words[`STORE_CRC_BITS]), .load_words_i(payload_words),
         .load_busy_i(landing_was_busy), .load_live_i(landing_was_live), .live_i(landing_live),
         .load_result_o(load_result), .store_result_o(store_result),
         .slot_good_o(slot_good), .slot_buffer_o(slot_buffer), .slot_words_o(slot_words),
@@ -267,8 +267,9 @@ module haptic_core #(
 
     play_check #(.BUFFER_BITS(BUFFER_BITS)) play_check (
         .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .begin_i(lengths), .accept_i(play), .forget_i(stop || disarm || shut),
-        .argument_i(argument), .first_i(words[15:0]), .asked_i(words[31:16]), .count_i(words[47:32]), .start_i(words[55:48]),
-        .polarity_i(words[63:56]), .period_i(words[95:64]), .when_i(words[191:128]),
+        .argument_i(argument), .first_i(words[`PLAY_FIRST_BITS]), .asked_i(words[`PLAY_LENGTH_BITS]),
+        .count_i(words[`PLAY_EMISSIONS_BITS]), .start_i(words[`PLAY_START_BITS]), .polarity_i(words[`PLAY_INVERTED_BITS]),
+        .period_i(words[`PLAY_PERIOD_TICKS_BITS]), .when_i(words[`PLAY_WHEN_TICKS_BITS]),
         .bit_period_i(bit_period), .emission_ticks_i(emission_ticks), .now_i(now),
         .slot_good_i(slot_good), .slot_buffer_i(slot_buffer), .slot_words_i(slot_words),
         .slot_intact_i(slot_intact), .slot_checking_i(slot_checking),

@@ -63,7 +63,7 @@ module output_gate #(
     reg [2:0]  state_q;
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
     reg        silent_q;                   // none
-    reg [`FAULT_CAUSES-1:0] fault_q;       // a new cause: a record in controller/fpga/registers.py, and its line below
+    reg [`FAULT_CAUSES-1:0] fault_q;       // a new cause: a record in controller/device/fpga/registers.py, and its line below
     reg        faulted_q;                  // any
     reg [31:0] rest_left_q;                // ticks for which a fault by a limit cannot be cleared
     reg        resting_q;

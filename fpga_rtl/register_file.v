@@ -1,6 +1,6 @@
 // Settings, identity and telemetry by address; CONTROL turns into pulses.
 // A 64-bit time is read LOW first, which keeps its HIGH.
-// The lines between `generated` and `end of` come from controller/fpga/registers.py: python -m controller.fpga.register_table
+// The lines between `generated` and `end of` come from controller/device/fpga/registers.py: python -m controller.generate
 `default_nettype none
 `include "registers.vh"
 
@@ -93,10 +93,10 @@ module register_file #(
     localparam [31:0] GEOMETRY         = {`CHANNELS, 5'd0, `WAVEFORM_WORDS, SLOTS[7:0]};
     localparam [31:0] PARAMETERS       = {8'd0, `FILTER_TICKS, `TRIGGER_LATENCY_TICKS, `QUEUE_PLAYS};
 
-    wire [31:0] word0 = words_i[31:0];
-    wire [31:0] word1 = words_i[63:32];
-    wire [31:0] word2 = words_i[95:64];
-    wire [31:0] word3 = words_i[127:96];
+    wire [31:0] word0 = words_i[`WRITE_VALUE_BITS];
+    wire [31:0] word1 = words_i[`WRITE_IDENTITY_BITS];
+    wire [31:0] word2 = words_i[`WRITE_PROTOCOL_BITS];
+    wire [31:0] word3 = words_i[`WRITE_BUILD_HASH_BITS];
 
     reg [1:0]  unlocked_q;         // by the frame before, of each link
 

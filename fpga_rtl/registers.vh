@@ -1,5 +1,5 @@
-// Every number that the host and the FPGA have to agree on. The numbers come from controller/fpga/registers.py, by
-// `python -m controller.fpga.register_table`; size, base and comment of a constant are written here.
+// Every number that the host and the FPGA have to agree on. The numbers come from controller/device/fpga/registers.py, by
+// `python -m controller.generate`; size, base and comment of a constant are written here.
 `ifndef REGISTERS_VH
 `define REGISTERS_VH
 
@@ -163,6 +163,44 @@
 `define FAULT_LONG_EMISSION 7
 `define FAULT_DUTY 8
 `define FAULT_CAUSES 9
+// Bytes at which the fields of a frame's header begin, and all that is not payload
+`define FRAME_SYNC_AT 10'd0
+`define FRAME_TYPE_AT 10'd2
+`define FRAME_SEQUENCE_AT 10'd3
+`define FRAME_LENGTH_AT 10'd4
+`define FRAME_ARGUMENT_AT 10'd6
+`define FRAME_OVERHEAD_BYTES 17'd12
+// Bits of the payload of a WRITE
+`define WRITE_VALUE_BITS 31:0
+`define WRITE_IDENTITY_BITS 63:32
+`define WRITE_PROTOCOL_BITS 95:64
+`define WRITE_BUILD_HASH_BITS 127:96
+// Bits of the payload of a STORE
+`define STORE_LENGTH_WORDS_BITS 31:0
+`define STORE_CRC_BITS 63:32
+// Bits of the payload of a PLAY
+`define PLAY_FIRST_BITS 15:0
+`define PLAY_LENGTH_BITS 31:16
+`define PLAY_EMISSIONS_BITS 47:32
+`define PLAY_START_BITS 55:48
+`define PLAY_INVERTED_BITS 63:56
+`define PLAY_PERIOD_TICKS_BITS 95:64
+`define PLAY_MASK_BITS 127:96
+`define PLAY_WHEN_TICKS_BITS 191:128
+// Bits of a status, and its bytes
+`define STATUS_SYNC_BITS 15:0
+`define STATUS_RESULT_BITS 23:16
+`define STATUS_SEQUENCE_BITS 31:24
+`define STATUS_STATE_BITS 47:32
+`define STATUS_FAULTS_BITS 63:48
+`define STATUS_DATA_BITS 95:64
+`define STATUS_TRIGGER_COUNT_BITS 127:96
+`define STATUS_TIMESTAMP_TICKS_BITS 191:128
+`define STATUS_EMISSIONS_BITS 223:192
+`define STATUS_QUEUED_BITS 231:224
+`define STATUS_CHUNKS_BITS 239:232
+`define STATUS_IGNORED_BITS 255:240
+`define STATUS_COVERED_BYTES 6'd32  // before the CRC
 // end of codes
 
 `endif

@@ -26,13 +26,16 @@ module status_encoder (
     input  wire        byte_valid_i,
     input  wire [7:0]  byte_i
 );
-    localparam [5:0]  BYTES = 6'd32;  // before the CRC
+    localparam [5:0]  BYTES = `STATUS_COVERED_BYTES;
     localparam [15:0] SYNC  = `STATUS_SYNC;
 
     reg         selected_q;
     reg [7:0]   result_q, sequence_q;
     reg [31:0]  data_q;
-    reg [191:0] snapshot_q;
+    reg [15:0]  state_q, fault_q, ignored_q;
+    reg [31:0]  triggers_q, emissions_q;
+    reg [63:0]  timestamp_q;
+    reg [7:0]   queued_q, chunks_q;
     reg [5:0]   count_q;             // bytes taken, held at 36
     reg [31:0]  turn_q;              // one bit: the byte that was taken last
     reg [7:0]   next_q;              // next byte of the snapshot
@@ -48,8 +51,8 @@ module status_encoder (
         .valid_i(take_i && in_snapshot), .byte_i(next_q), .crc_o(crc)
     );
 
-    // byte n + 1 of the status at place n
-    reg [255:0] status;
+    // its first byte is sent without it; a byte of zeros behind
+    reg [263:8] status;
 
 `ifdef SYNTHESIS
     wire look = 1'b1;                // on an FPGA it costs nothing to choose what nobody takes
@@ -62,9 +65,22 @@ module status_encoder (
         status    = 256'd0;
         following = 8'd0;
         place     = 0;
-        if (look) status = {8'd0, snapshot_q[191:32], data_q, snapshot_q[31:0], sequence_q, result_q, SYNC[15:8]};
+        if (look) begin
+            status[15:8]                         = SYNC[15:8];
+            status[`STATUS_RESULT_BITS]          = result_q;
+            status[`STATUS_SEQUENCE_BITS]        = sequence_q;
+            status[`STATUS_STATE_BITS]           = state_q;
+            status[`STATUS_FAULTS_BITS]          = fault_q;
+            status[`STATUS_DATA_BITS]            = data_q;
+            status[`STATUS_TRIGGER_COUNT_BITS]   = triggers_q;
+            status[`STATUS_TIMESTAMP_TICKS_BITS] = timestamp_q;
+            status[`STATUS_EMISSIONS_BITS]       = emissions_q;
+            status[`STATUS_QUEUED_BITS]          = queued_q;
+            status[`STATUS_CHUNKS_BITS]          = chunks_q;
+            status[`STATUS_IGNORED_BITS]         = ignored_q;
+        end
         if (look) for (place = 0; place < 32; place = place + 1)
-            following = following | (status[8*place +: 8] & {8{turn_q[place]}});
+            following = following | (status[8*place + 8 +: 8] & {8{turn_q[place]}});
     end
 
     always @* begin
@@ -89,7 +105,10 @@ module status_encoder (
             count_q    <= 6'd0;
             next_q     <= SYNC[7:0];
             turn_q     <= 32'd1;
-            snapshot_q <= {ignored_i, chunks_i, queued_i, emissions_i, timestamp_i, triggers_i, fault_i, state_i};
+            {state_q, fault_q, ignored_q} <= {state_i, fault_i, ignored_i};
+            {triggers_q, emissions_q}     <= {triggers_i, emissions_i};
+            timestamp_q                   <= timestamp_i;
+            {queued_q, chunks_q}          <= {queued_i, chunks_i};
         end
         if (selected_q) begin
             result_q   <= result_i;
@@ -101,7 +120,10 @@ module status_encoder (
             result_q   <= 8'd0;
             sequence_q <= 8'd0;
             data_q     <= 32'd0;
-            snapshot_q <= 192'd0;
+            {state_q, fault_q, ignored_q} <= 48'd0;
+            {triggers_q, emissions_q}     <= 64'd0;
+            timestamp_q                   <= 64'd0;
+            {queued_q, chunks_q}          <= 16'd0;
             count_q    <= 6'd0;
             turn_q     <= 32'd0;
             next_q     <= 8'd0;

@@ -1,4 +1,4 @@
-"""Work in a process with one thread: pytest-xdist's own thread takes memory too, whenever it is told something."""
+"""Work in a process with one thread: pytest-xdist's own thread takes memory too, whenever it is sent something."""
 
 import multiprocessing
 

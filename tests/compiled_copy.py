@@ -1,7 +1,7 @@
 """A copy of the checkout in which the loop is compiled by mypyc: the modules lie beside their sources, and Python takes them.
 
 usage: python -m tests.compiled_copy FOLDER     makes it, in a minute; what then runs there runs on the compiled loop, such as
-       `PYTHONPATH=. PYTHON -m tests.benchmark.host_latency`
+       `PYTHONPATH=. PYTHON -m tests.workshop.benchmark.host_latency`
 """
 
 import os
@@ -13,7 +13,7 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-KERNEL = "controller/kernel/_kernel.abi3.so"
+KERNEL = "controller/device/kernel/_kernel.abi3.so"
 
 
 def build_wheel(folder, **environment):

@@ -2,20 +2,24 @@
 
 import gc
 import os
+import re
+from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # two processes of tests keep two cores busy
 
 import pytest
 from hypothesis import HealthCheck, settings
 from scripted_evemu import evemu
+from xdist.scheduler import LoadFileScheduling
 
-from controller.bank.reader import Bank
-from controller.bank_builder.build import build_bank
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.scene.scene import load_scene
-from controller.simulation.simulated_run import play
-from controller.touch.recording import Recording
+from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.scene.scene import load_scene
+from controller.device.touch.recordings.recording import Recording
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.simulation.simulated_run import play
 
 pytest_plugins = ["random_banks"]
 
@@ -27,18 +31,105 @@ settings.register_profile("explore", untimed, max_examples=1000)
 settings.register_profile("repeatable", untimed, derandomize=True)
 settings.load_profile("repeatable")
 
+HERE = Path(__file__).parent
+
 # Files that take longest begin first, so that both processes end at about the same time.
-LONGEST = ["test_rtl.py", "test_project.py", "test_cli.py"]
+LONGEST = ["test_rtl.py", "test_readme_runs.py", "test_project.py", "test_cli.py", "test_build.py", "test_kernel_guest.py"]
+# What `-m quick` leaves out, and does not even import: what compiles, simulates, starts services or builds banks, for seconds each.
+SLOWER = [
+    "board_top/",
+    "conformance/",
+    "kernel/",
+    "rtl/",
+    "stress/",
+    "commands/test_calibrate_measures.py",
+    "commands/test_calibrate_walk.py",
+    "commands/test_cli.py",
+    "commands/test_gateware.py",
+    "commands/test_nobody.py",
+    "commands/test_readme_runs.py",
+    "test_build.py",
+    "test_clocks.py",
+    "test_console.py",
+    "test_patience.py",
+    "test_project.py",
+    "test_wings.py",
+    "device/application_socket/test_try_it.py",
+    "device/bank/test_inspection.py",
+    "device/board/test_boards.py",
+    "device/doctor/test_bring_up.py",
+    "device/doctor/test_doctor.py",
+    "device/fpga/test_supervision.py",
+    "device/kernel/test_aarch64.py",
+    "device/loop/test_allocations.py",
+    "device/loop/test_listening.py",
+    "device/loop/test_outputs.py",
+    "device/loop/test_prefetch.py",
+    "device/loop/test_random_play.py",
+    "device/loop/test_schedule.py",
+    "device/scene/test_coverage.py",
+    "device/service/test_run.py",
+    "device/service/test_scene_reload.py",
+    "device/touch/test_prediction.py",
+    "device/touch_calibration/test_lag_figures.py",
+    "device/update/power_cut/",
+    "device/update/test_fall_back.py",
+    "device/update/test_install.py",
+    "workshop/bank_builder/",
+    "workshop/benchmark/",
+    "workshop/calibration/test_interpolate.py",
+    "workshop/calibration/test_learning.py",
+    "workshop/calibration/test_simulated_measurement.py",
+    "workshop/physics/test_impulse_response.py",
+    "workshop/physics/test_ritz.py",
+    "workshop/publish/test_make_release.py",
+    "workshop/simulation/",
+]
 COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells of the coverage of the Verilog
 
 
 def pytest_xdist_auto_num_workers(config):
-    """All tests run in two processes; what is chosen on the command line, or to be seen as it runs, in this one."""
-    everything = config.args_source is config.ArgsSource.TESTPATHS and "not slow" in config.option.markexpr
-    return 2 if everything and config.option.capture != "no" else 0
+    """All tests run in two processes; what is chosen on the command line, or to be seen as it runs, in this one.
+
+    Tests in containers, which wait half of their time, and those beside them: in three.
+    """
+    marked = config.option.markexpr
+    everything = config.args_source is config.ArgsSource.TESTPATHS and ("not slow" in marked or marked in {"kernel", "quick"})
+    if not everything or config.option.capture == "no":
+        return 0
+    return 3 if marked == "kernel" else 2
+
+
+class ByFileOrMachine(LoadFileScheduling):
+    """Tests of a file run in one process, one after the other; of those that run elsewhere, all that share a machine."""
+
+    def _split_scope(self, nodeid):
+        elsewhere = re.search(r"/test_kernel_guest\.py::.*\[(container_\w+|guest|system)", nodeid)
+        return elsewhere[1].replace("system", "guest") if elsewhere else super()._split_scope(nodeid)
+
+
+def pytest_xdist_make_scheduler(config, log):
+    return ByFileOrMachine(config, log) if config.option.dist == "loadfile" else None
+
+
+def is_quick(path):
+    """Whether `-m quick` runs the tests of a file."""
+    name = path.relative_to(HERE).as_posix()
+    return not any(name == one or (one[-1] == "/" and name.startswith(one)) for one in SLOWER)
+
+
+def pytest_ignore_collect(collection_path, config):
+    """Leave out files without a test that is asked for by `-m quick` or `-m kernel`; None otherwise: as always."""
+    marked, is_file = config.option.markexpr, collection_path.suffix == ".py"
+    if marked == "quick":
+        return True if is_file and not is_quick(collection_path) else None
+    return True if marked == "kernel" and is_file and "mark.kernel" not in collection_path.read_text() else None
 
 
 def pytest_collection_modifyitems(items):
+    for item in items:
+        if is_quick(item.path) and not any(item.get_closest_marker(name) for name in ("slow", "stress", "kernel")):
+            item.add_marker(pytest.mark.quick)
     items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
 
 
@@ -70,7 +161,7 @@ def board():
 @pytest.fixture(scope="session")
 def bank_file(board, tmp_path_factory):
     path = tmp_path_factory.mktemp("bank") / "simulated.bank"
-    build_bank(board, path, PITCH_M, measure_sgemm=False)
+    build_bank(BankRequest(board, path, PITCH_M))
     return path
 
 

@@ -48,6 +48,7 @@ in_debian() { # SUITE ARGUMENT...
 }
 
 with_the_oldest() { # ARGUMENT...
+  chmod 755 "$work" # some tests are another user
   git clone -q "$checkout" "$work/lowest"
   cd "$work/lowest"
   python3 -m venv "$work/uv"

@@ -1,6 +1,6 @@
 """How long tests wait: not by the wall clock, which says how busy the machine is, but by the time that it had to spare.
 
-A wait ends when what is waited for has had its chance: the processors were idle, or worked for it, for so many seconds. Other
+A wait ends when what is waited for has had its chance: the processors were idle, or worked for it, for this many seconds. Other
 work on the machine does not count, so the same wait is right on a quiet and on an overloaded machine.
 
 usage: patience.py PID LOG SECONDS     ends a process that has nothing more to say in its log
@@ -77,8 +77,8 @@ class Patience:
         return idle_s() + sum(processor_s(pid) for pid in self._pids)
 
 
-def wait_for(what, condition, seconds=60.0, said=lambda: ""):
-    """Until a condition holds; its value.
+def wait_for(what, condition, seconds=60.0, said=lambda: "", every_s=0.05):
+    """Until a condition holds, which is looked at so often; its value.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def wait_for(what, condition, seconds=60.0, said=lambda: ""):
     patience = Patience(seconds)
     while not (value := condition()):
         assert not patience.over, f"waited {seconds} s to spare for {what}\n{said()}"
-        time.sleep(0.05)
+        time.sleep(every_s)
     return value
 
 

@@ -7,9 +7,9 @@ from collections import Counter
 
 import numpy as np
 
-from controller.fpga.exchange import Refused
-from controller.fpga.frames import ReadyFrames
-from controller.fpga.registers import FrameType, Result
+from controller.device.fpga.exchange import Refused
+from controller.device.fpga.frames import ReadyFrames
+from controller.device.fpga.registers import FrameType, Result
 
 WORDS = 1000
 
@@ -46,19 +46,19 @@ class Notes:
         self._upload(slot, waveform, *how)
         self.crcs[slot] = crc_of(waveform)
 
-    def _uploaded_and_played(self, slot, waveform, *how, **more):
-        self.crcs.pop(slot, None)
+    def _uploaded_and_played(self, play, waveform, **how):
+        self.crcs.pop(play.slot, None)
         try:
-            self._both(slot, waveform, *how, **more)
+            self._both(play, waveform, **how)
         except Refused as refusal:
             if refusal.result is Result.TOO_LATE:  # stored, not played
-                self.crcs[slot] = crc_of(waveform)
+                self.crcs[play.slot] = crc_of(waveform)
             raise
-        self.crcs[slot] = self.last = crc_of(waveform)
+        self.crcs[play.slot] = self.last = crc_of(waveform)
 
-    def _resident_played(self, slot, *how, **more):
-        self._play(slot, *how, **more)
-        self.last = self.crcs[slot]
+    def _resident_played(self, play, **how):
+        self._play(play, **how)
+        self.last = self.crcs[play.slot]
 
     def ticks(self, link):
         """(tick, CRC-32) of each start."""

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from controller.bank.file_format import Header, creator
-from controller.bank.grid import Grid
-from controller.bank.packing import CHANNELS, drive_words, quantise
-from controller.bank.provenance import as_parameter
-from controller.bank.writer import BankWriter
-from controller.board.board import Board
+from controller.device.bank.file_format import Header, creator
+from controller.device.bank.grid import Grid
+from controller.device.bank.packing import CHANNELS, drive_words, quantise
+from controller.device.bank.provenance import as_parameter
+from controller.device.bank.writer import BankWriter
+from controller.device.board.board import Board
 
 IDLE_WORD = 0x69969669
 MakeBank = Callable[..., dict[int, np.ndarray]]
@@ -33,18 +33,18 @@ def make_bank(board: Board) -> MakeBank:
         digest=None,
         compositions=None,
         provenance=None,
-        **told,
+        **reported,
     ):
         grid = grid or Grid(5e-3, 3, 2, 5e-3, 6e-3)
         cells = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
         if responses is None:
             random = np.random.default_rng(seed)
             responses = {int(c): 1e-9 * random.standard_normal((samples, CHANNELS)) for c in np.flatnonzero(cells)}
-        told = {"board": "simulated", "channel_edges": samples + 1, "all_edges": CHANNELS} | told
+        reported = {"board": "simulated", "channel_edges": samples + 1, "all_edges": CHANNELS} | reported
         if provenance is not None:
-            told["responses"] = as_parameter(provenance)
+            reported["responses"] = as_parameter(provenance)
         composed = compositions or {}
-        header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), told, len(composed))
+        header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), reported, len(composed))
         with BankWriter(path, header, cells) as writer:
             for cell, response in responses.items():
                 rest = np.zeros((header.rest_rows, CHANNELS)) if rests is None else rests[cell]

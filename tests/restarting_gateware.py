@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.capture import Capture
-from controller.gateware_model.gateware import Gateware, GatewareFactory, Permit
-from controller.gateware_model.pin_timing import READY_TICKS, TRIGGER_HIGH_TICKS
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.capture import Capture
+from controller.workshop.gateware.gateware import Gateware, GatewareFactory, Permit
+from controller.workshop.gateware.pin_timing import READY_TICKS, TRIGGER_HIGH_TICKS
 
 OPEN_LINE = 0xFF  # MISO while nothing drives it
 
@@ -47,17 +47,17 @@ class RestartingGateware:
         self._origin = max(tick, self.now) + dark_ticks
         self._gateware = self._factory(self._parameters)
         for which, level in self._levels.items():
-            self._gateware.permit(0, level, which)
+            self._gateware.permit(0, level=level, which=which)
 
     def advance(self, tick: int) -> None:
         """Advance to `tick`; does nothing if that has passed."""
         if tick > self._origin:
             self._gateware.advance(tick - self._origin)
 
-    def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
+    def permit(self, tick: int, *, level: bool, which: Permit = Permit.RUN) -> None:
         """Set a permit pin; without supply that takes effect when reset ends."""
         self._levels[which] = level
-        self._gateware.permit(max(tick - self._origin, 0), level, which)
+        self._gateware.permit(max(tick - self._origin, 0), level=level, which=which)
 
     def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
         """Raise the trigger pin; without supply it has no effect."""

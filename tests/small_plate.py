@@ -2,8 +2,8 @@
 
 import msgspec
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
 
 WHOLE = load_board(find_board("simulated"))
 

@@ -41,9 +41,9 @@ def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(tmp_pat
     share = data.removesuffix("/haptic-panel")
     assert {f"{share}/man/man1/haptic-panel.1", f"{share}/bash-completion/completions/haptic-panel"} <= set(names)
     assert {f"{share}/zsh/site-functions/_haptic-panel", f"{data}/boards/board.schema.json", "controller/py.typed"} <= set(names)
-    assert {"controller/cli.py", "controller/scene/effects.toml", EXTENSION} <= set(names)
+    assert {"controller/cli.py", "controller/device/scene/effects.toml", EXTENSION} <= set(names)
     assert not any(name.startswith("tests/") or name.endswith("build_hook.py") for name in names)
-    assert [name for name in names if name.endswith(".c")] == ["controller/benchmark/compose_reference.c"]
+    assert [name for name in names if name.endswith(".c")] == ["controller/workshop/benchmark/device/compose_reference.c"]
     assert not any(name.startswith("controller/") and name.endswith(".sh") for name in names), "those are for a checkout"
     assert f"{data}/boards/raspberry_pi.sh" in names
 
@@ -59,7 +59,7 @@ def test_without_a_compiler_the_package_is_built_for_numpy_and_says_so(tmp_path)
     assert "NumPy does its work: a C compiler" in done.stderr + done.stdout
     assert wheel.name.endswith("-py3-none-any.whl")
     names = zipfile.ZipFile(wheel).namelist()
-    assert "controller/kernel/twin.py" in names
+    assert "controller/device/kernel/twin.py" in names
     assert not any(name.endswith(".so") for name in names)
 
 
@@ -67,27 +67,26 @@ def test_without_a_compiler_the_package_is_built_for_numpy_and_says_so(tmp_path)
 def test_a_compiler_that_fails_ends_the_build(tmp_path, broken):
     done, wheel = build(tmp_path, **broken)
     assert done.returncode != 0
-    assert "controller/kernel/kernel.c does not compile: " in done.stderr + done.stdout
+    assert "controller/device/kernel/kernel.c does not compile: " in done.stderr + done.stdout
     assert wheel is None
 
 
 def test_the_environment_chooses_the_kernel():
-    code = "from controller import kernel; print(kernel.seal_short_frames.__module__, kernel.COMPILED)"
-    assert run(code, kernel="numpy").stdout.split() == ["controller.kernel.twin", "False"]
+    code = "from controller.device import kernel; print(kernel.seal_short_frames.__module__, kernel.COMPILED)"
+    assert run(code, kernel="numpy").stdout.split() == ["controller.device.kernel.twin", "False"]
     compiled = run(code, kernel="compiled")
-    assert compiled.stdout.split() == ["controller.kernel._kernel", "True"], compiled.stderr
+    assert compiled.stdout.split() == ["controller.device.kernel._kernel", "True"], compiled.stderr
     assert run(code).stdout == compiled.stdout
     assert "HAPTIC_PANEL_KERNEL=fast: compiled, numpy, or unset" in run(code, kernel="fast").stderr
 
 
 def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
-    shutil.copytree(ROOT / "controller" / "kernel", tmp_path / "controller" / "kernel")
-    for file in ("__init__.py", "errors.py"):
-        shutil.copy(ROOT / "controller" / file, tmp_path / "controller")
-    code = (
-        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); from controller import kernel; print(kernel.COMPILED, kernel.__file__)"
-    )
-    place = str(tmp_path / "controller" / "kernel" / "__init__.py")
+    shutil.copytree(ROOT / "controller" / "device" / "kernel", tmp_path / "controller" / "device" / "kernel")
+    for file in ("__init__.py", "errors.py", "device/__init__.py"):
+        shutil.copy(ROOT / "controller" / file, tmp_path / "controller" / file)
+    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r})"
+    code += "; from controller.device import kernel; print(kernel.COMPILED, kernel.__file__)"
+    place = str(tmp_path / "controller" / "device" / "kernel" / "__init__.py")
     os.utime(tmp_path / EXTENSION, (2e9, 2e9))
     assert run(code).stdout.split() == ["True", place]
     os.utime(tmp_path / EXTENSION, (1e9, 1e9))
@@ -99,9 +98,12 @@ def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
 def test_the_loop_compiled_by_mypyc_passes_its_tests(tmp_path):
     copy = tmp_path / "checkout"
     assert re.search(r"-(cp\d+)-\1-linux_", compiled_copy(copy)), "for this version of CPython alone"
-    compiled = run_in(copy, "-c", "from controller.loop import event_loop, playback; print(event_loop, playback)")
+    code = "from controller.device.loop import event_loop\nfrom controller.device.loop.playing import playback\n"
+    code += "print(event_loop, playback)"
+    compiled = run_in(copy, "-c", code)
     assert compiled.stdout.count(".so") == 2, compiled.stderr
-    rooms = [f"tests/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank", "simulation/test_same_bytes.py")]
+    rooms = [f"tests/device/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank")]
+    rooms.append("tests/workshop/simulation/test_same_bytes.py")
     tested = run_in(copy, "-m", "pytest", "-q", "-n0", "-m", "not slow and not stress and not kernel and not interpreted", *rooms)
     assert tested.returncode == 0, tested.stdout[-8000:] + tested.stderr[-2000:]
 

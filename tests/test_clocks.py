@@ -9,8 +9,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PROGRAM = """\
 from controller.clocks import FpgaTime
-from controller.fpga.clock_estimate import ClockEstimate
-from controller.loop.scheduler import Scheduler
+from controller.device.fpga.clock_estimate import ClockEstimate
+from controller.device.loop.scheduler import Scheduler
 
 def mixed(estimate: ClockEstimate, scheduler: Scheduler, now_s: float, fpga_s: FpgaTime) -> None:
 """

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tables import each_row
 
 import controller
 
@@ -28,7 +29,7 @@ def in_locale(encoding):
     return others | {"PYTHONIOENCODING": encoding}
 
 
-@pytest.mark.parametrize("encoding", ["latin-1", "ascii", "cp1252"])
+@each_row("encoding", ["latin-1", "ascii", "cp1252"])
 def test_a_locale_that_lacks_characters_prints_similar_ones(encoding):
     code, out, said = run("board", "reference", env=in_locale(encoding))
     assert (code, said) == (0, "")
@@ -42,8 +43,8 @@ def test_a_locale_that_lacks_characters_prints_similar_ones(encoding):
 def test_a_schema_is_the_same_in_every_locale():
     import json
 
-    told = {encoding: run("board", "schema", env=in_locale(encoding))[1].decode(encoding) for encoding in ("utf-8", "latin-1")}
-    assert json.loads(told["utf-8"]) == json.loads(told["latin-1"])
+    reported = {encoding: run("board", "schema", env=in_locale(encoding))[1].decode(encoding) for encoding in ("utf-8", "latin-1")}
+    assert json.loads(reported["utf-8"]) == json.loads(reported["latin-1"])
 
 
 def test_a_message_is_printed_in_any_locale_too():
@@ -56,7 +57,7 @@ def test_a_message_is_printed_in_any_locale_too():
 SHORT, LONG = ("board", "check", "simulated"), ("board", "reference")
 
 
-@pytest.mark.parametrize("arguments", [SHORT, LONG, ("--help",), ("--version",)])
+@each_row("arguments", [SHORT, LONG, ("--help",), ("--version",)])
 def test_output_that_is_full_is_one_line_and_exit_code_1(arguments):
     with Path("/dev/full").open("wb") as full:
         code, _, said = run(*arguments, stdout=full)
@@ -64,7 +65,7 @@ def test_output_that_is_full_is_one_line_and_exit_code_1(arguments):
     assert said == "haptic-panel: the output cannot be written (No space left on device)\n"
 
 
-@pytest.mark.parametrize("arguments", [SHORT, LONG, ("--help",)])
+@each_row("arguments", [SHORT, LONG, ("--help",)])
 def test_output_that_nobody_reads_any_more_is_exit_code_1_in_silence(arguments):
     reading, writing = os.pipe()
     os.close(reading)

@@ -41,7 +41,7 @@ def pipe():
     pipe.near.close()
 
 
-def test_a_log_that_is_full_loses_lines_and_is_told_how_many(pipe):
+def test_a_log_that_is_full_loses_lines_and_is_informed_how_many(pipe):
     log = Log()
     pipe.fill()
     with contextlib.redirect_stderr(pipe.near):
@@ -102,7 +102,7 @@ def connected(pipe, tmp_path, monkeypatch):
             yield listening
 
 
-def test_the_journal_is_told_of_events_by_their_identifiers(pipe, tmp_path, monkeypatch):
+def test_the_journal_gets_events_by_their_identifiers(pipe, tmp_path, monkeypatch):
     with connected(pipe, tmp_path, monkeypatch) as journal:
         log = Log()
         log.write("outputs off: no permit", Event.NO_PERMIT)

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from tables import each_row
 
-from controller.commands.tables import service_table
+from controller.commands.common.tables import service_table
+from controller.device.touch.plausibility import figures
+from controller.device.touch.source import Counts as TouchCounts
 from controller.metrics import BOUNDS_US, P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
-from controller.touch.plausibility import figures
-from controller.touch.source import Counts as TouchCounts
 
 durations = st.lists(st.integers(0, 10**12), min_size=1, max_size=300)
 
@@ -39,7 +40,7 @@ def test_coarse_counts_and_sum_are_those_of_the_values_within_a_bucket(values):
     assert coarse["count"] == len(values)
 
 
-@pytest.mark.parametrize("exact", [100, 12_345, 10**9])
+@each_row("exact", [100, 12_345, 10**9])
 def test_one_percent_is_noticed(exact):
     histogram = LatencyHistogram()
     histogram.record(round(exact * 1.01))

@@ -5,6 +5,7 @@ import signal
 import sys
 
 import pytest
+from tables import each_row
 
 from controller.programs import CannotStart, ProgramError, run_program
 
@@ -22,7 +23,7 @@ def test_what_a_program_writes_is_kept_apart():
     assert run_program([*PYTHON, "import sys; print('out'); print('err', file=sys.stderr)"], 60.0) == ("out\n", "err\n")
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("code", "said"),
     [
         ("import sys; print('much'); sys.exit('first\\nlast of all\\n\\n')", "ended with exit code 1: last of all"),

@@ -6,25 +6,26 @@ import socket
 from pathlib import Path
 
 import pytest
+from tables import each_row
 
-from controller.bank.inspection import header_of
-from controller.bank.lookup import of_this_format
-from controller.bank.reader import Bank
-from controller.board.board import load_board
-from controller.board.panel_status import read_status
+from controller.device.bank.inspection import header_of
+from controller.device.bank.lookup import of_this_format
+from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
+from controller.device.board.panel_status import read_status
+from controller.device.fpga.bitstream import read_identity
+from controller.device.service.reloading import _read as read_reload
+from controller.device.touch.recordings.recording import Recording
+from controller.device.update.installed import manifest_of, update_state
+from controller.device.update.layout import Layout
+from controller.device.update.manifest import ReleaseFile
+from controller.device.update.trial import _read as read_trial
+from controller.device.update.trial import keep_before
+from controller.device.update.trust import clock
+from controller.device.update.trust.offer import failed_releases, largest_counter
+from controller.device.update.trust.validity import root_expiry
 from controller.errors import BankError, ConfigError, ControllerError, TouchError, UpdateError
-from controller.fpga.bitstream import read_identity
 from controller.regular_file import read_regular
-from controller.service.reloading import _read as read_reload
-from controller.touch.recording import Recording
-from controller.update import clock
-from controller.update.installed import manifest_of, update_state
-from controller.update.layout import Layout
-from controller.update.manifest import ReleaseFile
-from controller.update.offer import failed_releases, largest_counter
-from controller.update.trial import _read as read_trial
-from controller.update.trial import keep_before
-from controller.update.validity import root_expiry
 
 KINDS = ("pipe", "socket", "folder", "link", "device")
 
@@ -34,8 +35,10 @@ def put(path, kind):
     if kind == "pipe":
         os.mkfifo(path)
     elif kind == "socket":
+        folder = os.open(path.parent, os.O_PATH)
         with socket.socket(socket.AF_UNIX) as made:
-            made.bind(str(path))
+            made.bind(f"/proc/self/fd/{folder}/{path.name}")  # an address has 107 bytes
+        os.close(folder)
     elif kind == "folder":
         path.mkdir()
     elif kind == "link":
@@ -46,7 +49,7 @@ def put(path, kind):
         path.symlink_to("/dev/zero")  # without end; device nodes themselves are root's to make
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("kind", "number", "said"),
     [
         ("pipe", errno.EINVAL, "not a regular file"),
@@ -57,11 +60,13 @@ def put(path, kind):
     ],
 )
 def test_only_regular_files_are_read(tmp_path, kind, number, said):
-    put(tmp_path / "file", kind)
+    file = tmp_path / kind / "file"
+    file.parent.mkdir()
+    put(file, kind)
     before = len(list(Path("/proc/self/fd").iterdir()))
-    with pytest.raises(OSError, match=said) as told:
-        read_regular(tmp_path / "file", 100)
-    assert (told.value.errno, told.value.filename) == (number, str(tmp_path / "file"))
+    with pytest.raises(OSError, match=said) as reported:
+        read_regular(file, 100)
+    assert (reported.value.errno, reported.value.filename) == (number, str(file))
     assert len(list(Path("/proc/self/fd").iterdir())) == before, "nothing is left open"
 
 
@@ -97,9 +102,9 @@ def test_a_file_of_another_user_than_it_should_be_is_not_read(tmp_path):
 
 def refused(error, said="cannot be read"):
     def check(call, path):
-        with pytest.raises(error, match=said) as told:
+        with pytest.raises(error, match=said) as reported:
             call(path)
-        assert "\n" not in str(told.value)
+        assert "\n" not in str(reported.value)
 
     return check
 
@@ -136,11 +141,13 @@ READERS = {  # of each reader: file name, what reads it, what it then does
 }
 
 
-@pytest.mark.parametrize(("reader", "kind"), [(name, kind) for name, (*_, kinds) in READERS.items() for kind in sorted(kinds)])
+@each_row(("reader", "kind"), [(name, kind) for name, (*_, kinds) in READERS.items() for kind in sorted(kinds)])
 def test_no_reader_waits_or_follows(tmp_path, reader, kind):
     name, read, check, _ = READERS[reader]
-    (tmp_path / "root.json").write_bytes(b"{}")
-    path = tmp_path / name
+    folder = tmp_path / reader / kind
+    folder.mkdir(parents=True)
+    (folder / "root.json").write_bytes(b"{}")
+    path = folder / name
     path.parent.mkdir(parents=True, exist_ok=True)
     put(path, kind)
     check(read, path)

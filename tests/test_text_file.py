@@ -3,15 +3,16 @@
 import codecs
 
 import pytest
+from tables import each_row
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.calibration.points import read_points
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.scene.scene_file import read_scene
+from controller.device.touch_calibration.touch_table import write_value
 from controller.errors import ConfigError
-from controller.scene.scene_file import read_scene
-from controller.simulation.drift import Drift
 from controller.text_file import NotText, decoded, read_text
-from controller.touch.touch_table import write_value
+from controller.workshop.calibration.records.points import read_points
+from controller.workshop.simulation.drift import Drift
 
 TEXT = 'name = "µ"\nx = 1\n'
 WRITTEN = {
@@ -24,7 +25,7 @@ WRITTEN = {
 }
 
 
-@pytest.mark.parametrize("written", WRITTEN.values(), ids=WRITTEN)
+@each_row("written", WRITTEN.values(), ids=WRITTEN)
 def test_text_is_text_however_it_was_saved(tmp_path, written):
     (tmp_path / "file").write_bytes(written)
     assert read_text(tmp_path / "file") == TEXT

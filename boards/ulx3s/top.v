@@ -3,7 +3,7 @@
 `default_nettype none
 
 module top #(
-    // From board.toml (controller/fpga/build_parameters.py); without them nothing is built
+    // From board.toml (controller/device/fpga/build_parameters.py); without them nothing is built
     // generated: parameters
     parameter [31:0] BIT_PERIOD_RESET    = 32'd0,
     parameter [31:0] RAMP_SAMPLES_RESET  = 32'd0,

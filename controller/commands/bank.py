@@ -5,51 +5,35 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from controller.bank.grid import Grid
-from controller.bank.inspection import (
-    Fit,
-    asked_of,
-    bank_info,
-    choice_of,
-    fit,
-    measured_at,
-    optimised_for,
-    verify_bank,
-    wrong_pitch,
-)
-from controller.bank.lookup import FoundBank, find_bank
-from controller.bank.provenance import MEASURE_AGAIN
-from controller.bank.reader import Bank
-from controller.board.board import Board, load_board
-from controller.board.lookup import find_board
-from controller.board.paths import bank_path, build_line, is_there
-from controller.commands.named_board import named_board
-from controller.commands.output import progress_bar, show
+from controller.commands.common.named_board import named_board
+from controller.commands.common.output import progress_bar, show
 from controller.console import tell
-from controller.errors import BankError, ConfigError, UsageError
-from controller.scene.coverage import cells_needed
-from controller.scene.scene import Scene, Spot, load_scene
-from controller.scene.scene_file import find_scene
+from controller.device.bank.inspection import bank_info, measured_at, verify_bank
+from controller.device.bank.lookup import FoundBank, bank_as_it_is, find_bank
+from controller.device.bank.provenance import MEASURE_AGAIN
+from controller.device.bank.reader import Bank
+from controller.device.board.board import Board, load_board
+from controller.device.board.lookup import find_board
+from controller.device.board.paths import bank_path, build_line, is_there
+from controller.device.scene.scene import Scene, load_scene
+from controller.device.scene.scene_file import find_scene
+from controller.errors import BankError, UsageError
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from controller.bank_builder.build import BuildReport
-    from controller.commands.output import Declare
-
-SMALLEST_PITCH_MM = 0.5
-MET_AHEAD_M = 5e-3  # beyond its region, a moving finger is met this far ahead; farther, where it was
+    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    bank = declare()
+    bank = declare(
+        example="haptic-panel bank build --board simulated --pitch-mm 4 --out plate.bank",
+        description="A bank holds the precomputed drive waveform of each place on the plate; `haptic-panel run` plays from it.",
+    )
     actions = bank.add_subparsers(title="actions", metavar="ACTION", required=True)
     build = actions.add_parser("build", parents=[common], help="compute a bank from the board's plate model")
     build.add_argument("--scene", metavar="S", help="only cells that this scene can reach (default: the whole plate)")
@@ -90,39 +74,39 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def bank_build(options: argparse.Namespace) -> int:
     """Build a bank for a board: for the whole plate, or for the cells that a scene can reach."""
     board = named_board(options.board)
-    scene_file = find_scene(board, options.scene) if options.scene else None
-    scene = load_scene(scene_file, board) if scene_file else None
-    if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
-        raise ConfigError(f"--pitch-mm: pitch_mm = {options.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
     if options.optimise is None and (options.workers is not None or options.dask is not None):
         raise UsageError("--workers and --dask are of use with --optimise: a plain bank takes seconds")
     if options.workers is not None and (options.workers < 1 or options.dask is not None):
         raise UsageError("--workers: 1 or more processes of this computer, and not with --dask")
-    choice = None
-    if board.compose.method == "auto" and options.pitch_mm is None:
-        scene_file = scene_file or find_scene(board)
-        scene = scene or load_scene(scene_file, board)
-        choice = _choose(board, scene, scene_file)
-        tell(f"{scene_file.name}: {choice['why']}")
-    pitch_m = _pitch_m(board, choice) if options.pitch_mm is None else options.pitch_mm * 1e-3
-    own = bank_path(board, None if choice else pitch_m)
-    path = Path(options.out) if options.out else own
-    cells = None if scene is None else _cells(board, pitch_m, scene)
-    name, spots = (scene_file.name, scene.spots) if scene_file and scene else (None, ())
+    with _builder_installed(bank_path(board)):
+        from controller.workshop.bank_builder.methods.descent import AIMS
+        from controller.workshop.bank_builder.optimised import ALONE, Workers
+        from controller.workshop.bank_builder.own_bank import order, warn_of_pitch
+    wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm)
+    path = Path(options.out) if options.out else wanted.own_path
     if measured_at(path):
         tell(f"{path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}")
-    report = _build(board, path, pitch_m, cells, name, spots, choice, measure=True, options=options)
+    workers = Workers(options.workers or len(os.sched_getaffinity(0)), options.dask) if options.optimise else ALONE
+    try:
+        report = wanted.build(path, aim=AIMS.get(options.optimise), workers=workers, memory_mb=options.memory_mb)
+    except KeyboardInterrupt:
+        if options.optimise:
+            tell("what is optimised is kept: the same command goes on from there")
+        raise
+    warn_of_pitch(path, report)
     show(options, asdict(report), _build_table)
     if path != (played := find_bank(board)).path:
-        tell(f"run plays from {played.path} ({played.why}) unless told --bank {path}")
+        tell(f"run plays from {played.path} ({played.why}) unless given --bank {path}")
     return 0
 
 
 def bank_choices(options: argparse.Namespace) -> int:
     """Show the settings of a bank on the front of error, time and bytes for a scene, and which of them `auto` chooses."""
     board = load_board(find_board(options.board))
+    with _builder_installed(bank_path(board)):
+        from controller.workshop.bank_builder.own_bank import chosen
     scene_file = find_scene(board, options.scene)
-    show(options, _choose(board, load_scene(scene_file, board), scene_file), _choices_table)
+    show(options, chosen(board, load_scene(scene_file, board), scene_file), _choices_table)
     return 0
 
 
@@ -140,14 +124,14 @@ def _choices_table(choice: dict[str, Any]) -> str:
 def bank_describe(options: argparse.Namespace) -> int:
     """Describe what a bank holds and what it was computed from; with --power, the load on the driver stages."""
     if options.power:
-        from controller.benchmark.power import power_report
-        from controller.commands.tables import power_table
+        from controller.commands.common.tables import power_table
+        from controller.workshop.benchmark.stage.power import power_report
 
         board = load_board(find_board(options.board))
         with Bank.open(_bank_file(options).path, board) as bank:
             show(options, power_report(board, bank, progress=progress_bar("losses")), power_table)
         return 0
-    from controller.commands.tables import plain_table
+    from controller.commands.common.tables import plain_table
 
     def table(figures: dict[str, Any]) -> str:
         """Without the parts of what the line `responses` says."""
@@ -171,54 +155,17 @@ def bank_verify(options: argparse.Namespace) -> int:
 
 
 def _verify_table(figures: dict[str, Any]) -> str:
-    told = f"{figures['cells']:,} cells, {figures['bytes']:,} bytes"
-    return f"bank: {figures['path']}, {told}\nPASS: every bit is as it was written"
+    reported = f"{figures['cells']:,} cells, {figures['bytes']:,} bytes"
+    return f"bank: {figures['path']}, {reported}\nPASS: every bit is as it was written"
 
 
 def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path, *, keep: bool = False) -> Bank:
-    """The bank of --bank, or the board's own, which is built if it is missing, and rebuilt if it does not fit.
-
-    Parameters
-    ----------
-    keep : bool
-        Build only a missing bank: the service of a panel never replaces a bank.
-
-    Raises
-    ------
-    BankError
-        If the given bank does not fit the board, or the board's own cannot be built.
-    """
-    if options.bank:
-        return Bank.open(Path(options.bank), board)
-    found_bank = find_bank(board)
-    path = found_bank.path
-    if (keep and is_there(path)) or found_bank.of_release:
-        bank = Bank.open(path, board)
-        if wrong := wrong_pitch(bank, board):
-            bank.close()
-            raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
+    """The bank of --bank, or the board's own, which is built if it is missing and, unless `keep`, if it does not suit."""
+    if bank := bank_as_it_is(board, options.bank, keep=keep):
         return bank
-    choice, found = None, None
-    if board.compose.method == "auto":
-        there = choice_of(path)
-        choice = there if there and there["asked"] == asked_of(board, scene_file) else _choose(board, scene, scene_file)
-        if there and any(there[name] != choice[name] for name in ("pitch_mm", "snap_mm", "composes")):
-            found = Fit(f"{scene_file.name} needs {choice['why'].partition(':')[0]}", _cells(board, _pitch_m(board, choice), scene))
-    pitch_m = _pitch_m(board, choice)
-    found = found or fit(path, board, _cells(board, pitch_m, scene))
-    if found.reason:
-        if measured_at(path):
-            raise BankError(
-                f"{path}: {found.reason}; its responses were measured, so it is not replaced by one from the plate model: build it"
-                f" again, {MEASURE_AGAIN}, or give another with --bank"
-            )
-        count = int(found.cells.sum())
-        tell(f"building the bank {path}: {found.reason}; {count:,} cells, some seconds")
-        if aim := optimised_for(path):
-            tell(f"its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}")
-        path = bank_path(board)
-        _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, choice, measure=False)
-    return Bank.open(path, board)
+    with _builder_installed(bank_path(board)):
+        from controller.workshop.bank_builder.own_bank import own_bank
+    return own_bank(board, scene, scene_file)
 
 
 def _bank_file(options: argparse.Namespace) -> FoundBank:
@@ -232,23 +179,13 @@ def _bank_file(options: argparse.Namespace) -> FoundBank:
     return found
 
 
-def _choose(board: Board, scene: Scene, scene_file: Path) -> dict[str, Any]:
-    """What `compose.method = "auto"` chooses for a scene."""
-    with _builder_installed(bank_path(board)):
-        from threadpoolctl import threadpool_limits
-
-        from controller.bank_builder.choice import choose
-    with threadpool_limits(1, "blas"):
-        return choose(board, scene, scene_file, MET_AHEAD_M)
-
-
 @contextlib.contextmanager
 def _builder_installed(path: Path) -> Iterator[None]:
     """Around imports of what builds banks; BankError where it is not installed, as on a device."""
     try:
         yield
     except ModuleNotFoundError as error:
-        from controller.service.installation import missing_package
+        from controller.device.service.installation import missing_package
 
         missing = missing_package(error.name)
         if missing is None:
@@ -256,65 +193,7 @@ def _builder_installed(path: Path) -> Iterator[None]:
         raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
 
 
-def _pitch_m(board: Board, choice: dict[str, Any] | None) -> float:
-    return float(choice["pitch_mm"] if choice else board.bank.pitch_mm) * 1e-3
-
-
-def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
-    from controller.physics.plate import wave_scale
-
-    return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M, wave_scale=wave_scale(board))
-
-
-def _build(
-    board: Board,
-    path: Path,
-    pitch_m: float,
-    cells: NDArray[np.bool_] | None,
-    scene: str | None,
-    spots: Sequence[Spot],
-    choice: dict[str, Any] | None = None,
-    *,
-    measure: bool,
-    options: argparse.Namespace | None = None,
-) -> BuildReport:
-    """Build a bank; `options`: of `bank build`, where it says how."""
-    with _builder_installed(path):
-        from controller.bank_builder.build import build_bank
-        from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
-        from controller.bank_builder.optimised import ALONE, Workers
-        from controller.waveform_design.descent import AIMS
-    own_path = path == bank_path(board, None if choice else pitch_m)
-    refuse_coarse(board, pitch_m)
-    aim, workers = None, ALONE
-    if options and options.optimise:
-        aim, workers = AIMS[options.optimise], Workers(options.workers or len(os.sched_getaffinity(0)), options.dask)
-    try:
-        report = build_bank(
-            board,
-            path,
-            pitch_m,
-            cells,
-            spots=spots,
-            scene=scene,
-            progress=True,
-            measure_sgemm=measure,
-            overwrite=own_path,
-            aim=aim,
-            workers=workers,
-            choice=choice,
-            memory_mb=options.memory_mb if options else None,
-        )
-    except KeyboardInterrupt:
-        if aim:
-            tell("what is optimised is kept: the same command goes on from there")
-        raise
-    if warning := interpolation_warning(report.interpolation_error):
-        tell(f"{path}: {warning}")
-    return report
-
-
 def _build_table(figures: dict[str, Any]) -> str:
-    from controller.commands.tables import plain_table
+    from controller.commands.common.tables import plain_table
 
     return f"{plain_table({name: value for name, value in figures.items() if name != 'path'})}\nbank: {figures['path']}"

@@ -7,14 +7,15 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.commands.output import picture_path, progress_bar, show
-from controller.commands.tables import benchmark_table
+from controller.commands.common.arguments import natural
+from controller.commands.common.output import picture_path, progress_bar, show
+from controller.commands.common.tables import benchmark_table
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 RESULTS = "work_precision.json"
 SKIPS = ("idle", "resident", "repeated", "ahead", "near", "cells", "together")  # fields of `loop.skips.Skips`
@@ -23,6 +24,7 @@ SKIPS = ("idle", "resident", "repeated", "ahead", "near", "cells", "together")  
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     benchmark = declare(
+        example="haptic-panel benchmark --quick --out results",
         parents=[common],
         description="Compare methods of finding drive words on the plate model: work-precision diagrams (PNG, SVG) and their "
         "figures (JSON). Takes about 11 minutes of one core; --quick: 2 minutes.",
@@ -31,7 +33,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     benchmark.add_argument(
         "--out", metavar="FOLDER", default="benchmark-results", help="for diagrams and figures (default: benchmark-results)"
     )
-    benchmark.add_argument("--seed", type=_natural, default=1, metavar="N", help="of the random scenes (default: 1)")
+    benchmark.add_argument("--seed", type=natural, default=1, metavar="N", help="of the random scenes (default: 1)")
     benchmark.add_argument("--no-timing", action="store_true", help="errors only, without times")
     benchmark.add_argument("--no-pictures", action="store_true", help="figures only, without diagrams")
     benchmark.set_defaults(command=run)
@@ -50,7 +52,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         metavar="WHAT",
         help=f"leave only this undone in the runs compared with: {', '.join(SKIPS)} (default: all of it)",
     )
-    skips.add_argument("--repeats", type=_natural, default=5, metavar="N", help="runs of each for the least host time (default: 5)")
+    skips.add_argument("--repeats", type=natural, default=5, metavar="N", help="runs of each for the least host time (default: 5)")
     skips.set_defaults(command=skipping)
     published = actions.add_parser(
         "paper",
@@ -60,7 +62,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         "theirs. Takes about 2 minutes of one core; --quick: 15 s.",
     )
     published.add_argument("--quick", action="store_true", help="fewer foci")
-    published.add_argument("--seed", type=_natural, default=1, metavar="N", help="of the foci (default: 1)")
+    published.add_argument("--seed", type=natural, default=1, metavar="N", help="of the foci (default: 1)")
     published.add_argument("--markdown", action="store_true", help="print the table of the README")
     published.add_argument("--plot", metavar="FILE", help="draw them (.png, .svg, .pdf)")
     published.set_defaults(command=paper)
@@ -68,7 +70,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Measure, write figures and diagrams, and print the Pareto fronts."""
-    from controller.benchmark.work_precision import FULL, QUICK, work_precision
+    from controller.workshop.benchmark.work_precision import FULL, QUICK, work_precision
 
     board = load_board(find_board(options.board))
     folder = Path(options.out)
@@ -83,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
     figures = work_precision(board, effort, options.seed, timing=not options.no_timing, progress=progress_bar("benchmark"))
     (folder / RESULTS).write_text(json.dumps(figures, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     if not options.no_pictures:
-        from controller.benchmark.work_precision_diagrams import draw_all
+        from controller.workshop.benchmark.work_precision_diagrams import draw_all
 
         draw_all(folder, figures)
     show(options, figures, benchmark_table)
@@ -92,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
 
 def skipping(options: argparse.Namespace) -> int:
     """Print what skipping saves; 1 if it changes output bits that it must not change."""
-    from controller.benchmark.skipping import all_cases, table
+    from controller.workshop.benchmark.device.skipping import all_cases, table
 
     found = all_cases(load_board(find_board(options.board)), options.no_skip, options.repeats, progress_bar("scenes"))
     show(options, found, lambda figures: "\n\n".join(map(table, figures["cases"])))
@@ -101,22 +103,15 @@ def skipping(options: argparse.Namespace) -> int:
 
 def paper(options: argparse.Namespace) -> int:
     """Print the paper's figures beside ours, and draw them."""
-    from controller.benchmark.paper import FULL, QUICK, paper_figures
-    from controller.benchmark.paper_row import markdown, paper_table
+    from controller.workshop.benchmark.paper.paper import FULL, QUICK, paper_figures
+    from controller.workshop.benchmark.paper.paper_row import markdown, paper_table
 
     picture = picture_path(options)
     board = load_board(find_board(options.board))
     found = paper_figures(board, QUICK if options.quick else FULL, options.seed, progress_bar("paper"))
     if picture:
-        from controller.benchmark.plot_paper import plot_paper
+        from controller.workshop.benchmark.paper.plot_paper import plot_paper
 
         plot_paper(picture, found)
     show(options, found, markdown if options.markdown else paper_table)
     return 0
-
-
-def _natural(text: str) -> int:
-    """Argument that is a whole number from 0."""
-    if not text.isascii() or not text.isdigit():
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0")
-    return int(text)

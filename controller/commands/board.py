@@ -6,28 +6,33 @@ import argparse
 import json
 from typing import TYPE_CHECKING, Any
 
-from controller.board.board import Board, load_board
-from controller.board.fpga_part import FILE, check_top, find_part
-from controller.board.lookup import find_board
-from controller.board.reference import reference, relations_reference, schema
-from controller.board.relations import RELATIONS, judge
-from controller.commands.output import show
+from controller.commands.common.output import show
 from controller.console import is_unicode, say
+from controller.device.board.board import board_file, load_board
+from controller.device.board.fpga_part import FILE, check_top, find_part
+from controller.device.board.lookup import find_board
+from controller.device.board.reference import reference, relations_reference, schema
+from controller.device.board.relations.checked import RELATIONS, judge
+from controller.device.board.touch_panels import touch_records
+from controller.device.scene.effects import EffectTable
+from controller.device.scene.scene_file import find_scene, read_scene
+from controller.device.scene.scene_tables import SceneTable
+from controller.device.touch.recordings.recording import Recording
 from controller.errors import ConfigError
-from controller.scene.effects import EffectTable
-from controller.scene.scene_file import find_scene, read_scene
-from controller.scene.scene_tables import SceneTable
-from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 NAMED = {"effects": EffectTable}  # tables of scene.toml by names of the user's choice
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    board = declare()
+    board = declare(
+        example="haptic-panel board check simulated",
+        description="A board is a folder whose board.toml describes a panel: plate, patches, driver stages, touch panel, FPGA and "
+        "limits; its scene.toml says what the panel feels like.",
+    )
     actions = board.add_subparsers(title="actions", metavar="ACTION", required=True)
     check = actions.add_parser(
         "check",
@@ -89,17 +94,27 @@ def board_check(options: argparse.Namespace) -> int:
 
 
 def board_reference(_: argparse.Namespace) -> int:
-    """Print the reference that is committed as board/reference.md."""
-    parts = (reference("board.toml", Board), relations_reference(RELATIONS), reference("scene.toml", SceneTable, NAMED))
-    say("\n".join(parts), end="")
+    """Print the reference that is committed as device/board/reference.md."""
+    say(reference_text(), end="")
     return 0
 
 
 def board_schema(options: argparse.Namespace) -> int:
     """Print the JSON schema that is committed as boards/board.schema.json or boards/scene.schema.json."""
-    found = schema(SceneTable, NAMED) if options.scene else schema(Board)
-    say(json.dumps(found, indent=1, ensure_ascii=not is_unicode()))
+    say(schema_text(scene=options.scene, ascii_only=not is_unicode()), end="")
     return 0
+
+
+def reference_text() -> str:
+    """Every key of board.toml and scene.toml, as Markdown."""
+    board = reference("board.toml", board_file(touch_records()))
+    return "\n".join([board, relations_reference(RELATIONS), reference("scene.toml", SceneTable, NAMED)])
+
+
+def schema_text(*, scene: bool, ascii_only: bool = False) -> str:
+    """JSON schema of board.toml, or of scene.toml."""
+    found = schema(SceneTable, NAMED) if scene else schema(board_file(touch_records()))
+    return json.dumps(found, indent=1, ensure_ascii=ascii_only) + "\n"
 
 
 def _tag(table: Any) -> str:

@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from controller.application_socket.client_commands import declare_requests, send
+from controller.device.application_socket.client_commands import declare_requests, send
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser = declare(
+        example="haptic-panel client play click --at 100 70",
         description="Send one request to a running panel through its application socket, as this user, for whom the board's groups "
         "say what is permitted. What the panel says goes to stdout, one JSON object a line. Exit code 0 if it was done, 1 if it "
         "was refused or not played, 69 if no panel runs.",

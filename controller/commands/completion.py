@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from controller.console import say
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 SHELL_FILES = Path(__file__).with_name("shell")
 COMPLETIONS = {"bash": "haptic-panel.bash", "zsh": "_haptic-panel", "tcsh": "haptic-panel.tcsh"}
@@ -18,6 +18,7 @@ COMPLETIONS = {"bash": "haptic-panel.bash", "zsh": "_haptic-panel", "tcsh": "hap
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     command = declare(
+        example="haptic-panel completion bash",
         description="Print the completion for a shell. For one session: source <(haptic-panel completion bash). The wheel also "
         "installs it below share/bash-completion and share/zsh, and the manual page below share/man.",
     )

@@ -1,4 +1,4 @@
-"""`haptic-panel design`: what a panel of given numbers will be, by the equations of the paper."""
+"""`haptic-panel design`: a panel's performance, estimated from its parameters by the equations of the paper."""
 
 from __future__ import annotations
 
@@ -7,16 +7,15 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from controller.board.board import load_board
-from controller.board.descriptions import unit_of
-from controller.board.lookup import find_board
-from controller.board.reference import attributes
-from controller.commands.output import picture_path, show
+from controller.commands.common.output import picture_path, show
+from controller.device.board.board import load_board
+from controller.device.board.descriptions import unit_of
+from controller.device.board.lookup import find_board
+from controller.device.board.reference import attributes
 from controller.errors import ConfigError
-from controller.physics.design_inputs import NUMBERS, DesignInputs, inputs_of, sweep
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 ROWS = {  # what is printed of each figure; numbers in brackets are those of the paper's equations
     "tc_ms": "Tc = modes per kHz (2)",
@@ -64,16 +63,19 @@ COLUMNS = ("tc_ms", "contrast", "contrast_outside", "spot_mm", "amplitude_um", "
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
+    from controller.workshop.physics.design.design_inputs import NUMBERS, DesignInputs
+
     command = declare(
+        example="haptic-panel design --thickness-mm 1",
         parents=[common],
-        description="What a panel of given numbers will be, by the equations of the paper, with warnings where these do not hold."
-        " What is not given is the board's.",
+        description="Estimate a panel's performance from its parameters, by the equations of the paper, with warnings where these "
+        "do not hold. A parameter that is not given is the board's.",
     )
     command.add_argument(
-        "--sweep", metavar="NAME=FROM:TO:STEP", help="a table over one of the numbers, such as thickness_mm=0.3:2:0.1"
+        "--sweep", metavar="NAME=FROM:TO:STEP", help="a table over one of the parameters, such as thickness_mm=0.3:2:0.1"
     )
     command.add_argument("--plot", metavar="FILE", help="draw the sweep (.png, .svg, .pdf)")
-    numbers = command.add_argument_group("numbers of the design")
+    numbers = command.add_argument_group("parameters of the design")
     texts = attributes(DesignInputs)
     for name in NUMBERS:
         text = texts.get(name, "").rstrip(".")
@@ -84,7 +86,8 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def design(options: argparse.Namespace) -> int:
     """Print the figures of a design, or of a sweep."""
-    from controller.physics.design_figures import design_figures
+    from controller.workshop.physics.design.design_figures import design_figures
+    from controller.workshop.physics.design.design_inputs import NUMBERS, inputs_of, sweep
 
     if options.plot and not options.sweep:
         raise ConfigError("--plot draws a sweep: give --sweep NAME=FROM:TO:STEP too")
@@ -106,7 +109,7 @@ def design(options: argparse.Namespace) -> int:
 
 
 def _plot(picture: Path, figures: dict[str, Any]) -> None:
-    from controller.physics.plot_design import plot_sweep
+    from controller.workshop.physics.design.plot_design import plot_sweep
 
     plot_sweep(picture, figures["swept"], figures["values"], figures["designs"], {name: ROWS[name] for name in COLUMNS})
 

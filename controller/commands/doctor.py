@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board, own_board
 from controller.clocks import MonotonicClock, VirtualClock
-from controller.commands.output import progress_bar, show
+from controller.commands.common.fpga_link import fpga_link
+from controller.commands.common.output import progress_bar, show
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board, own_board
+from controller.device.doctor.doctor import look
+from controller.device.doctor.finding import Finding
+from controller.device.doctor.link_examination import LinkExamined, examine_link
+from controller.device.service.drivers import open_session
+from controller.device.service.installation import is_installed
 from controller.errors import ControllerError
-from controller.service.doctor import look
-from controller.service.drivers import open_link, open_session
-from controller.service.finding import Finding
-from controller.service.link_examination import LinkExamined, examine_link
-from controller.service.update_examination import look_at_updates
-from controller.update.layout import Layout
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 BITS = 1e6
 
@@ -27,6 +28,7 @@ BITS = 1e6
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     doctor = declare(
+        example="haptic-panel doctor --board panel --link",
         parents=[common],
         description="Check every device, file and permission that the board needs, and releases and updates of this device. With "
         "--link, also send random bits to the FPGA at several speeds, propose one, fill its memory and chirp on each channel: "
@@ -43,21 +45,20 @@ def examine(options: argparse.Namespace) -> int:
     """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
     board = load_board(find_board(options.board or own_board()))
     real = MonotonicClock()
-    findings = look(board, real.now_s) + look_at_updates(Layout.from_environment())
+    findings = look(board, real.now_s) + _releases()
     figures: dict[str, Any] = {}
     if options.link:
         clock = VirtualClock() if board.link.kind == "simulated" else real
         channels = [] if options.no_chirps else sorted(actuator.channel for actuator in board.actuators)
         try:
-            link = open_link(board, clock.now_s, unhurried=True)
+            link, take_capture = fpga_link(board, clock.now_s)
         except ControllerError as error:
             examined = LinkExamined([Finding("link", False, str(error))], {})
         else:
             progress = progress_bar("link") if not options.json else lambda *_: None
             try:
-                examined = examine_link(
-                    board, link, lambda: open_session(link, board, clock.now_s), clock, options.bits, channels, progress
-                )
+                opened = partial(open_session, link, board, clock.now_s)
+                examined = examine_link(board, link, opened, clock, options.bits, channels, progress, take_capture)
             finally:
                 link.close()
         findings += examined.findings
@@ -65,6 +66,16 @@ def examine(options: argparse.Namespace) -> int:
     good = all(finding.good for finding in findings)
     show(options, {"board": board.name, "good": good, "findings": [asdict(finding) for finding in findings], **figures}, _table)
     return 0 if good else 1
+
+
+def _releases() -> list[Finding]:
+    """Findings on releases and updates of this device; none without the room that has them."""
+    if not is_installed("device.update"):
+        return []
+    from controller.device.doctor.update_examination import look_at_updates
+    from controller.device.update.layout import Layout
+
+    return look_at_updates(Layout.from_environment())
 
 
 def _table(figures: dict[str, Any]) -> str:

@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
+from controller.commands.common.arguments import natural
+from controller.commands.common.output import picture_path, show
+from controller.commands.common.tables import amplitude_table, plain_table
 from controller.commands.focus_movie import add_movie, film, movie_path
-from controller.commands.output import picture_path, show
-from controller.commands.tables import amplitude_table, plain_table
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
 from controller.errors import ConfigError, UsageError
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 FINGER_MOST = (10e3, 1e3, 1e7)  # mg, N s/m, N/m
 
@@ -21,6 +22,7 @@ FINGER_MOST = (10e3, 1e3, 1e7)  # mg, N s/m, N/m
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     point = declare(
+        example="haptic-panel focus --at 100 70 --at 60 90 --plot focus.png",
         parents=[common],
         description="Compute the waveform for one or several points without a bank, and measure the focus on the plate model.",
     )
@@ -35,7 +37,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         help="measure what composing from a bank reaches instead: amplitudes, places between cells, edges; --plot draws it",
     )
     point.add_argument("--pitch-mm", type=float, metavar="MM", help="of that bank (default: the board's)")
-    point.add_argument("--seed", type=_natural, default=1, help="of the random points (default: 1)")
+    point.add_argument("--seed", type=natural, default=1, help="of the random points (default: 1)")
     point.add_argument(
         "--memory-mb", type=float, metavar="M", help="memory that --at may take, in MB (default: 1500); refused if it needs more"
     )
@@ -58,8 +60,8 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def focus(options: argparse.Namespace) -> int:
     """Focus on points of the plate and print figures of merit; or measure the figures of the README."""
-    from controller.benchmark.focus_emission import emission_at, emission_figures, judged_foci
-    from controller.benchmark.focus_figures import figures
+    from controller.workshop.benchmark.focus.focus_emission import emission_at, emission_figures, evaluated_foci
+    from controller.workshop.benchmark.focus.focus_figures import figures
 
     picture, movie = picture_path(options), movie_path(options)
     if options.finger_load and not options.at:
@@ -69,22 +71,22 @@ def focus(options: argparse.Namespace) -> int:
         show(options, figures(board, options.seed), plain_table)
         return 0
     if options.idle_figures:
-        from controller.benchmark.idle import idle_figures
+        from controller.workshop.benchmark.device.idle import idle_figures
 
         found = idle_figures(board, options.seed)
         if picture:
-            from controller.benchmark.plot_idle import plot_idle
+            from controller.workshop.benchmark.device.plot_idle import plot_idle
 
             plot_idle(picture, board, found)
         show(options, found, plain_table)
         return 0
     if options.amplitude_figures:
-        from controller.benchmark.amplitude import amplitude_figures
+        from controller.workshop.benchmark.focus.amplitude import amplitude_figures
 
         pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
         found = amplitude_figures(board, options.seed, pitch_m=pitch_mm * 1e-3)
         if picture:
-            from controller.benchmark.plot_amplitude import plot_amplitude
+            from controller.workshop.benchmark.focus.plot_amplitude import plot_amplitude
 
             plot_amplitude(picture, found)
         show(options, found, amplitude_table)
@@ -94,10 +96,10 @@ def focus(options: argparse.Namespace) -> int:
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     period_s = _period_s(options.period_ms, board.waveform.duration_s)
     emission = emission_at(board, points_m, options.memory_mb)
-    found = {"board": board.name, "foci": judged_foci(emission, period_s), "emission": emission_figures(emission, period_s)}
+    found = {"board": board.name, "foci": evaluated_foci(emission, period_s), "emission": emission_figures(emission, period_s)}
     if options.finger_load:
-        from controller.benchmark.focus_fingers import finger_figures
-        from controller.physics.finger import Finger
+        from controller.workshop.benchmark.focus.focus_fingers import finger_figures
+        from controller.workshop.physics.finger import Finger
 
         mass_mg, damping_n_s_m, stiffness_n_m = options.finger_load
         finger = Finger(mass_mg * 1e-6, damping_n_s_m, stiffness_n_m)
@@ -105,8 +107,8 @@ def focus(options: argparse.Namespace) -> int:
         for row, of_finger in zip(found["foci"], on_foci, strict=True):
             row["finger_on_it"] = of_finger
     if picture:
-        from controller.physics.focus_series import focus_series
-        from controller.physics.plot import plot_focus
+        from controller.workshop.physics.pictures.focus_series import focus_series
+        from controller.workshop.physics.pictures.plot import plot_focus
 
         title = f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}"
         series = focus_series(emission.twin, emission.words, points_m[0])
@@ -163,10 +165,3 @@ def _finger_load(text: str) -> tuple[float, float, float]:
         raise argparse.ArgumentTypeError(f"{text!r} is not a mass, or a mass, damping and stiffness, from 0 to {most}")
     mass_mg, damping_n_s_m, stiffness_n_m = (*values, 0.0, 0.0)[:3]
     return mass_mg, damping_n_s_m, stiffness_n_m
-
-
-def _natural(text: str) -> int:
-    """Argument that is a whole number from 0."""
-    if not text.isascii() or not text.isdigit():
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0")
-    return int(text)

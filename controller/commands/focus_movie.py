@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.commands.output import progress_bar
+from controller.commands.common.output import progress_bar
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
-    from controller.benchmark.focus_emission import Emission
+    from controller.workshop.benchmark.focus.focus_emission import FocusEmission
 
 
 def add_movie(command: argparse.ArgumentParser) -> None:
@@ -25,7 +25,7 @@ def add_movie(command: argparse.ArgumentParser) -> None:
     movie.add_argument(
         "--movie-step-us", type=float, metavar="US", help="from frame to frame, in whole bits (default: for 151 frames)"
     )
-    movie.add_argument("--movie-frames", type=int, metavar="N", help="at most so many frames, instead of a step")
+    movie.add_argument("--movie-frames", type=int, metavar="N", help="at most this many frames, instead of a step")
 
 
 def movie_path(options: argparse.Namespace) -> Path | None:
@@ -36,22 +36,22 @@ def movie_path(options: argparse.Namespace) -> Path | None:
     ConfigError
         If it could not be written, or both step and number of frames are given.
     """
-    if not options.movie:
+    if options.movie is None:
         return None
     if not options.at:
         raise ConfigError("--movie shows foci: give --at X_MM Y_MM too")
     if options.movie_step_us is not None and options.movie_frames is not None:
         raise ConfigError("--movie-step-us and --movie-frames: give one of them")
-    from controller.physics.movie_file import check_movie
+    from controller.workshop.physics.pictures.movie_file import check_movie
 
     check_movie(Path(options.movie))
     return Path(options.movie)
 
 
-def film(options: argparse.Namespace, path: Path, emission: Emission, points_m: Sequence[tuple[float, float]]) -> None:
+def film(options: argparse.Namespace, path: Path, emission: FocusEmission, points_m: Sequence[tuple[float, float]]) -> None:
     """Write the movie of an emission."""
-    from controller.physics.movie import Movie
-    from controller.physics.movie_file import write_movie
+    from controller.workshop.physics.pictures.movie import Movie
+    from controller.workshop.physics.pictures.movie_file import write_movie
 
     twin = emission.twin
     from_s, to_s = (None if at_ms is None else at_ms * 1e-3 for at_ms in (options.movie_from_ms, options.movie_to_ms))

@@ -7,14 +7,18 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.application_socket.client import DEFAULT_PATH
 from controller.console import say
+from controller.device.application_socket.client import DEFAULT_PATH
+from controller.device.service.installation import is_installed
 from controller.errors import ControllerError, UsageError
 
 if TYPE_CHECKING:
-    from prometheus_client import CollectorRegistry
+    from collections.abc import Iterator
 
-    from controller.commands.output import Declare
+    from prometheus_client import CollectorRegistry
+    from prometheus_client.core import Metric
+
+    from controller.commands.common.output import Declare
 
 LISTEN = "127.0.0.1:9750"
 
@@ -22,6 +26,7 @@ LISTEN = "127.0.0.1:9750"
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser = declare(
+        example="haptic-panel metrics --listen 127.0.0.1:9750",
         description="Show the figures of a running panel in the text format of Prometheus: states, faults by cause, latency "
         "histograms, skips, queue, temperature, release and update. Asks the panel's application socket, at most once a second; "
         "a panel that does not answer is haptic_panel_up 0. Without options: once, on stdout.",
@@ -45,14 +50,11 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Export the figures."""
-    from functools import partial
-
     from prometheus_client import generate_latest, write_to_textfile
 
-    from controller.service.prometheus import PanelCollector, PanelFigures, registry, update_metrics
-    from controller.update.layout import Layout
+    from controller.device.service.prometheus import PanelCollector, PanelFigures, registry
 
-    alone = registry(PanelCollector(PanelFigures(options.socket), partial(update_metrics, Layout.from_environment())))
+    alone = registry(PanelCollector(PanelFigures(options.socket), _of_releases))
     if options.listen:
         _serve(alone, options.listen, options.hosts)
         return 0
@@ -71,12 +73,22 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _of_releases() -> Iterator[Metric]:
+    """Releases of this device, also while no panel answers; none without the room that has them."""
+    if is_installed("device.update"):
+        from controller.device.service.prometheus import update_metrics
+        from controller.device.update.installed import update_state
+        from controller.device.update.layout import Layout
+
+        yield from update_metrics(update_state(Layout.from_environment()))
+
+
 def _serve(collected: CollectorRegistry, listen: str, hosts: list[str]) -> None:
     import asyncio
     import contextlib
     import socket
 
-    from controller.service.metrics_server import MetricsServer
+    from controller.device.service.metrics_server import MetricsServer
 
     host, port = _address(listen)
     try:

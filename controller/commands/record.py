@@ -7,21 +7,23 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.commands.output import show
-from controller.commands.tables import plain_table
+from controller.commands.common.arguments import seconds
+from controller.commands.common.output import show
+from controller.commands.common.tables import plain_table
 from controller.console import tell
-from controller.service.drivers import open_input, open_panel
-from controller.touch.recorder import open_recording, record
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.service.drivers import open_input, open_panel
+from controller.device.touch.recordings.recorder import open_recording, record
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     command = declare(
+        example="haptic-panel record --board panel --out touches.evemu",
         parents=[common],
         description="Store the events of the board's touch panel and the description of its device, in evemu's text format, until "
         "Ctrl-C or for some seconds. `haptic-panel run --replay FILE` replays it.",
@@ -30,7 +32,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         "--device", metavar="PATH", help="an input device of the kernel, by path or name, instead of the board's panel"
     )
     command.add_argument("--out", required=True, metavar="FILE", help="recording to write")
-    command.add_argument("--seconds", type=_seconds, metavar="N", help="stop by itself (default: at Ctrl-C)")
+    command.add_argument("--seconds", type=seconds, metavar="N", help="stop by itself (default: at Ctrl-C)")
     command.set_defaults(command=store)
 
 
@@ -50,10 +52,3 @@ def store(options: argparse.Namespace) -> int:
         tell(f"{options.out}: holds no event, as the panel sent none: it cannot be replayed")
     show(options, {"file": options.out} | stored, plain_table)
     return 0
-
-
-def _seconds(text: str) -> float:
-    seconds = float(text)
-    if not 0 < seconds < 1e9:
-        raise ValueError(text)
-    return seconds

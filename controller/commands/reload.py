@@ -6,16 +6,17 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
+from controller.device.service.reloading import reload
 from controller.errors import ConfigError
-from controller.service.reloading import reload
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser = declare(
+        example="haptic-panel reload --pid 1234",
         description="Send SIGHUP to the service and wait until the scene is in force, or refused (exit code 78).",
     )
     parser.add_argument("--pid", type=int, metavar="N", help="its main process (default: $MAINPID)")

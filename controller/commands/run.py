@@ -3,34 +3,39 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
-from controller.board.board import Board, on_other_plate, simulated
-from controller.board.paths import state_folder
-from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
-from controller.commands.named_board import named_board
-from controller.commands.output import picture_path, progress_bar, show
+from controller.commands.common.fpga_link import open_fpga_of
+from controller.commands.common.named_board import named_board
+from controller.commands.common.output import picture_path, progress_bar, show
 from controller.console import tell
+from controller.device.board.board import Board, on_other_plate, simulated
+from controller.device.board.paths import state_folder
+from controller.device.scene.edge_rate import edge_warnings
+from controller.device.scene.scene import load_scene
+from controller.device.scene.scene_file import find_scene
+from controller.device.service.drivers import recording_path
+from controller.device.service.installation import is_installed
 from controller.errors import ConfigError, UsageError
 from controller.log import Priority
-from controller.scene.edge_rate import edge_warnings
-from controller.scene.scene import load_scene
-from controller.scene.scene_file import find_scene
-from controller.service.drivers import recording_path
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
-    from controller.simulation.drift import Drift
-    from controller.simulation.focus_evaluation import Judged
+    from controller.commands.common.output import Declare
+    from controller.device.service.run import OperatorCommands
+    from controller.workshop.simulation.drift import Drift
+    from controller.workshop.simulation.focus_evaluation import Evaluated
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     play = declare(
+        example="haptic-panel run --board simulated --scene keyboard --speed max",
         parents=[common],
         description="On a board with devices: play the scene for the fingers on its touch panel, until SIGTERM or Ctrl-C; "
         "SIGHUP reads the scene again. On the simulated board, or with --link: replay a touch recording through the event loop, "
@@ -74,13 +79,14 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         help="of temperature, with a drift: the board's (default), one of -200 ppm/K, or none, so that nothing corrects the drift",
     )
     play.add_argument("--plot", metavar="FILE", help="draw the plate at T, fingers and a cross-section (.png, .svg, .pdf)")
+    play.add_argument("--verbose", action="store_true", help="print every count and latency too")
     play.set_defaults(command=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the board's panel, or simulate it."""
     board = named_board(options.board)
-    devices = board.link.kind != "simulated" or not isinstance(board.touch, RecordingTouch)
+    devices = board.link.kind != "simulated" or board.touch.has_device
     if devices and options.link is None:
         return _serve(options, board)
     return _simulate(options, board)
@@ -88,39 +94,60 @@ def run(options: argparse.Namespace) -> int:
 
 def _serve(options: argparse.Namespace, board: Board) -> int:
     """Run the service with the board's devices."""
-    from controller.commands.tables import service_table
-    from controller.service.migration import migrate
-    from controller.service.run import serve
+    from controller.commands.common.tables import service_table
+    from controller.commands.run_report import served
+    from controller.device.service.migration import migrate
+    from controller.device.service.run import serve
 
     if board.is_the_systems:
         for said in migrate(state_folder(board)):
             tell(said)
-    simulating = (options.plot, options.speed == "max", bool(options.plate), options.drift_percent is not None, options.drift)
+    simulating = (
+        options.plot is not None,
+        options.speed == "max",
+        bool(options.plate),
+        options.drift_percent is not None,
+        options.drift,
+    )
     if any(simulating):
         raise ConfigError("--plot, --speed max, --plate, --drift are for simulated panels: add --link model to simulate this board")
     scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     replay = None
-    if options.replay or isinstance(board.touch, RecordingTouch):
-        from controller.touch.recording import Recording
+    if options.replay or not board.touch.has_device:
+        from controller.device.touch.recordings.recording import Recording
 
         replay = Recording.open(recording_path(board, options.replay))
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
             tell(f"{scene_file}: {warning}", Priority.WARNING)
-        figures = {"bank": str(bank.path)} | serve(board, scene, str(scene_file), bank, replay)
-    show(options, figures, service_table)
+        ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board))
+        figures = {"bank": str(bank.path)} | ran
+    show(options, figures, service_table if options.verbose else served)
     return 0
+
+
+def _application_socket(board: Board) -> Callable[[], OperatorCommands] | None:
+    """What opens the board's application socket; None if it has none, or this installation cannot serve it."""
+    if board.application_socket is None:
+        return None
+    if not is_installed("device.application_socket"):
+        tell("board.toml: [application_socket] is not served: this installation has no controller/device/application_socket")
+        return None
+    from controller.device.application_socket.command_socket import CommandSocket
+
+    return partial(CommandSocket, board, board.application_socket)
 
 
 def _simulate(options: argparse.Namespace, board: Board) -> int:
     """Replay a recording on the simulated panel, and print what its fingers would have felt."""
     from threadpoolctl import threadpool_limits
 
+    from controller.commands.common.tables import run_table
     from controller.commands.gateware import gateware_factory
-    from controller.commands.tables import run_table
-    from controller.simulation import focus_evaluation, run_figures, simulated_run
-    from controller.touch.recording import Recording
+    from controller.commands.run_report import felt
+    from controller.device.touch.recordings.recording import Recording
+    from controller.workshop.simulation import focus_evaluation, run_figures, simulated_run
 
     picture = picture_path(options)
     board = simulated(board)
@@ -147,26 +174,24 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
             recording,
             real_time=real_time,
             ready=ready,
-            gateware=gateware,
-            plate=plate,
-            drift=drift,
+            hardware=simulated_run.Hardware(gateware, plate, drift),
         )
-        judged = focus_evaluation.judge(done, progress_bar("plate"))
-    if judged.left_out:
-        tell(f"interrupted: {judged.left_out} emissions are not in the figures of the foci")
-    figures = {"link": options.link or "model", "bank": str(bank.path)} | run_figures.report(done, judged.foci)
+        evaluated = focus_evaluation.judge(done, progress_bar("plate"))
+    if evaluated.left_out:
+        tell(f"interrupted: {evaluated.left_out} emissions are not in the figures of the foci")
+    figures = {"link": options.link or "model", "bank": str(bank.path)} | run_figures.report(done, evaluated.foci)
     for warning in figures["warnings"]:
         tell(warning)
     figures["warnings"] = [*overdone, *figures["warnings"]]
-    show(options, figures, run_table)
+    show(options, figures, run_table if options.verbose else felt)
     if picture:
-        _plot_run(picture, board, judged, recording.name)
+        _plot_run(picture, board, evaluated, recording.name)
     return 0
 
 
 def _drifting(options: argparse.Namespace, board: Board) -> tuple[Board, Drift | None]:
     """The board with the temperature sensor that is asked for, and the drift."""
-    from controller.simulation.drift import ASSUMED, Drift
+    from controller.workshop.simulation.drift import ASSUMED, Drift
 
     if options.drift_percent is not None:
         drift = Drift.constant(options.drift_percent)
@@ -185,13 +210,13 @@ def _drifting(options: argparse.Namespace, board: Board) -> tuple[Board, Drift |
     return board, drift
 
 
-def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
-    from controller.physics.plot import plot_focus
+def _plot_run(path: Path, board: Board, evaluated: Evaluated, recording: str) -> None:
+    from controller.workshop.physics.pictures.plot import plot_focus
 
-    if judged.field is None:
+    if evaluated.field is None:
         tell("nothing was played, so there is nothing to draw")
         return
-    foci = sorted(judged.shown, key=lambda focus: -abs(focus.metrics.amplitude_m))
+    foci = sorted(evaluated.shown, key=lambda focus: -abs(focus.metrics.amplitude_m))
     fingers = sum(focus.emission.finger is not None for focus in foci)
     title = f"{recording}, t = {foci[0].time_s:.3f} s: {fingers} finger{'s' * (fingers != 1)} at once"
-    plot_focus(path, board, judged.field, [(focus.x_m, focus.y_m) for focus in foci], title)
+    plot_focus(path, board, evaluated.field, [(focus.x_m, focus.y_m) for focus in foci], title)

@@ -1,4 +1,4 @@
-"""Generate completions and manual page from the argument parser: `python -m controller.commands.shell_files [FOLDER]`.
+"""Completions and manual page from the argument parser (`controller.generate` writes them).
 
 They are committed in commands/shell, because the packages that make them (shtab, argparse-manpage: of the extra `test`) are not
 for a device; a test compares them with the parser.
@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 from controller import __version__
 from controller.cli import parser
-from controller.commands.completion import COMPLETIONS, SHELL_FILES
+from controller.commands.completion import COMPLETIONS
 
 MANUAL = "haptic-panel.1"
 COLUMNS = "100"  # of the help texts that both packages take over
@@ -51,13 +49,3 @@ def arguments(of: argparse.ArgumentParser) -> Iterator[argparse.Action]:
         if isinstance(action, argparse._SubParsersAction):
             for command in dict.fromkeys(action.choices.values()):
                 yield from arguments(command)
-
-
-def main(folder: Path = SHELL_FILES) -> None:
-    """Write the files."""
-    for name, text in shell_files().items():
-        (folder / name).write_text(text, encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main(*map(Path, sys.argv[1:]))

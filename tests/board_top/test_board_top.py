@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 from compiled_top import BOARD, PS, CompiledTop, channel_pins, channels_of, inputs, parameters, signal_pins, wires
 
-from controller.board.board import load_board
-from controller.board.lookup import data_folder
-from controller.errors import LinkError
-from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.capture import Capture
-from controller.fpga.exchange import Refused
-from controller.fpga.frames import (
+from controller.device.board.board import load_board
+from controller.device.board.lookup import data_folder
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.capture import Capture
+from controller.device.fpga.exchange import Refused
+from controller.device.fpga.frames import (
     FRAME_BYTES,
     LOAD_FRAME_BYTES,
+    Play,
     pack_control,
     pack_load,
     pack_nop,
@@ -25,10 +25,11 @@ from controller.fpga.frames import (
     pack_store,
     pack_unlock,
 )
-from controller.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Control, Fault, Register, Result, Start, State
-from controller.fpga.session import Session
-from controller.fpga.spi_link import SpiLink
-from controller.fpga.status import parse_status
+from controller.device.fpga.links.spi_link import SpiLink
+from controller.device.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Control, Fault, Register, Result, Start, State
+from controller.device.fpga.session import Session
+from controller.device.fpga.status import parse_status
+from controller.errors import LinkError
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "conformance"))
 
@@ -108,7 +109,7 @@ def test_it_is_known_armed_and_plays_an_upload_bit_for_bit_behind_the_trigger_li
 
     session.upload(3, memoryview(WORDS).cast("B"))
     assert session.exchange.read_slot_crc(3) == zlib.crc32(WORDS)
-    session.play(3, 1, 0.0, stop=False)
+    session.play(Play(3), stop=False)
     assert State.WAITING in session.heartbeat().state
     assert pi.board.high(signal_pins()["waiting"])
     pi.board.take()
@@ -169,7 +170,7 @@ def test_unlocked_and_armed_with_no_setting_written_it_keeps_the_limits_of_its_b
     send(pack_unlock, build_hash(data_folder("fpga_rtl")))
     send(pack_control, Control.ARM)
     pi.board.run((ULX3S.limits.arming_s + 0.1e-3) * PS)
-    send(pack_play, 0, count=0, period_ticks=125_000, start=Start.NOW)
+    send(pack_play, Play(0, emissions=0, period_ticks=125_000, start=Start.NOW))
     pi.board.run(26e-3 * PS)
     send(pack_nop)
     status = parse_status(answer[:FRAME_BYTES])

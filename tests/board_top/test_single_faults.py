@@ -13,15 +13,15 @@ import numpy as np
 import pytest
 from compiled_top import PS, UART, channel_pins, channels_of, signal_pins, wires
 
-from controller.board.board import load_board
-from controller.board.lookup import data_folder
+from controller.device.board.board import load_board
+from controller.device.board.lookup import data_folder
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.frames import Play, pack_nop
+from controller.device.fpga.links.spi_link import SpiLink
+from controller.device.fpga.recovery import Action, Recovery, action_for
+from controller.device.fpga.registers import Fault, Register, State
+from controller.device.fpga.session import Session
 from controller.errors import ControllerError
-from controller.fpga.build_hash import build_hash
-from controller.fpga.frames import pack_nop
-from controller.fpga.recovery import Action, Recovery, action_for
-from controller.fpga.registers import Fault, Register, State
-from controller.fpga.session import Session
-from controller.fpga.spi_link import SpiLink
 
 ULX3S = load_board(data_folder("boards") / "ulx3s" / "board.toml")
 README = data_folder("fpga_rtl") / "README.md"
@@ -183,7 +183,7 @@ def noisy(name):
 
 
 def one_frame_in(damaged_of):
-    """A link that damages one bit in every so many frames."""
+    """A link that damages one bit in every this many frames."""
 
     def perform(host):
         count = iter(range(10**6))
@@ -236,7 +236,7 @@ def triggered(level):
     def perform(host):
         host.session.upload(0, memoryview(WORDS).cast("B"))
         for _ in range(2):
-            host.session.play(0, 1, 0.0, stop=False)
+            host.session.play(Play(0), stop=False)
         if level == "noise":
             return noisy("trigger")(host)
         return stuck("trigger", level)(host)
@@ -285,7 +285,7 @@ IN_EVERY_RUN = (
 )
 
 
-def told():
+def reported():
     """{fault: cells} of the README's table of the pins."""
     (rows,) = re.findall(r"^\| one thing broken \|.*\n\|[-|]+\n((?:\|.*\n)+)", README.read_text(), re.MULTILINE)
     cells = [[cell.strip() for cell in row.strip("|\n").split(" | ")] for row in rows.splitlines()]
@@ -293,12 +293,12 @@ def told():
 
 
 def test_the_table_has_these_rows():
-    assert list(told()) == [*ROWS, *AT_THE_START]
+    assert list(reported()) == [*ROWS, *AT_THE_START]
 
 
 @pytest.mark.parametrize("what", [row if row in IN_EVERY_RUN else pytest.param(row, marks=pytest.mark.slow) for row in ROWS])
 def test_one_thing_broken(pi, what):
-    assert ROWS[what](Host(pi)).row() == told()[what]
+    assert ROWS[what](Host(pi)).row() == reported()[what]
 
 
 @pytest.mark.parametrize("what", AT_THE_START)
@@ -308,4 +308,4 @@ def test_one_thing_broken_at_the_start(pi, what):
         Session(SpiLink(ULX3S.link, pi.now_s), ULX3S, build_hash(data_folder("fpga_rtl")), pi.now_s)
     assert not pi.board.levels & (sum(channel_pins()) | signal_pins()["hv_enable"])
     said = re.match(r"[^:,.]+", str(caught.value))[0]
-    assert ("stay off", "–", f"exit {caught.value.exit_code}: {said}") == told()[what]
+    assert ("stay off", "–", f"exit {caught.value.exit_code}: {said}") == reported()[what]

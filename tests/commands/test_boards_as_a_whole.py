@@ -5,12 +5,12 @@ import re
 import shutil
 
 import pytest
-from board.changed_board import rewritten
+from device.board.changed_board import rewritten
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
 from controller.cli import main
-from controller.touch.calibration import default_targets
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.touch_calibration.calibration import default_targets
 
 SHIPPED = {name: (find_board(name) / "board.toml").read_text() for name in ("simulated", "ulx3s")}
 ALL_HIGH = re.sub(r"idle = 0", "idle = 1", SHIPPED["simulated"])

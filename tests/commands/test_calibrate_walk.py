@@ -6,8 +6,8 @@ import re
 import pytest
 from scripted_evemu import evemu
 
-from controller.board.lookup import find_board
 from controller.cli import main
+from controller.device.board.lookup import find_board
 
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
 REAL = ["--plate", "edges=free", "--plate", "theory=mindlin"]
@@ -33,7 +33,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def told(capsys, *arguments):
+def reported(capsys, *arguments):
     capsys.readouterr()
     assert main([*map(str, arguments), "--json"]) == 0, capsys.readouterr().err
     return json.loads(capsys.readouterr().out)
@@ -44,11 +44,11 @@ def told(capsys, *arguments):
 def test_a_bank_of_measurements_plays_on_the_plate_that_was_measured_and_the_models_does_not(folder, capsys, points, least, worst):
     """At 40 dB, by the same files, commands and gateware as a real panel; A_ref is that of the plate that was measured."""
     board = ["--board", folder]
-    told(capsys, "calibrate", "simulate", folder / "m", *board, *points, *REAL)
-    told(capsys, "calibrate", "bank", folder / "m", *board, "--out", folder / "m.bank")
-    measured = told(capsys, "run", *board, "--speed", "max", "--bank", folder / "m.bank", *REAL)["focus"]
-    modelled = told(capsys, "run", *board, "--speed", "max", *REAL)["focus"]
-    same = told(capsys, "run", *board, "--speed", "max")["focus"]
+    reported(capsys, "calibrate", "simulate", folder / "m", *board, *points, *REAL)
+    reported(capsys, "calibrate", "bank", folder / "m", *board, "--out", folder / "m.bank")
+    measured = reported(capsys, "run", *board, "--speed", "max", "--bank", folder / "m.bank", *REAL)["focus"]
+    modelled = reported(capsys, "run", *board, "--speed", "max", *REAL)["focus"]
+    same = reported(capsys, "run", *board, "--speed", "max")["focus"]
     for name, of in (("measured", measured), ("the model's, on the real plate", modelled), ("the model's, on its own", same)):
         print(f"{points[0][2:]}, bank {name}: {of['relative_amplitude']}")
     assert measured["count"] == modelled["count"] == 7

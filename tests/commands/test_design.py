@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from tables import each_row
 
 from controller.cli import main
 from controller.commands.design import ROWS
@@ -46,7 +47,7 @@ def test_a_sweep_is_a_picture(capsys, tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("arguments", "said"),
     [
         (("--thickness-mm", "nan"), "thickness_mm = nan: must be a finite number"),

@@ -16,14 +16,14 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from controller.board.board import load_board
-from controller.board.lookup import data_folder
 from controller.cli import main
+from controller.device.board.board import load_board
+from controller.device.board.lookup import data_folder
+from controller.device.fpga.bitstream import KEY, Identity, read_identity, sealed
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.build_parameters import top_parameters
 from controller.errors import GatewareError
-from controller.fpga import bitstream_build
-from controller.fpga.bitstream import KEY, Identity, read_identity, sealed
-from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import top_parameters
+from controller.workshop.gateware import bitstream_build
 
 ULX3S = data_folder("boards") / "ulx3s"
 SEED = tomllib.loads((ULX3S / "fpga.toml").read_text())["seed"]
@@ -208,7 +208,7 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_work(tools, capsys)
     assert tools.read is None
 
 
-def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_told(tools, capsys, tmp_path):
+def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_reported(tools, capsys, tmp_path):
     others = tmp_path / "other.bit"
     for content, complaint in (
         (b"", "is no bitstream of an ECP5 or iCE40"),
@@ -229,7 +229,7 @@ def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_told(tool
     assert "own.bit.json: tells of another file than own.bit" in said(capsys, "info", "own.bit", code=1)
 
 
-def test_a_bitstream_that_is_not_whole_is_told_and_not_loaded(tools, panel, loader, capsys, tmp_path):
+def test_a_bitstream_that_is_not_whole_is_reported_and_not_loaded(tools, panel, loader, capsys, tmp_path):
     """openFPGALoader would write it, into the flash too; the FPGA would find its CRC wrong, or wait for the rest."""
     out = panel / "panel.bit"
     assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
@@ -309,7 +309,7 @@ def loader(tmp_path, monkeypatch):
     return lambda: notes.read_text().splitlines() if notes.exists() else []
 
 
-def test_what_bring_up_would_take_is_loaded_into_the_memory_and_the_flash_only_if_told(tools, panel, loader, capsys, tmp_path):
+def test_what_bring_up_would_take_is_loaded_into_the_memory_and_the_flash_only_if_asked(tools, panel, loader, capsys, tmp_path):
     out = panel / "panel.bit"
     assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
     assert main(["gateware", "load", "--board", str(panel)]) == 0
@@ -363,7 +363,7 @@ def test_slots_beyond_those_of_the_board_and_other_verilog(tools, panel, capsys)
 
 
 def bitstream_build_differences(identity, board):
-    from controller.fpga.bitstream import differences
+    from controller.device.fpga.bitstream import differences
 
     def of(**changed):
         other = msgspec.structs.replace(identity, parameters=identity.parameters | changed)

@@ -6,8 +6,8 @@ import subprocess
 import sys
 import urllib.request
 
-import pytest
 from patience import wait_for
+from tables import each_row
 
 from controller.cli import main
 
@@ -21,7 +21,7 @@ def test_a_panel_that_does_not_answer_is_down(tmp_path, capsys):
     assert [path.name for path in tmp_path.iterdir()] == ["panel.prom"]
 
 
-def test_releases_are_told_whether_or_not_a_panel_answers(tmp_path, capsys, monkeypatch):
+def test_releases_are_reported_whether_or_not_a_panel_answers(tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("HAPTIC_PANEL_ROOT", str(tmp_path))
     (tmp_path / "state").mkdir()
     for name, words in (("current", "1.0"), ("trial", "2.0"), ("tries", "2"), ("failed", "0.8\n0.9")):
@@ -29,11 +29,11 @@ def test_releases_are_told_whether_or_not_a_panel_answers(tmp_path, capsys, monk
     assert main(["metrics", "--socket", str(tmp_path / "nobody.sock")]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert 'haptic_panel_update_info{in_use="",previous="",stays="1.0",trial="2.0"} 1.0' in lines
-    told = {"trial": 1.0, "tries": 2.0, "failed_releases": 2.0, "requests": 0.0, "problems": 1.0}
-    assert {f"haptic_panel_update_{name} {value}" for name, value in told.items()} <= set(lines)
+    reported = {"trial": 1.0, "tries": 2.0, "failed_releases": 2.0, "requests": 0.0, "problems": 1.0}
+    assert {f"haptic_panel_update_{name} {value}" for name, value in reported.items()} <= set(lines)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("options", "code", "said"),
     [
         (["--textfile", "{}/panel.txt"], 2, "node_exporter reads only files whose names end with .prom"),
@@ -51,7 +51,7 @@ def test_what_cannot_be_done_is_said_in_one_line(tmp_path, capsys, options, code
     assert said in line
 
 
-def test_it_is_served_until_it_is_told_to_end(tmp_path):
+def test_it_is_served_until_it_is_asked_to_end(tmp_path):
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     command = [

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from controller.commands import update_make_release
+from controller.commands.update import make_release as update_make_release
 from controller.errors import UpdateError
 
 NUMBER = 54321

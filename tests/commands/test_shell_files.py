@@ -6,12 +6,13 @@ import shutil
 import subprocess
 
 import pytest
+from tables import each_row
 
 from controller.cli import main, parser
 from controller.commands.completion import COMPLETIONS, SHELL_FILES
 from controller.commands.shell_files import MANUAL, arguments, shell_files
 
-ELSE = "run `python -m controller.commands.shell_files`"
+ELSE = "run `python -m controller.generate`"
 
 
 def words(text):
@@ -31,7 +32,7 @@ def helps():
             yield action.help
 
 
-@pytest.mark.parametrize("name", [*COMPLETIONS.values(), MANUAL])
+@each_row("name", [*COMPLETIONS.values(), MANUAL])
 def test_the_committed_files_are_made_of_this_parser(name):
     committed, made = (SHELL_FILES / name).read_text(), shell_files()[name]
     assert words(committed) == words(made), ELSE
@@ -43,7 +44,7 @@ def test_every_option_and_its_help_stand_in_the_manual():
         assert words(text) in manual, (text, ELSE)
 
 
-@pytest.mark.parametrize("shell", sorted(COMPLETIONS))
+@each_row("shell", sorted(COMPLETIONS))
 def test_every_option_stands_in_the_completion(shell, capsys):
     assert main(["completion", shell]) == 0
     text = capsys.readouterr().out

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from controller.simulation.rtl_build import verilator_root
-from controller.simulation.rtl_gateware import RtlGateware
+from controller.workshop.gateware.rtl_build import verilator_root
+from controller.workshop.gateware.rtl_gateware import RtlGateware
 
 sys.path.insert(0, str(Path(__file__).parent))  # where the tests find pin_script
 from pin_script import MODEL

@@ -1,4 +1,4 @@
-"""What the pins did, judged by the limits that the gateware was built with, whatever the host asked for.
+"""What the pins did, evaluated by the limits that the gateware was built with, whatever the host asked for.
 
 One fault adds edges of its own: the change that trips a limit, and the drop of the outputs. It may add them once in a window, as
 the stages rest for one then.
@@ -55,7 +55,7 @@ def settles(ticks, words, hv):
 
 
 def most_within(ticks, window_ticks):
-    """Most of these ticks in any interval of so many."""
+    """Most of these ticks in any interval of this many."""
     return int((np.searchsorted(ticks, ticks + window_ticks) - np.arange(len(ticks))).max(initial=0))
 
 
@@ -65,7 +65,7 @@ def ones(words):
 
 
 def highest_level(ticks, share, gap_ticks):
-    """Most that was ever in a bucket that fills while the pins change every so many ticks, and leaks `share`."""
+    """Most that was ever in a bucket that fills while the pins change every this many ticks, and leaks `share`."""
     level = highest = 0.0
     for gap in np.diff(ticks).tolist():
         level = level + gap * (1 - share) if gap <= gap_ticks else max(level - gap * share, 0.0)

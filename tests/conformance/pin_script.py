@@ -11,15 +11,15 @@ from functools import partial
 import numpy as np
 from cobs import cobs
 
-from controller.board.lookup import data_folder
-from controller.fpga import frames
-from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.registers import Control, Register
-from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.model import GatewareModel
-from controller.gateware_model.pin_timing import (
+from controller.device.board.lookup import data_folder
+from controller.device.fpga import frames
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.registers import Control, Register
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.gateware.pin_timing import (
     READY_TICKS,
     SELECT_HIGH_TICKS,
     SELECT_TO_SCK_TICKS,
@@ -41,7 +41,7 @@ PARAMETERS = BuildParameters(
     bit_period_reset=24 << 16,
     ramp_samples_reset=5000,
     channel_mask_max=0xFFFFFFFF,
-    hv_settle_ticks=700,  # longer than a frame: what comes meanwhile is judged
+    hv_settle_ticks=700,  # longer than a frame: what comes meanwhile is evaluated
     heartbeat_ticks_max=3_000_000,
     edge_window_ticks=5000,
     pulse_ticks_min=4,
@@ -68,6 +68,15 @@ LINES = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "uart_tick
 
 def open_gateware(back_end):
     return back_end(PARAMETERS)
+
+
+def give(gateware, method, tick, *others):
+    """Do a step of a script to a back-end."""
+    if method == "permit":
+        level, which = others
+        gateware.permit(tick, level=level, which=which)
+    else:
+        getattr(gateware, method)(tick, *others)
 
 
 class Script:
@@ -179,7 +188,7 @@ class Script:
                 gateware.exchange(select_tick + later, release_tick + later, mosi, memoryview(answers[-1]))
             else:
                 tick, *others = arguments
-                getattr(gateware, method)(tick + later, *others)
+                give(gateware, method, tick + later, *others)
         gateware.advance(max(self.tick, self._uart_from))
         return answers, gateware.take_capture()
 

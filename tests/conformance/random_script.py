@@ -5,9 +5,10 @@ import random
 import numpy as np
 from pin_script import BIT_TICKS, BUILD_HASH, FRAME_TICKS, IDLE_WORD, JUDGED_TICKS, SLOTS, Script
 
-from controller.fpga import frames
-from controller.fpga.registers import PLAY_LANDING, READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, Kind, Register, Start
-from controller.gateware_model.gateware import Permit
+from controller.device.fpga import frames
+from controller.device.fpga.frames import Play
+from controller.device.fpga.registers import PLAY_LANDING, READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, Kind, Register, Start
+from controller.workshop.gateware.gateware import Permit
 
 SEEDS = [1000 * block + number for block in range(6) for number in range(12)]  # of those that are compared
 LENGTHS = (1, 2, 3, 5, 8, 30)
@@ -79,7 +80,7 @@ def too_many_edges(run, rng):
     run.send(frames.pack_write, Register.CHANNEL_EDGES, 20)
     run.arm()
     run.upload(0, random_words(rng, 100))
-    run.send(frames.pack_play, 0, start=Start.NOW)
+    run.send(frames.pack_play, Play(0, start=Start.NOW))
     run.wait(2000)
 
 
@@ -102,7 +103,7 @@ def random_play(run, rng):
     return {
         "first": rng.choice([0, 0, 0, 0, 1, 29, 30]),
         "length": rng.choice([0, 0, length, length, 1]),
-        "count": rng.choice([0, 1, 1, 1, 2, 3]),
+        "emissions": rng.choice([0, 1, 1, 1, 2, 3]),
         "period_ticks": sounding + rng.choice([-1, 0, 0, run.bit_period >> 16, (run.bit_period >> 16) - 1, 17, 150]),
         "start": start,
         "when_ticks": when,
@@ -121,7 +122,7 @@ def act(run, rng, action):
     slot, length = rng.randrange(SLOTS + 1) if rng.random() < 0.1 else rng.randrange(2), rng.choice(LENGTHS)
     if action == "play":
         for _ in range(rng.choice([1, 1, 1, 2, 9])):
-            run.send(frames.pack_play, slot, **random_play(run, rng))
+            run.send(frames.pack_play, Play(slot, **random_play(run, rng)))
     elif action == "load":
         run.send(frames.pack_load, rng.choices([0, 7, 8], [9, 1, 1])[0], memoryview(random_words(rng, length).tobytes()))
     elif action == "store":
@@ -196,7 +197,8 @@ def play_live(run, rng):
     run.send(frames.pack_load, 0, loads[0])
     start = rng.choice([Start.TRIGGER, Start.NOW])
     run.send(
-        frames.pack_play, PLAY_LANDING, first=rng.choice([0] * 9 + [1]), length=rng.choice([125 * chunks, 130, 60]), start=start
+        frames.pack_play,
+        Play(PLAY_LANDING, first=rng.choice([0] * 9 + [1]), length=rng.choice([125 * chunks, 130, 60]), start=start),
     )
     if start is Start.TRIGGER:
         run.trigger()
@@ -232,11 +234,11 @@ def by_uart(run, rng, slot, length):
             (frames.pack_test, rng.randbytes(40)),
         ]
     )
-    if rng.random() < 0.3:
-        pack, arguments = frames.pack_play, [slot]
+    plays = rng.random() < 0.3
     run.uart_sequence += rng.choice([0, 0, 0, 1, 250])
-    named = random_play(run, rng) if pack is frames.pack_play else {}
-    wire = bytearray(run.uart_frame(pack, *arguments, **named))
+    if plays:
+        pack, arguments = frames.pack_play, [Play(slot, **random_play(run, rng))]
+    wire = bytearray(run.uart_frame(pack, *arguments))
     if rng.random() < 0.15:
         wire[rng.randrange(len(wire))] ^= 1 << rng.randrange(8)
     run.uart(bytes(wire))

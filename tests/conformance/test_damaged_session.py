@@ -10,13 +10,15 @@ import pytest
 from pin_script import MODEL
 from pins_and_counters import Damage, Notes, assert_pins_equal_counters
 
-from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
-from controller.loop.wiring import assemble
-from controller.scene.scene import load_scene
-from controller.service.drivers import open_session, open_simulated, tracked
-from controller.touch.recording import Recording
-from controller.touch.replay import RecordingSource
+from controller.device.bank.reader import Bank
+from controller.device.loop.context import LoopContext
+from controller.device.loop.wiring import assemble
+from controller.device.scene.scene import load_scene
+from controller.device.service.drivers import open_session, tracked
+from controller.device.touch.recordings.recording import Recording
+from controller.device.touch.recordings.replay import RecordingSource
+from controller.workshop.gateware.simulated_link import open_simulated
 
 SCENE = """
 [[regions]]
@@ -70,7 +72,7 @@ def session(board, bank_file, tmp_path, evemu_text):
             own = open_session(link, board, clock.now_s)
             notes = Notes(own)
             source = tracked(RecordingSource(recording, recording.axes(board), 0.1), board)
-            assembly = assemble(board, scene, bank, clock, own, source, played=notes.started)
+            assembly = assemble(LoopContext(board, clock, own, source), scene, bank, played=notes.started)
             assembly.loop.run(lambda: setattr(wires, "armed", True))
             link.close()
         counters = assembly.counters

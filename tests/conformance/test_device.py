@@ -6,21 +6,33 @@ must be unpermitted or may glide its outputs. Without one, the model behind a ps
 
 import os
 import time
+import zlib
 
 import numpy as np
 import pytest
 from patience import SpareTime
 
-from controller.board.lookup import data_folder
-from controller.fpga import frames, serial_link
-from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, FrameType, Kind, Register, Start, State
-from controller.fpga.serial_link import SerialLink
-from controller.fpga.status import parse_status
-from controller.gateware_model.model import GatewareModel
-from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel
+from controller.device.board.lookup import data_folder
+from controller.device.fpga import frames
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.links import serial_link
+from controller.device.fpga.links.serial_link import SerialLink
+from controller.device.fpga.registers import (
+    READ_MEMORY,
+    READ_QUEUE,
+    READ_SLOT_CRC,
+    Control,
+    FrameType,
+    Kind,
+    Register,
+    Start,
+    State,
+)
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.gateware.serial_peer import PseudoTerminal, UartPanel
 
 BUILD = build_hash(data_folder("fpga_rtl"))
 BAUD = int(os.environ.get("HAPTIC_PANEL_BAUD", "1000000"))
@@ -96,13 +108,13 @@ def conversation():
     ask("what is loaded", frames.pack_read, Register.SLOTS_LOADED)
     for chunk in range(3):
         ask(f"chunk {chunk}", frames.pack_load, chunk, data[500 * chunk : 500 * (chunk + 1)])
-    ask("the right CRC", frames.pack_store, 1, 300, frames.zlib.crc32(data))
+    ask("the right CRC", frames.pack_store, 1, 300, zlib.crc32(data))
     ask("what is loaded", frames.pack_read, Register.SLOTS_LOADED)
     for word in (0, 124, 125, 299, 300):
         ask(f"word {word}", frames.pack_read, READ_MEMORY + 1024 + word)
     ask("the queue", frames.pack_read, READ_QUEUE)
     for start in Start:
-        ask("a play while disarmed", frames.pack_play, 1, start=start)
+        ask("a play while disarmed", frames.pack_play, Play(1, start=start))
     ask("disarm", frames.pack_control, Control.DISARM)
     ask("end", frames.pack_nop)
     return asked

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from pin_script import MODEL, assert_same_capture, open_gateware
 
-from controller.bank.reader import Bank
-from controller.scene.scene import load_scene
-from controller.simulation.focus_evaluation import judge
-from controller.simulation.run_figures import report
-from controller.simulation.simulated_run import play
-from controller.touch.recording import Recording
+from controller.device.bank.reader import Bank
+from controller.device.scene.scene import load_scene
+from controller.device.touch.recordings.recording import Recording
+from controller.workshop.simulation.focus_evaluation import judge
+from controller.workshop.simulation.run_figures import report
+from controller.workshop.simulation.simulated_run import Hardware, play
 
 SCENE = """
 [[regions]]
@@ -63,7 +63,7 @@ def session(board, bank_file, tmp_path, evemu_text):
             return recorders[0]
 
         with Bank.open(bank_file, board) as bank:
-            run = play(board, scene, bank, recording, real_time=False, gateware=recorded)
+            run = play(board, scene, bank, recording, real_time=False, hardware=Hardware(recorded))
         PLAYED[back_end] = run, recorders[0].answers
         return PLAYED[back_end]
 

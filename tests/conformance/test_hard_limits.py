@@ -7,17 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hard_limits import broken_limits
-from pin_script import BUILD_HASH, IDLE_WORD, PARAMETERS, Script, assert_same, perform_on_both, readable
+from pin_script import BUILD_HASH, IDLE_WORD, PARAMETERS, Script, assert_same, give, perform_on_both, readable
+from tables import each_row
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.fpga import frames
-from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import Control, Fault, Register, Start
-from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.model import GatewareModel
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.fpga import frames
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.registers import Control, Fault, Register, Start
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.model import GatewareModel
 
 ULX3S = BuildParameters.of(load_board(find_board("ulx3s")), BUILD_HASH)
 TIGHT = replace(
@@ -50,7 +51,7 @@ def perform(script, back_end, parameters):
             answers.append(bytearray(len(mosi)))
             gateware.exchange(select_tick, release_tick, mosi, memoryview(answers[-1]))
         else:
-            getattr(gateware, method)(*arguments)
+            give(gateware, method, *arguments)
     gateware.advance(script.tick)
     return [readable(answer) for answer in answers if len(answer) >= FRAME_BYTES], gateware.take_capture()
 
@@ -62,7 +63,7 @@ def unlock_and_arm(script):
 
 def endless(script, words, period_ticks):
     """One play for ever, at once."""
-    script.send(frames.pack_play, 0, length=len(words), count=0, period_ticks=period_ticks, start=Start.NOW)
+    script.send(frames.pack_play, Play(0, length=len(words), emissions=0, period_ticks=period_ticks, start=Start.NOW))
 
 
 def test_with_no_setting_written_a_board_keeps_its_limits():
@@ -134,7 +135,7 @@ def test_a_host_that_writes_everything_exceeds_no_limit(back_end, request):
     assert faults.keys() >= {Fault.CHANNEL_EDGES, Fault.TOTAL_EDGES, Fault.DUTY, Fault.HOST_SILENT}, faults
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("name", "looser", "said"),
     [
         ("channel_edges_max", 100_000, "edges in a window"),
@@ -163,7 +164,7 @@ def late_edges(permit_tick, limit):
     run.send(frames.pack_write, *limit)
     run.arm()
     run.upload(0, np.array([IDLE_WORD, ~IDLE_WORD & 0xFFFFFFFF] * 5, np.uint32))
-    run.send(frames.pack_play, 0)
+    run.send(frames.pack_play, Play(0))
     run.wait(20)
     start = run.trigger()
     run.permit(False, start + permit_tick)

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from pin_script import BUILD_HASH, open_gateware
 
-from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import Control, Register, Result
-from controller.fpga.status import parse_status
-from controller.gateware_model.pin_timing import READY_TICKS
+from controller.device.fpga import frames
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.registers import Control, Register, Result
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.pin_timing import READY_TICKS
 
 QUICK, SLOW = 3_000, 1_000_000
 CS, SCK, MOSI = 1, 2, 4
@@ -163,7 +163,7 @@ def random_frame(rng, buffer):
         lambda: frames.pack_unlock(buffer, 0, sequence, BUILD_HASH),
         lambda: frames.pack_control(buffer, 0, sequence, Control.TRIGGER),
         lambda: frames.pack_nop(buffer, 0, sequence),
-        lambda: frames.pack_play(buffer, 0, sequence, int(rng.integers(0, 4)), period_ticks=int(rng.integers(0, 2**32))),
+        lambda: frames.pack_play(buffer, 0, sequence, Play(int(rng.integers(0, 4)), period_ticks=int(rng.integers(0, 2**32)))),
     ]
     pack[int(rng.integers(0, len(pack)))]()
     return bytes(buffer)

@@ -1,4 +1,4 @@
-"""SPI and UART at once: neither spoils or holds up a frame of the other, each is told of itself, and only the link that armed
+"""SPI and UART at once: neither spoils or holds up a frame of the other, each reports on itself, and only the link that armed
 keeps the outputs on. What the scripts do is done to the model and to the compiled Verilog, and compared change by change."""
 
 import zlib
@@ -21,13 +21,14 @@ from pin_script import (
     assert_same,
     perform_on_both,
 )
+from tables import each_row
 
-from controller.fpga import frames
-from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import Control, Register, Result, Start, State
-from controller.fpga.status import parse_status
-from controller.gateware_model.pin_timing import frame_ticks
+from controller.device.fpga import frames
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.registers import Control, Register, Result, Start, State
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.pin_timing import frame_ticks
 
 HEARTBEAT_TICKS = 20_000
 PAUSE_TICKS = 60  # in which a short frame of the UART has room
@@ -140,7 +141,7 @@ def test_what_came_before_the_arm_does_not_count(rtl):
     assert not any(State.HEARTBEAT in status.state for status in statuses)
 
 
-def test_each_link_is_told_of_itself_alone(rtl):
+def test_each_link_reports_on_itself_alone(rtl):
     run = settled()
     run.uart(run.uart_frame(frames.pack_read, Register.CLOCK_HZ))
     for _ in range(12):
@@ -183,7 +184,7 @@ def test_unlocking_by_one_link_does_not_let_the_other_arm_and_noise_does_not_loc
     assert State.ARMED in statuses[-1].state
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_row("seed", range(3))
 def test_a_flood_of_random_bytes_on_the_uart_costs_the_spi_no_frame(rtl, seed):
     rng = np.random.default_rng(seed)
     run = settled()
@@ -212,13 +213,13 @@ def test_a_flood_of_random_bytes_on_the_uart_costs_the_spi_no_frame(rtl, seed):
     assert State.ARMED in of_these[-1].state
 
 
-@pytest.mark.parametrize("offset", range(0, 60, 7))
+@each_row("offset", range(0, 60, 7))
 def test_a_frame_of_the_uart_waits_for_a_pause_of_the_spi_whenever_that_begins(rtl, offset):
     """Chip select falls at every clock of the frame's turn: it is carried out once, and the SPI's frame too."""
     run = settled()
     run.arm()
     run.upload(0, WORDS)
-    end = run.uart(run.uart_frame(frames.pack_play, 0, start=Start.NOW))
+    end = run.uart(run.uart_frame(frames.pack_play, Play(0, start=Start.NOW)))
     run.tick = end - UART.bit_tick(0, 0, 1) + offset
     for _ in range(3):
         run.status()
@@ -253,13 +254,13 @@ def test_an_upload_over_the_uart_plays_and_is_never_fast(rtl):
     run.arm()
     run.uart(
         run.uart_frame(frames.pack_load, 0, memoryview(WORDS.tobytes())),
-        run.uart_frame(frames.pack_play, 0xFFFF, length=30, start=Start.NOW),
+        run.uart_frame(frames.pack_play, Play(0xFFFF, length=30, start=Start.NOW)),
         run.uart_frame(frames.pack_nop),
     )
     run.wait_for_the_uart(300)
     run.uart(
         run.uart_frame(frames.pack_store, 1, 30, zlib.crc32(WORDS)),
-        run.uart_frame(frames.pack_play, 1, start=Start.NOW),
+        run.uart_frame(frames.pack_play, Play(1, start=Start.NOW)),
         run.uart_frame(frames.pack_nop),
     )
     run.wait_for_the_uart(UART_FRAME_TICKS)
@@ -280,7 +281,7 @@ def test_a_load_by_the_uart_is_not_taken_for_as_fast_as_one_by_the_spi_a_moment_
     run.tick = end - frame_ticks(len(fast) + 12) - 200
     run.send(frames.pack_load, 1, fast)
     run.wait_for_the_uart(200)
-    run.send(frames.pack_play, 0xFFFF, length=30, start=Start.NOW)
+    run.send(frames.pack_play, Play(0xFFFF, length=30, start=Start.NOW))
     run.status()
     statuses, _ = both(run, rtl)
     assert statuses[-1].result is Result.LINK_SLOW
@@ -298,7 +299,7 @@ def test_a_load_by_the_uart_spares_what_still_plays_from_the_landing_buffer(rtl)
     run = settled(2_000_000)
     run.upload(0, WORDS)
     run.arm()
-    run.send(frames.pack_play, 0, count=0, period_ticks=BIT_TICKS * len(WORDS), start=Start.NOW)
+    run.send(frames.pack_play, Play(0, emissions=0, period_ticks=BIT_TICKS * len(WORDS), start=Start.NOW))
     run.wait(100)
     run.upload(0, WORDS[::-1])
     load_by_uart(run, 0, [0xBAD, 0xBAD])
@@ -320,7 +321,7 @@ def test_a_load_by_the_uart_brings_a_live_play_new_chunks_only(rtl):
     run.wait(RAMP_TICKS * 20)
     words = np.arange(1, 251, dtype=np.uint32)
     run.send(frames.pack_load, 0, memoryview(words[:125].tobytes()))
-    run.send(frames.pack_play, 0xFFFF, length=200, start=Start.NOW)
+    run.send(frames.pack_play, Play(0xFFFF, length=200, start=Start.NOW))
     load_by_uart(run, 1, words[125:135])
     load_by_uart(run, 0, [0xBAD])
     run.uart(run.uart_frame(frames.pack_nop))
@@ -352,7 +353,7 @@ def test_a_load_of_a_chunk_that_does_not_exist_leaves_those_that_do(rtl, port):
     assert statuses[-1].data == 0b1
 
 
-@pytest.mark.parametrize("bytes_apart", [0, 37, 38, 39])
+@each_row("bytes_apart", [0, 37, 38, 39])
 def test_an_answer_waits_for_the_last_byte_of_the_one_before(rtl, bytes_apart):
     """Frames are shorter than their answers: whose answer finds no room gets none, in every tick at which that ends."""
     run = settled()
@@ -369,7 +370,7 @@ def test_every_line_moves_in_these_comparisons(rtl):
     run = settled()
     run.arm()
     run.upload(0, WORDS)
-    run.send(frames.pack_play, 0)
+    run.send(frames.pack_play, Play(0))
     run.wait(PAUSE_TICKS)
     run.uart(run.uart_frame(frames.pack_nop))
     run.trigger()
@@ -397,7 +398,7 @@ def test_gateware_without_a_uart_is_that_of_a_uart_on_which_nothing_comes(rtl):
         run.upload(0, WORDS)
         run.arm()
         for start in (Start.NOW, Start.TRIGGER):
-            run.send(frames.pack_play, 0, length=0, count=1, start=start)
+            run.send(frames.pack_play, Play(0, length=0, emissions=1, start=start))
             run.trigger()
             run.wait(20_000)
         run.send(frames.pack_read, Register.FRAME_ERRORS)

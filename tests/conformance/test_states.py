@@ -13,15 +13,17 @@ from pin_script import (
     RAMP_TICKS,
     Script,
     assert_same,
+    give,
     open_gateware,
     perform_on_both,
 )
+from tables import each_row
 
-from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import READ_MEMORY, READ_QUEUE, Control, Fault, Register, Start, State
-from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import Permit
+from controller.device.fpga import frames
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.registers import READ_MEMORY, READ_QUEUE, Control, Fault, Register, Start, State
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.gateware import Permit
 
 WORDS = [0x1111 * number for number in range(1, 9)]
 LONG = bytes(range(250)) * 16  # of 1000 words, whose check lasts longer than a frame
@@ -71,7 +73,15 @@ COMMANDS = {"disarm": Control.DISARM, "stop": Control.STOP, "clear": Control.CLE
 PLAYS = {
     "play": {},
     "play now": {"start": Start.NOW},
-    "play a part": {"start": Start.NOW, "first": 2, "length": 3, "mask": 0xFFFF, "inverted": True, "count": 2, "period_ticks": 40},
+    "play a part": {
+        "start": Start.NOW,
+        "first": 2,
+        "length": 3,
+        "mask": 0xFFFF,
+        "inverted": True,
+        "emissions": 2,
+        "period_ticks": 40,
+    },
 }
 READS = {"read memory": READ_MEMORY + 3, "read queue": READ_QUEUE + 1}
 BY_FRAME = set(EVENTS) - {"run lost", "too hot", "timeout", "trigger", "glitch"}
@@ -134,15 +144,15 @@ def prepare(run, state, lead):
         return run.tick
     if state == "scheduled":
         at = run.tick + 3 * FRAME_TICKS
-        run.send(frames.pack_play, 0, start=Start.TIME, when_ticks=at)
+        run.send(frames.pack_play, Play(0, start=Start.TIME, when_ticks=at))
         return at - FRAME_TICKS - JUDGED_TICKS - 9 if lead else at - 9  # it begins a few ticks before its time
     if state == "full queue":
         for first in range(8):
-            run.send(frames.pack_play, 0, first=first)
+            run.send(frames.pack_play, Play(0, first=first))
         return run.trigger(run.tick + 5 + lead) - lead
     count, period = {"pause of a repetition": (3, 3 * FRAME_TICKS), "endless": (0, EMISSION_TICKS)}.get(state, (1, 0))
     delay = DELAY_TICKS if state == "delayed" else 0
-    run.send(frames.pack_play, 0, count=count, period_ticks=period, when_ticks=delay)
+    run.send(frames.pack_play, Play(0, emissions=count, period_ticks=period, when_ticks=delay))
     run.wait(5)
     if state == "pending":
         return run.tick
@@ -168,10 +178,10 @@ def happen(run, event, tick):
             run.send(frames.pack_unlock, BUILD_HASH)
             run.control(Control.ARM)
         elif event in PLAYS:
-            run.send(frames.pack_play, 0, **PLAYS[event])
+            run.send(frames.pack_play, Play(0, **PLAYS[event]))
             run.trigger(run.tick + 5)
         elif event == "play at a time":
-            run.send(frames.pack_play, 0, start=Start.TIME, when_ticks=run.tick + FRAME_TICKS + JUDGED_TICKS + 40)
+            run.send(frames.pack_play, Play(0, start=Start.TIME, when_ticks=run.tick + FRAME_TICKS + JUDGED_TICKS + 40))
         elif event in READS:
             run.send(frames.pack_read, READS[event])
         elif event == "bit period":
@@ -213,7 +223,7 @@ WANTED = {
 }
 
 
-@pytest.mark.parametrize("state", WANTED)
+@each_row("state", WANTED)
 def test_the_states_are_met(state):
     run, begun = begin(state)
     gateware = open_gateware(MODEL)
@@ -221,7 +231,7 @@ def test_the_states_are_met(state):
         if method == "exchange":
             gateware.exchange(*arguments, memoryview(bytearray(len(arguments[2]))))
         else:
-            getattr(gateware, method)(*arguments)
+            give(gateware, method, *arguments)
     seen = []
     for offset in range(45):
         gateware.advance(begun + offset)

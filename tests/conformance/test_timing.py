@@ -4,15 +4,18 @@ import dataclasses
 import re
 
 import pytest
-from pin_script import BIT_TICKS, BUILD_HASH, FRAME_TICKS, JUDGED_TICKS, RAMP_TICKS, SETTLE_TICKS, Script, open_gateware
+from pin_script import BIT_TICKS, BUILD_HASH, FRAME_TICKS, JUDGED_TICKS, RAMP_TICKS, SETTLE_TICKS, Script, give, open_gateware
+from tables import each_row
 from timing_case import expected, script_of, seen
 
-from controller.board.lookup import data_folder
-from controller.fpga import frames
-from controller.fpga.registers import TRIGGER_LATENCY_TICKS, Control, Register, Result, Start, State
-from controller.fpga.status import parse_status
-from controller.simulation.timing_diagram import picture_digest
-from controller.simulation.timing_table import Change, load_cases
+from controller.device.board.lookup import data_folder
+from controller.device.fpga import frames
+from controller.device.fpga.frames import Play
+from controller.device.fpga.registers import TRIGGER_LATENCY_TICKS, Control, Register, Result, Start, State
+from controller.device.fpga.status import parse_status
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.timing_diagram import picture_digest
+from controller.workshop.gateware.timing_table import Change, load_cases
 
 FOLDER = data_folder("fpga_rtl") / "timing"
 CASES = {case.name: case for case in load_cases(FOLDER)}
@@ -20,7 +23,7 @@ FIRST_TICKS = 1 + TRIGGER_LATENCY_TICKS  # tick 0 ends with the edge that sample
 WORDS = (0x11, 0x22, 0x33)
 
 
-@pytest.mark.parametrize("name", CASES)
+@each_row("name", CASES)
 def test_pins_follow_the_table(back_end, name):
     run, origin = script_of(CASES[name])
     _, capture = run.perform(back_end)
@@ -30,11 +33,11 @@ def test_pins_follow_the_table(back_end, name):
 def later(changes, index):
     """The same changes, one of them a tick later."""
     change = changes[index]
-    value = re.sub(r"@(\d+)", lambda tick: f"@{int(tick[1]) + 1}", change.value)  # a time told to the FPGA
+    value = re.sub(r"@(\d+)", lambda tick: f"@{int(tick[1]) + 1}", change.value)  # a time sent to the FPGA
     return (*changes[:index], Change(change.tick + 1, change.signal, value), *changes[index + 1 :])
 
 
-@pytest.mark.parametrize("name", CASES)
+@each_row("name", CASES)
 def test_one_tick_of_any_output_or_of_some_input_is_seen(back_end, name):
     case = CASES[name]
     run, origin = script_of(case)
@@ -45,9 +48,9 @@ def test_one_tick_of_any_output_or_of_some_input_is_seen(back_end, name):
     assert any(seen(script_of(other, origin)[0].perform(back_end)[1], origin) != expected(case) for other in moved)
 
 
-@pytest.mark.parametrize("name", CASES)
+@each_row("name", CASES)
 def test_the_picture_is_that_of_the_table(name):
-    """`.venv/bin/python -m controller.simulation.timing_diagram` draws them."""
+    """`.venv/bin/python -m controller.generate` draws them."""
     assert picture_digest(FOLDER / f"{name}.svg") == CASES[name].digest
 
 
@@ -60,7 +63,7 @@ def armed(count=1, period_ticks=0):
     run.settings()
     run.arm()
     run.upload(0, WORDS)
-    run.send(frames.pack_play, 0, count=count, period_ticks=period_ticks)
+    run.send(frames.pack_play, Play(0, emissions=count, period_ticks=period_ticks))
     run.wait(20)
     return run
 
@@ -85,7 +88,7 @@ def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):
     assert capture.focus_ticks.tolist()[0] == start + FIRST_TICKS + 3 * BIT_TICKS
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("method", "arguments"),
     [
         ("trigger", (3,)),
@@ -93,13 +96,13 @@ def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):
         ("exchange", (3, 2000, bytes(36), memoryview(bytearray(36)))),
         ("exchange", (97, 2000, bytes(36), memoryview(bytearray(36)))),
         ("exchange", (200, 200 + FRAME_TICKS - 1, bytes(36), memoryview(bytearray(36)))),
-        ("permit", (90, True)),
+        ("permit", (90, True, Permit.RUN)),
     ],
 )
 def test_what_is_past_or_too_fast_for_the_pins_is_refused(back_end, method, arguments):
     gateware = open_at(back_end, 0 if arguments[0] == 3 else 100 + (method == "trigger") * 10)
     with pytest.raises(ValueError, match="tick"):
-        getattr(gateware, method)(*arguments)
+        give(gateware, method, *arguments)
 
 
 def open_at(back_end, tick):
@@ -108,7 +111,7 @@ def open_at(back_end, tick):
     return gateware
 
 
-@pytest.mark.parametrize("how", ["stop", "disarm", "fault"])
+@each_row("how", ["stop", "disarm", "fault"])
 def test_what_is_dropped_makes_room_in_the_schedule(back_end, how):
     """A time that an accepted play had taken is free again once that play is dropped."""
     run = Script()
@@ -116,8 +119,8 @@ def test_what_is_dropped_makes_room_in_the_schedule(back_end, how):
     run.arm()
     run.upload(0, WORDS)
     play = {"start": Start.TIME, "when_ticks": 40_000}
-    run.send(frames.pack_play, 0, **play)
-    run.send(frames.pack_play, 0, **play)
+    run.send(frames.pack_play, Play(0, **play))
+    run.send(frames.pack_play, Play(0, **play))
     run.status()
     if how == "fault":
         run.permit(False)
@@ -130,7 +133,7 @@ def test_what_is_dropped_makes_room_in_the_schedule(back_end, how):
     if how != "stop":
         run.wait(40 * BIT_TICKS + RAMP_TICKS)
         run.arm()
-    run.send(frames.pack_play, 0, **play)
+    run.send(frames.pack_play, Play(0, **play))
     run.status()
     run.wait(40_000)
     answers, capture = run.perform(back_end)

@@ -5,11 +5,12 @@ import zlib
 import numpy as np
 from pin_script import IDLE_WORD, Script
 
-from controller.fpga import frames
-from controller.fpga.registers import Control, Register, Start
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS
-from controller.simulation.timing_table import IDLE, drive_words
+from controller.device.fpga import frames
+from controller.device.fpga.frames import Play
+from controller.device.fpga.registers import Control, Register, Start
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.pin_timing import TRIGGER_HIGH_TICKS
+from controller.workshop.gateware.timing_table import IDLE, drive_words
 
 SETTLED_TICKS = 20  # between the set-up and the first thing that a table does
 AFTER_TICKS = 100  # for which nothing else may happen
@@ -69,6 +70,8 @@ def packed(run, text, origin):
         run.loaded = np.array(drive_words(" ".join(words)), "<u4")
         return run.packed(frames.pack_load, 0, memoryview(run.loaded).cast("B"))
     arguments = {name: value_of(value, origin) for name, value in (word.split("=") for word in words)}
+    if kind == "PLAY":
+        return run.packed(frames.pack_play, Play(**arguments))
     if kind == "STORE":
         arguments |= {"length_words": len(run.loaded), "crc": zlib.crc32(run.loaded)}
     return run.packed(getattr(frames, f"pack_{kind.lower()}"), **arguments)

@@ -1,12 +1,13 @@
 #!/bin/bash
 # Makes the systemd of a file tree run the tests of files, as root, and nothing else; it tells their exit code and powers off.
-# usage: boot_into_tests.sh TREE INTERPRETER FILE.py...     INTERPRETER: path in the tree
+# usage: boot_into_tests.sh TREE INTERPRETER [--slow] FILE.py...     INTERPRETER: path in the tree
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 checkout=$(realpath "$here/../..")
 tree=$1 interpreter=$2
 shift 2
 files=()
+[ "$1" != --slow ] || { files=(--slow) && shift; }
 for file in "$@"; do files+=("/checkout/$(realpath --relative-to="$checkout" "$file")"); done
 cat >"$tree/etc/systemd/system/tests.service" <<U
 [Unit]
@@ -16,7 +17,6 @@ After=basic.target
 Type=oneshot
 TimeoutStartSec=infinity
 Environment=PATH=/usr/sbin:/usr/bin PYTHONDONTWRITEBYTECODE=1 OPENBLAS_NUM_THREADS=1
-ExecStartPre=/sbin/ldconfig
 # a container copies the mode of this machine's, where a program run as root may have spoilt it
 ExecStartPre=/bin/chmod 666 /dev/null
 ExecStart=/bin/sh -c 'exec >/dev/console 2>&1; "\$@"; echo "ENDS WITH \$\$?"; sync; systemctl poweroff -ff' sh \\

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from the_service import UNIT, install, journal, run, shown, wait_for
 
-from controller.update.layout import Layout
-from controller.update.requests import ask
+from controller.device.update.layout import Layout
+from controller.device.update.requests import ask
 
 LAYOUT = Layout()
-TOLD = Path("/run/told")  # by the release before, when it is ready
+REPORTED = Path("/run/reported")  # by the release before, when it is ready
 NOTIFY = """import os, socket, sys, time, signal
 notify = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
 address = os.environ["NOTIFY_SOCKET"]
@@ -55,8 +55,8 @@ def ready():
     """A release that serves, and the units."""
     install("udevadm")
     Path("/etc/systemd/system/haptic-panel.service.d").mkdir()
-    TOLD.write_text("")
-    TOLD.chmod(0o666)
+    REPORTED.write_text("")
+    REPORTED.chmod(0o666)
     release("good", serving())
     run("/usr/lib/haptic-panel/fall-back", "adopt", "good")
     run("systemctl", "start", "haptic-panel-requests.path")
@@ -65,11 +65,11 @@ def ready():
 
 def serving(more=""):
     """The lines of a controller that serves."""
-    return f"{more}open('{TOLD}', 'a').write(str(time.monotonic()) + chr(10)); serve()"
+    return f"{more}open('{REPORTED}', 'a').write(str(time.monotonic()) + chr(10)); serve()"
 
 
 def lines():
-    return TOLD.read_text().splitlines()
+    return REPORTED.read_text().splitlines()
 
 
 def test_every_unit_is_well_formed():
@@ -112,7 +112,7 @@ def test_a_trial_that_crashes_after_ready_is_given_up():
     failing("crashes after READY")
 
 
-def test_a_trial_that_crashes_again_and_again_before_it_is_judged_is_given_up():
+def test_a_trial_that_crashes_again_and_again_before_it_is_evaluated_is_given_up():
     failing("crashes 19 s after READY")
 
 

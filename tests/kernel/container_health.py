@@ -1,4 +1,4 @@
-"""Runs in the container, as root, under a systemd of its own: what the service says of itself, and how a trial is judged by it."""
+"""Runs in the container, as root, under a systemd of its own: what the service reports, and how a trial is evaluated by it."""
 
 import grp
 import json
@@ -15,13 +15,13 @@ from far_end_serial import FarEnd
 from serial_finger import SerialPanel
 from the_service import CHECKOUT, UNIT, fresh_start, install, main_pid, restarted, run, wait_for
 
-from controller.application_socket.client import PanelClient
-from controller.board.board import load_board
-from controller.board.panel_status import FOLDER, NAME, boot_id, read_status
-from controller.service.drivers import gateware_hash
-from controller.update.layout import Layout
+from controller.device.application_socket.client import PanelClient
+from controller.device.board.board import load_board
+from controller.device.board.panel_status import FOLDER, NAME, boot_id, read_status
+from controller.device.service.drivers import gateware_hash
+from controller.device.update.layout import Layout
 
-sys.path.append(str(CHECKOUT / "tests/update"))
+sys.path.append(str(CHECKOUT / "tests/device/update"))
 from repository_fixture import Publisher
 
 FILE = FOLDER / NAME
@@ -85,7 +85,7 @@ def test_everybody_may_read_how_the_panel_fares():
     wait_for("the outputs", lambda: state() == "playing")
     code, said, _ = asked()
     assert (code, said["serves"], said["state"], said["pid"]) == (0, True, "playing", pid)
-    assert said["boot"] == boot_id(), "the unit has told it: its sandbox hides it"
+    assert said["boot"] == boot_id(), "the unit has reported it: its sandbox hides it"
     assert said["release"] == bench().first
     assert FILE.stat().st_mode & 0o777 == 0o644
     assert FILE.owner() == UNIT
@@ -97,7 +97,7 @@ def test_the_file_follows_the_state():
     with PanelClient() as panel:
         panel.disarm()
         wait_for("disarmed", lambda: state() == "disarmed")
-        assert asked()[0] == 0, "as it was told to"
+        assert asked()[0] == 0, "as it was commanded to"
         panel.arm()
         wait_for("the outputs", lambda: state() == "playing")
     bench().fpga.permit(False)
@@ -108,14 +108,14 @@ def test_the_file_follows_the_state():
     wait_for("the outputs", lambda: state() == "playing")
 
 
-def test_a_service_that_hangs_or_is_gone_is_told_from_one_that_serves():
+def test_a_service_that_hangs_or_is_gone_is_distinguished_from_one_that_serves():
     pid = fresh_start()
     wait_for("the outputs", lambda: state() == "playing")
     os.kill(pid, signal.SIGKILL)
     wait_for("the restart", lambda: restarted(pid))
     wait_for("its status", lambda: read_status(FILE).pid == main_pid())
     wait_for("the outputs", lambda: state() == "playing")
-    assert read_status(FILE).heartbeats < 10_000, "counted anew"
+    assert read_status(FILE).heartbeats < 10_000, "counted again"
     run("systemctl", "stop", UNIT)
     code, said, why = asked()
     assert (code, said) == (69, {})
@@ -123,7 +123,7 @@ def test_a_service_that_hangs_or_is_gone_is_told_from_one_that_serves():
     assert "systemctl start haptic-panel" in why
 
 
-def judged():
+def evaluated():
     """What the judge has said since it was started last."""
     subprocess.run(["journalctl", "--sync"], check=False)
     invocation = run("systemctl", "show", "--value", "-p", "InvocationID", JUDGE).strip()
@@ -152,7 +152,7 @@ def begin_trial(version, spoil=""):
 def test_a_trial_that_serves_is_good():
     version = begin_trial("0.1.1")
     words = f"release {version} is good: it served for {HEALTHY_S:g} s"
-    wait_for("the verdict", lambda: words in judged())
+    wait_for("the verdict", lambda: words in evaluated())
     wait_for("its end", lambda: of_the_judge("ActiveState") == "inactive")
     assert of_the_judge("Result") == "success"
     wait_for("the end of the trial", lambda: LAYOUT.word("trial") == "")  # after the promotion
@@ -169,7 +169,7 @@ def test_without_a_trial_no_judge_runs():
 def test_each_start_of_a_trial_has_a_judge_also_one_by_itself():
     begin_trial("0.1.2")
     bench().fpga.permit(False)
-    wait_for("the judge", lambda: "on trial: no permit" in judged())
+    wait_for("the judge", lambda: "on trial: no permit" in evaluated())
     run("systemctl", "stop", JUDGE)
     pid = main_pid()
     os.kill(pid, signal.SIGKILL)
@@ -180,7 +180,7 @@ def test_each_start_of_a_trial_has_a_judge_also_one_by_itself():
     wait_for("another judge", lambda: of_the_judge("InvocationID") not in ("", first) and of_the_judge("ActiveState") == "active")
 
 
-def test_without_a_permit_it_is_not_judged_and_its_starts_do_not_count():
+def test_without_a_permit_it_is_not_evaluated_and_its_starts_do_not_count():
     wait_for("no try counted", lambda: (LAYOUT.state / "tries").read_text() == "0\n")
     assert LAYOUT.word("trial") == "0.1.2"
     assert of_the_judge("ActiveState") == "active"
@@ -213,7 +213,7 @@ def test_a_trial_that_finds_no_fpga_is_bad():
 def test_a_judge_that_hangs_is_no_verdict():
     begin_trial("0.1.4")
     bench().fpga.permit(False)
-    wait_for("the judge", lambda: "on trial: no permit" in judged())
+    wait_for("the judge", lambda: "on trial: no permit" in evaluated())
     os.kill(int(of_the_judge("MainPID")), signal.SIGSTOP)
     wait_for("the way back", lambda: back_at("0.1.2", "0.1.4"))
     bench().fpga.permit(True)
@@ -221,7 +221,7 @@ def test_a_judge_that_hangs_is_no_verdict():
 
 
 def test_a_release_that_could_not_update_again_is_bad():
-    begin_trial("0.1.5", spoil="controller/update/fetch.py")
+    begin_trial("0.1.5", spoil="controller/device/update/download/fetch.py")
     wait_for("the way back", lambda: back_at("0.1.2", "0.1.5"))
     subprocess.run(["journalctl", "--sync"], check=False)
     assert "release 0.1.5 is bad: it could not update again" in run("journalctl", "--no-pager", "-o", "cat", "-u", JUDGE)

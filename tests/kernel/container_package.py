@@ -12,10 +12,11 @@ import time
 from pathlib import Path
 
 from serial_finger import SerialPanel
+from slow_form import slow
 from the_package import ENVIRONMENT, PACKAGES, done, install, package
 from the_service import CHECKOUT, UNIT, journal, main_pid, shown, wait_for
 
-from controller.application_socket.client import PanelClient
+from controller.device.application_socket.client import PanelClient
 
 ROOT = Path("/opt/haptic-panel")
 BOARD = Path("/etc/haptic-panel/boards/mine")
@@ -233,20 +234,23 @@ def configure_and_kill(step, made):
     dpkg.wait()
 
 
-def test_killed_at_one_step_after_the_other_dpkg_ends_the_installation_when_called_again():
-    steps = {
-        "folders": "requests",
-        "installer": "download/installer/pyvenv.cfg",
-        "its wheels": "download/installer/lib/python3*/site-packages/controller/cli.py",
-        "store": "store/*",
-        "release": "releases/1.0/venv/pyvenv.cfg",
-        "release's wheels": "releases/1.0/venv/lib/python3*/site-packages/controller/cli.py",
-        "complete": "releases/1.0/.complete",
-        "adopted": "current",
-    }
+STEPS = {  # of an installation, and what is there once each was begun
+    "folders": "requests",
+    "installer": "download/installer/pyvenv.cfg",
+    "its wheels": "download/installer/lib/python3*/site-packages/controller/cli.py",
+    "store": "store/*",
+    "release": "releases/1.0/venv/pyvenv.cfg",
+    "release's wheels": "releases/1.0/venv/lib/python3*/site-packages/controller/cli.py",
+    "complete": "releases/1.0/.complete",
+    "adopted": "current",
+}
+
+
+def installation_killed_at(*steps):
+    """dpkg, killed at one step after the other, ends the installation when it is called again."""
     done("dpkg", "--unpack", package("1.0"))
-    for step, made in steps.items():
-        configure_and_kill(step, made)
+    for step in steps:
+        configure_and_kill(step, STEPS[step])
     done("dpkg", "--configure", "-a")
     assert in_use() == "1.0"
     assert (ROOT / "releases/1.0/.complete").exists()
@@ -256,6 +260,15 @@ def test_killed_at_one_step_after_the_other_dpkg_ends_the_installation_when_call
     assert done("dpkg", "--audit") == ""
     purge()
     assert files() - BEFORE == set()
+
+
+def test_killed_among_the_wheels_of_the_installer_and_of_the_release_dpkg_ends_the_installation_when_called_again():
+    installation_killed_at("its wheels", "release's wheels")
+
+
+@slow
+def test_killed_at_one_step_after_the_other_dpkg_ends_the_installation_when_called_again():
+    installation_killed_at(*STEPS)
 
 
 def old_layout():
@@ -293,6 +306,7 @@ def test_an_environment_of_before_is_kept_aside_and_its_service_goes_on_with_the
     assert files() - BEFORE == set()
 
 
+@slow
 def test_an_environment_that_was_moved_in_part_is_moved_whole():
     old_layout()
     kept = ROOT / "before-package.1"

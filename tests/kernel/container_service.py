@@ -29,7 +29,7 @@ from the_service import (
     wait_for,
 )
 
-from controller.application_socket.client import PanelClient
+from controller.device.application_socket.client import PanelClient
 from controller.errors import LinkError
 
 SYSTEMD_README = CHECKOUT / "systemd" / "README.md"
@@ -67,7 +67,7 @@ def test_it_is_a_user_without_rights_but_those_of_the_loop():
     assert status_of(pid, "NoNewPrivs") == "1"
     assert status_of(pid, "Seccomp") == "2"
     permitted = re.search(r"^Max realtime priority +50 ", Path(f"/proc/{pid}/limits").read_text(), re.MULTILINE)
-    if permitted:  # else this machine gives its containers no such limits, and it is told of in one line
+    if permitted:  # else this machine gives its containers no such limits, and it is reported in one line
         assert os.sched_getscheduler(pid) & ~os.SCHED_RESET_ON_FORK == os.SCHED_FIFO
         assert int(status_of(pid, "VmLck").split()[0]) > 0
     assert said().count("not in real time") == (0 if permitted else 1)
@@ -105,7 +105,7 @@ def figure(name):
         return panel.figures()[name]
 
 
-def test_a_finger_on_its_panel_is_felt_and_a_user_interface_is_told():
+def test_a_finger_on_its_panel_is_felt_and_a_user_interface_is_informed():
     fresh_start()
     path = Path("/run/haptic-panel/panel.sock")
     assert (path.group(), path.stat().st_mode & 0o777) == (UNIT, 0o660)
@@ -114,8 +114,8 @@ def test_a_finger_on_its_panel_is_felt_and_a_user_interface_is_told():
         wait_for("emissions", lambda: figure("emissions") >= before + 5)
         with PanelClient() as panel:
             assert "click" in panel.hello().effects
-            told = next(panel.touches())
-    assert abs(told.y_mm - 148 * 2000 / 4095) < 0.1
+            reported = next(panel.touches())
+    assert abs(reported.y_mm - 148 * 2000 / 4095) < 0.1
 
 
 def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
@@ -221,7 +221,7 @@ def test_prometheus_is_answered_by_a_user_who_may_only_look_by_one_connection():
             "--groups=haptic-look,haptic-play,haptic-panel",
             "--",
         ]
-        client = ["/opt/haptic-panel/current/venv/bin/python", "-m", "controller.application_socket.client"]
+        client = ["/opt/haptic-panel/current/venv/bin/python", "-m", "controller.device.application_socket.client"]
         for command, code in ((("hello",), 0), (("play", "click", "--at", "100", "70"), 1), (("disarm",), 1)):
             done = subprocess.run([*become, *client, *command], cwd="/", check=False, capture_output=True, text=True)
             assert (done.returncode, "does not have the right to" in done.stdout + done.stderr) == (code, bool(code)), done
@@ -282,7 +282,7 @@ def test_a_wrong_board_is_said_in_one_line_and_not_tried_again():
 
 
 def test_a_bank_cut_short_under_it_ends_it_and_is_refused():
-    """A bank that it was given; one of its own it would build anew."""
+    """A bank that it was given; one of its own it would build again."""
     (bank,) = Path("/var/lib/haptic-panel/banks").glob("*.bank")
     settings = Path(f"/run/systemd/system/{UNIT}.service.d/bank.conf")
     settings.parent.mkdir(parents=True)
@@ -310,7 +310,6 @@ def test_a_panel_whose_process_dies_again_and_again_is_never_left_off():
     pid = fresh_start()
     for _ in range(12):  # ten in five minutes were the last, once
         os.kill(pid, signal.SIGKILL)
-        old = pid
-        pid = wait_for("a restart", lambda old=old: restarted(old) and main_pid())
+        pid = wait_for("another process", lambda old=pid: main_pid() not in (0, old) and main_pid())
     wait_for("outputs on", lambda: shown("ActiveState") == "active")
     assert shown("Result") == "success"

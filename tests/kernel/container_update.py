@@ -16,18 +16,19 @@ from pathlib import Path
 
 import panel_board
 from derived_release import derived_release
+from device.update.repository_fixture import Publisher, copied, key
+from device.update.scripted_server import ScriptedServer
 from documented_session import blocks, follow
 from far_end_serial import FarEnd
 from release_changes import FAILS, GOOD
 from serial_finger import SerialPanel
+from slow_form import slow
 from the_package import ENVIRONMENT, done, install
 from the_service import CHECKOUT, UNIT, journal, main_pid, shown, wait_for
-from update.repository_fixture import Publisher, copied, key
-from update.scripted_server import ScriptedServer
 
-from controller.board.board import load_board
-from controller.service.drivers import gateware_hash
-from controller.update.layout import Layout
+from controller.device.board.board import load_board
+from controller.device.service.drivers import gateware_hash
+from controller.device.update.layout import Layout
 
 LAYOUT = Layout()
 SETTINGS = Path("/etc/haptic-panel/update.toml")
@@ -236,18 +237,22 @@ def test_a_release_that_exits_with_78():
     documented(3)
 
 
+@slow
 def test_a_release_that_crashes_once_it_is_ready():
     falls_back("crashes")
 
 
+@slow
 def test_a_release_that_hangs():
     falls_back("hangs")
 
 
+@slow
 def test_a_release_that_is_never_ready():
     falls_back("is never ready")
 
 
+@slow
 def test_a_release_that_is_ready_and_finds_no_fpga():
     falls_back("finds no FPGA")
 
@@ -265,13 +270,15 @@ def test_a_release_for_banks_of_another_format():
 
 
 def test_a_release_whose_judge_crashes():
-    falls_back("cannot be judged")
+    falls_back("cannot be evaluated")
 
 
+@slow
 def test_a_release_whose_judge_hangs():
-    falls_back("is judged for ever")
+    falls_back("is evaluated for ever")
 
 
+@slow
 def test_a_release_that_could_not_update_again():
     falls_back("cannot update again")
 
@@ -285,7 +292,7 @@ def test_release_4_mends_it_and_is_signed_with_other_keys():
     goes_well("4.0.0", "an update after those that failed, by the timer", by_the_timer)
 
 
-def test_without_permit_a_trial_is_not_judged_however_often_it_is_started():
+def test_without_permit_a_trial_is_not_evaluated_however_often_it_is_started():
     owner().offers("5.0.0", GOOD)
     bench().fpga.permit(False)
     update()

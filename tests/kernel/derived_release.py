@@ -9,8 +9,8 @@ import zipfile
 
 import msgspec
 
-from controller.update.layout import MANIFEST
-from controller.update.manifest import ReleaseFile, read_manifest
+from controller.device.update.layout import MANIFEST
+from controller.device.update.manifest import ReleaseFile, read_manifest
 
 LONG_AGO = (1980, 1, 1, 0, 0, 0)
 

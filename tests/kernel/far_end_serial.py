@@ -14,11 +14,11 @@ import tty
 from dataclasses import replace
 from pathlib import Path
 
-from controller.fpga.bitstream import read_identity
-from controller.fpga.build_parameters import BuildParameters
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.model import GatewareModel
-from controller.gateware_model.serial_peer import UartPanel
+from controller.device.fpga.bitstream import read_identity
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.gateware.serial_peer import UartPanel
 
 
 class _Fpga:
@@ -38,7 +38,7 @@ class _Fpga:
         self._begin(BuildParameters.of(self._board, gateware_hash))
 
     def program(self, option, file):
-        """What openFPGALoader does by JTAG: configure the FPGA from a file, by way of the flash if it is told so."""
+        """What openFPGALoader does by JTAG: configure the FPGA from a file, by way of the flash if asked to."""
         built = {name.lower(): value for name, value in read_identity(Path(file)).parameters.items()}
         parameters = replace(BuildParameters.of(self._board, 0), **built)
         if {"--write-sram": False, "--write-flash": True}[option]:
@@ -68,7 +68,7 @@ class _Fpga:
 
     def permit(self, level):
         """Turn the switch of the run permit."""
-        self._panel.gateware.permit(self._advance(), level, Permit.RUN)
+        self._panel.gateware.permit(self._advance(), level=level, which=Permit.RUN)
 
     def hv(self):
         """Whether the outputs are on."""
@@ -77,7 +77,7 @@ class _Fpga:
         return bool(self._hv)
 
     def focus_times_s(self):
-        """When each emission had its focus, on CLOCK_MONOTONIC; each is told once."""
+        """When each emission had its focus, on CLOCK_MONOTONIC; each is reported once."""
         times_s, self._focus_s = self._focus_s, []
         return times_s
 

@@ -16,12 +16,12 @@ from pathlib import Path
 import numpy as np
 from restarting_gateware import RestartingGateware
 
-from controller.board.lookup import data_folder
-from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import BuildParameters
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.model import GatewareModel
-from controller.gateware_model.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
+from controller.device.board.lookup import data_folder
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.gateware.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
 
 HEADER = struct.Struct("<IIII")  # of labdev: speed in Hz, bytes, mode, whether chip select rises behind it
 REQUEST_BYTES = 1 << 16
@@ -60,6 +60,7 @@ class GpioTrace:
         self._folder.mkdir(exist_ok=True)  # one that a killed far end has left behind serves as well
         base = next(int((chip / "base").read_text()) for chip in _chips() if (chip / "label").read_text().strip() == label)
         self._names = {base + offset: name for offset, name in enumerate(names)}
+        (self._folder / "trace").write_text("")  # but for what is in it
         (self._folder / "trace_clock").write_text("mono")
         (self._folder / "buffer_percent").write_text("0")  # whoever waits is woken by the first line
         (self._folder / "events/gpio/gpio_value/enable").write_text("1")
@@ -103,9 +104,9 @@ class _Gateware:
         self._damaged = 0
         self.wire = "good"
         self.modes = set()
-        self._gateware.permit(0, True, Permit.TEMPERATURE)
+        self._gateware.permit(0, level=True, which=Permit.TEMPERATURE)
         if "permit" not in roles.values():
-            self._gateware.permit(0, True, Permit.RUN)
+            self._gateware.permit(0, level=True, which=Permit.RUN)
 
     def _tick(self, at_s):
         return max(round((at_s - self._start_s) * self._clock_hz), self._free_tick)
@@ -122,7 +123,7 @@ class _Gateware:
             self._gateware.trigger(tick + TRIGGER_PERIOD_TICKS)
             self._free_tick = tick + 2 * TRIGGER_PERIOD_TICKS
         elif role == "permit":
-            self._gateware.permit(tick, bool(level), Permit.RUN)
+            self._gateware.permit(tick, level=bool(level), which=Permit.RUN)
 
     def transfer(self, request):
         """One chip-select assertion; what comes back, or None if nothing ever does."""
@@ -144,7 +145,7 @@ class _Gateware:
         return WIRES[self.wire](bytes(answer), sent)
 
     def damage(self, frames):
-        """Of the next so many frames to the FPGA, the last bit will be wrong."""
+        """Of the next this many frames to the FPGA, the last bit will be wrong."""
         self._damaged = frames
 
     def reset(self, dark_s):

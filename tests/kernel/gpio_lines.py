@@ -36,7 +36,17 @@ class GpioLines:
 
     def close(self):
         """Unplug the chip."""
-        bank = self._folder / "bank0"
-        (self._folder / "live").write_text("0")
-        for folder in [*(bank / f"line{offset}" for offset in self._offsets.values()), bank, self._folder]:
-            folder.rmdir()
+        _unplug(self._folder)
+
+
+def unplug_all():
+    """Unplug all chips of this machine; there are none where the kernel has no gpio-sim."""
+    for folder in CONFIG.glob("*"):
+        _unplug(folder)
+
+
+def _unplug(folder):
+    (folder / "live").write_text("0")
+    bank = folder / "bank0"
+    for made in [*bank.glob("line*"), bank, folder]:
+        made.rmdir()

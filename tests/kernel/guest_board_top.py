@@ -1,6 +1,6 @@
 """Runs in the guest: boards/ulx3s/top.v, compiled with its bitstream's parameters, behind the kernel's spidev and GPIO lines.
 
-SpiLink and board.toml are the product's own. The host computes the board; its time passes with each frame and when it is told.
+SpiLink and board.toml are the product's own. The host computes the board; its time passes with each frame and when it is reported.
 """
 
 import multiprocessing
@@ -12,7 +12,6 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "board_top"))
 from compiled_top import BOARD, channels_of, signal_pins, wires
@@ -20,22 +19,32 @@ from far_end_spi import HEADER, REQUEST_BYTES, GpioTrace
 from gpio_lines import GpioLines
 from host_gateware import ask
 
-from controller.board.board import load_board
-from controller.board.lookup import data_folder
+from controller.device.board.board import load_board
+from controller.device.board.lookup import data_folder
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.frames import Play
+from controller.device.fpga.links.spi_link import SpiLink
+from controller.device.fpga.registers import Register, State
+from controller.device.fpga.session import Session
 from controller.errors import LinkError
-from controller.fpga.build_hash import build_hash
-from controller.fpga.registers import Register, State
-from controller.fpga.session import Session
-from controller.fpga.spi_link import SpiLink
 
 ULX3S = load_board(BOARD / "board.toml")
 LINK = ULX3S.link
-LINES = GpioLines(LINK.gpio_chip, [f"GPIO{number}" for number in range(28)])
 NAMES = [f"GPIO{number}" for number in range(28)]
 SPI = [wires()[name] for name in ("GPIO11", "GPIO8", "GPIO10", "GPIO9")]
 WORDS = np.random.default_rng(5).integers(0, 1 << 32, ULX3S.waveform.samples, dtype=np.uint32).repeat(8)[: ULX3S.waveform.samples]
 US = 1_000_000  # in ps
-Path("/sys/module/labdev/parameters/timeout_ms").write_text("20000")
+
+
+@cache
+def lines():
+    """The Pi's lines."""
+    return GpioLines(LINK.gpio_chip, NAMES)
+
+
+def setup_module():
+    lines()
+    Path("/sys/module/labdev/parameters/timeout_ms").write_text("20000")
 
 
 class FarEnd:
@@ -84,7 +93,7 @@ class FarEnd:
 
     @staticmethod
     def _show_configured():
-        LINES.pull(LINK.configured_line, int(ask("board_high", wires()[LINK.configured_line])))
+        lines().pull(LINK.configured_line, int(ask("board_high", wires()[LINK.configured_line])))
 
 
 @cache
@@ -101,10 +110,18 @@ def high(name):
     return far_end().board("board_high", signal_pins()[name])
 
 
+def refusal():
+    """What is said of a link that cannot be opened."""
+    try:
+        SpiLink(LINK, time.monotonic)
+    except LinkError as error:
+        return str(error)
+    return ""
+
+
 def test_it_is_not_opened_while_it_has_no_clock():
     assert not high("configured")
-    with pytest.raises(LinkError, match="is not configured: its line 'GPIO24' is low"):
-        SpiLink(LINK, time.monotonic)
+    assert "is not configured: its line 'GPIO24' is low" in refusal()
     far_end().board("board_oscillate", 1)
     far_end().board("board_run", 3 * US)
     assert high("configured")
@@ -124,7 +141,7 @@ def test_it_is_known_and_armed():
 
 def test_an_upload_plays_bit_for_bit_on_the_32_pins_behind_the_trigger_line():
     session().upload(3, memoryview(WORDS).cast("B"))
-    session().play(3, 1, 0.0, stop=False)
+    session().play(Play(3), stop=False)
     assert State.WAITING in session().heartbeat().state
     far_end().board("board_take")
     session().trigger()

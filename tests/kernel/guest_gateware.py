@@ -12,18 +12,19 @@ from far_end_spi import FarEnd
 from gpio_lines import GpioLines
 from host_gateware import HostGateware
 
-from controller.bank.reader import Bank
-from controller.bank_builder.build import build_bank
-from controller.board.board import load_board
-from controller.board.devices import LinkSettings
-from controller.board.lookup import data_folder, find_board
+from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
+from controller.device.board.devices import LinkSettings
+from controller.device.board.lookup import data_folder, find_board
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.exchange import HostSilent, Refused
+from controller.device.fpga.frames import Play, pack_nop
+from controller.device.fpga.links.spi_link import SpiLink
+from controller.device.fpga.registers import Register, Result
+from controller.device.fpga.session import Session
 from controller.errors import ControllerError
-from controller.fpga.build_hash import build_hash
-from controller.fpga.exchange import HostSilent, Refused
-from controller.fpga.frames import pack_nop
-from controller.fpga.registers import Register, Result
-from controller.fpga.session import Session
-from controller.fpga.spi_link import SpiLink
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
 
 NAMES = ["TRIGGER", "PERMIT"]
 SETTINGS = LinkSettings(
@@ -44,9 +45,12 @@ BOARD = msgspec.structs.replace(
     limits=msgspec.structs.replace(SIMULATED.limits, heartbeat_timeout_ms=250.0, min_pulse_us=4.0),
 )
 BANK, PITCH_M = Path("/run/coarse.bank"), 70e-3
-build_bank(BOARD, BANK, PITCH_M, measure_sgemm=False)
-LINES = GpioLines("panel", NAMES)
-Path("/sys/module/labdev/parameters/timeout_ms").write_text("20000")
+
+
+def setup_module():
+    build_bank(BankRequest(BOARD, BANK, PITCH_M))
+    GpioLines("panel", NAMES)
+    Path("/sys/module/labdev/parameters/timeout_ms").write_text("20000")
 
 
 def raised(action):
@@ -91,14 +95,14 @@ def test_it_is_known_by_its_identity_configured_and_armed():
 def test_what_the_channel_pins_play_behind_the_trigger_line_is_the_banks_entry_bit_for_bit():
     session = panel().session
     with Bank.open(BANK, BOARD) as bank:
-        entries = [bytes(bank.words(cell)) for cell in (0, 1)]
+        entries = [bytes(bank.drive.words(cell)) for cell in (0, 1)]
     assert len(entries[0]) == 2000
     assert entries[0] != entries[1]
     for slot, entry in enumerate(entries):
         session.upload(slot, memoryview(entry))
     played = []
     for slot in (0, 1, 0):
-        session.play(slot, 1, 0.0, stop=False)
+        session.play(Play(slot), stop=False)
         assert session.heartbeat().emissions == len(played), "not before its trigger"
         session.trigger()
         played.append(entries[slot])

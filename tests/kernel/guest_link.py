@@ -7,6 +7,7 @@ import struct
 import threading
 import time
 import tracemalloc
+from functools import cache
 from pathlib import Path
 
 import gpiod
@@ -15,22 +16,22 @@ import numpy as np
 from far_end_spi import FarEnd, GpioTrace
 from gpio_lines import GpioLines
 
-from controller.board.board import load_board
-from controller.board.devices import LinkSettings, Temperature
-from controller.board.lookup import data_folder, find_board
+from controller.device.board.board import load_board
+from controller.device.board.devices import LinkSettings, Temperature
+from controller.device.board.lookup import data_folder, find_board
+from controller.device.doctor.doctor import look
+from controller.device.doctor.link_examination import examine_link
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.exchange import FpgaReset
+from controller.device.fpga.frames import Play
+from controller.device.fpga.links.gpio_lines import SET_VALUES
+from controller.device.fpga.links.spi_link import SpiLink, read_bufsiz
+from controller.device.fpga.registers import Register
+from controller.device.fpga.session import Session
+from controller.device.loop.context import LoopContext
+from controller.device.loop.outputs import Outputs
+from controller.device.service.temperature import RETRY_S, Thermometer
 from controller.errors import ControllerError, FaultError, LinkError
-from controller.fpga.build_hash import build_hash
-from controller.fpga.clock_estimate import ClockEstimate
-from controller.fpga.exchange import FpgaReset
-from controller.fpga.gpio_lines import SET_VALUES
-from controller.fpga.registers import Register
-from controller.fpga.session import Session
-from controller.fpga.spi_link import SpiLink, read_bufsiz
-from controller.loop.outputs import Outputs
-from controller.metrics import Counters
-from controller.service.doctor import look
-from controller.service.link_examination import examine_link
-from controller.service.temperature import RETRY_S, Thermometer
 
 LABEL = "panel"
 NAMES = ["TRIGGER", "CONFIGURED", "PERMIT"]
@@ -63,12 +64,22 @@ class SlowClock:
 
 
 CLOCK = SlowClock()
-LINES = GpioLines(LABEL, NAMES)
-LINES.pull("CONFIGURED", 1)  # as guest_board_top.py has it from the board itself; here nobody may be at the far end
 BIND = Path("/sys/bus/spi/drivers/spidev")
 TIMEOUT_MS = Path("/sys/module/labdev/parameters/timeout_ms")  # until a controller gives up a transfer
-TIMEOUT_MS.write_text("20000")
 SLOWNESS = 5.0  # of all clocks, for a machine that is busy with other things as well
+
+
+@cache
+def lines():
+    """The chip with the lines of the link."""
+    chip = GpioLines(LABEL, NAMES)
+    chip.pull("CONFIGURED", 1)  # as guest_board_top.py has it from the board itself; here nobody may be at the far end
+    return chip
+
+
+def setup_module():
+    lines()
+    TIMEOUT_MS.write_text("20000")
 
 
 def with_settings(**changes):
@@ -104,7 +115,7 @@ class Panel:
         self.far_end = FarEnd(BOARD, NAMES, slowness=SLOWNESS)
         self.link = SpiLink(SETTINGS, CLOCK.now_s)
         self.session = session_on(self.link)
-        self.outputs = Outputs(self.session, BOARD, CLOCK, ClockEstimate(SETTINGS.clock_hz), Counters())
+        self.outputs = Outputs(LoopContext(BOARD, CLOCK, self.session, None))
         self.come_on()
 
     def come_on(self):
@@ -120,7 +131,7 @@ class Panel:
             self.session.heartbeat()
 
     def emissions(self, until):
-        """Heartbeats until the FPGA has counted so many emissions."""
+        """Heartbeats until the FPGA has counted this many emissions."""
         while self.session.heartbeat().emissions < until:
             pass
 
@@ -195,7 +206,7 @@ def test_a_message_allocates_nothing_to_speak_of():
     assert after - before < 256
 
 
-def test_a_buffer_that_the_kernel_does_not_have_is_told():
+def test_a_buffer_that_the_kernel_does_not_have_is_reported():
     assert read_bufsiz() == 4096
     sent, received = memoryview(bytearray(5000)), memoryview(bytearray(5000))
     with opened() as link:
@@ -218,17 +229,17 @@ def test_a_trigger_is_a_pulse_and_its_time_is_between_its_edges():
 
 def test_the_permit_is_given_while_the_link_is_open():
     with opened():
-        assert LINES.value("PERMIT") == 1
-    assert LINES.value("PERMIT") == 0
+        assert lines().value("PERMIT") == 1
+    assert lines().value("PERMIT") == 0
 
 
-def test_an_fpga_that_is_not_configured_is_told_and_gets_no_permit():
-    LINES.pull("CONFIGURED", 0)
+def test_an_fpga_that_is_not_configured_is_reported_and_gets_no_permit():
+    lines().pull("CONFIGURED", 0)
     try:
         assert "is not configured: its line 'CONFIGURED' is low" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
     finally:
-        LINES.pull("CONFIGURED", 1)
-    assert LINES.value("PERMIT") == 0
+        lines().pull("CONFIGURED", 1)
+    assert lines().value("PERMIT") == 0
     with opened() as link:
         assert link.lines.configured()
 
@@ -254,13 +265,13 @@ def test_lines_without_names_are_driven_by_their_numbers_and_refused_by_name_wit
         twice = with_settings(gpio_chip="expander", trigger_line="0", configured_line="1", permit_line="0")
         assert "have to be lines of their own; given are '0', '1', '0'" in refusal(lambda: SpiLink(twice, CLOCK.now_s))
         with opened(numbered) as link:
-            link.lines.permit(True)
+            link.lines.permit(given=True)
             assert link.lines.configured()
             assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (0, 1)
             fcntl.ioctl(link.lines._fd, SET_VALUES, link.lines._high)  # the first half of a pulse
             assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (1, 1)
             link.lines.pulse()
-            link.lines.permit(False)
+            link.lines.permit(given=False)
             assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (0, 0)
             expander.pull("CONFIGURED", 0)
             assert not link.lines.configured()
@@ -268,8 +279,8 @@ def test_lines_without_names_are_driven_by_their_numbers_and_refused_by_name_wit
         expander.close()
 
 
-def test_a_line_that_somebody_holds_is_told_with_its_holder():
-    with gpiod.request_lines(f"/dev/{LINES.chip}", consumer="oscilloscope", config={"TRIGGER": None}):
+def test_a_line_that_somebody_holds_is_reported_with_its_holder():
+    with gpiod.request_lines(f"/dev/{lines().chip}", consumer="oscilloscope", config={"TRIGGER": None}):
         assert "'TRIGGER' of GPIO chip 'panel' is in use by oscilloscope" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
     with opened():
         pass
@@ -280,7 +291,7 @@ def test_two_programs_never_share_the_device():
         assert "in use by another haptic-panel" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
 
 
-def test_a_device_that_is_not_there_is_told_with_those_that_are():
+def test_a_device_that_is_not_there_is_reported_with_those_that_are():
     message = refusal(lambda: SpiLink(with_settings(device="/dev/spidev7.1"), time.monotonic))
     assert "there is no /dev/spidev7.1 (there are: /dev/spidev0.0)" in message
 
@@ -294,10 +305,10 @@ def test_the_speed_is_read_back_and_divided_as_the_controller_does():
 
 def test_it_arms_uploads_and_plays_by_its_trigger_line():
     with panel() as there:
-        there.session.upload_and_play(1, WORDS, 1, 0.0, stop=False)
+        there.session.upload_and_play(Play(1), WORDS, stop=False)
         there.session.trigger()
         there.emissions(1)
-        there.session.play(1, 2, 3e-3, stop=False)
+        there.session.play(Play(1, emissions=2, period_ticks=there.session.timing.period_ticks(3e-3)), stop=False)
         assert there.session.heartbeat().trigger_count == 1
         there.session.trigger()
         there.emissions(3)
@@ -329,7 +340,7 @@ def test_what_is_wrong_with_the_wires_is_said():
         far_end.close()
 
 
-def test_a_loopback_is_told_by_the_kernels_own():
+def test_a_loopback_is_reported_by_the_kernels_own():
     with opened() as link:  # nobody at the far end
         message = refusal(lambda: session_on(link))
     assert "our own bytes came back" in message
@@ -344,7 +355,7 @@ def test_a_reset_fpga_is_noticed_and_brought_back():
         assert there.far_end.pins()["hv"] == 0
         there.recover(error)
         assert there.session.exchange.read(Register.IDLE_WORD) == BOARD.idle_word
-        there.session.upload_and_play(2, WORDS, 1, 0.0, stop=False)
+        there.session.upload_and_play(Play(2), WORDS, stop=False)
         there.session.trigger()
         there.emissions(1)
         assert there.far_end.pins()["focus"] == 1
@@ -359,24 +370,24 @@ def test_an_fpga_without_supply_for_a_while_is_brought_back():
         assert there.far_end.pins()["hv"] == 1
 
 
-def test_a_device_that_is_unplugged_is_told_and_opened_again_when_it_is_back():
+def test_a_device_that_is_unplugged_is_reported_and_opened_again_when_it_is_back():
     with panel() as there:
         (BIND / "unbind").write_text("spi0.0")
         try:
             error = there.lost()
             assert "/dev/spidev0.0 was removed" in str(error), error
-            assert LINES.value("PERMIT") == 0
+            assert lines().value("PERMIT") == 0
             assert there.far_end.pins()["hv"] == 0, "without the permit, at once"
             assert "there is no /dev/spidev0.0" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
         finally:
             (BIND / "bind").write_text("spi0.0")
         there.recover(error)
-        there.session.upload_and_play(0, WORDS, 1, 0.0, stop=False)
+        there.session.upload_and_play(Play(0), WORDS, stop=False)
         there.session.trigger()
         there.emissions(1)
 
 
-def test_a_bus_that_is_stuck_is_told_and_work_goes_on_when_it_is_free():
+def test_a_bus_that_is_stuck_is_reported_and_work_goes_on_when_it_is_free():
     with panel() as there:
         there.far_end.wire("stuck")
         TIMEOUT_MS.write_text("300")
@@ -389,7 +400,7 @@ def test_a_bus_that_is_stuck_is_told_and_work_goes_on_when_it_is_free():
         assert there.far_end.pins()["hv"] == 0
         there.far_end.wire("good")
         there.recover(error)
-        assert LINES.value("PERMIT") == 1
+        assert lines().value("PERMIT") == 1
         assert there.far_end.pins()["hv"] == 1
 
 

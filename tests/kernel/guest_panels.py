@@ -1,6 +1,6 @@
 """Runs in the guest: every driver of touch panels against real event devices, a real I2C bus and real GPIO lines.
 
-Behind the event devices is uinput; behind the bus, GT911 and FT5x06 from their data sheets (tests/touch/peers).
+Behind the event devices is uinput; behind the bus, GT911 and FT5x06 from their data sheets (tests/device/touch/peers).
 """
 
 import contextlib
@@ -17,7 +17,7 @@ from collections import Counter
 from pathlib import Path
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent / "touch"))
+sys.path.insert(0, str(HERE.parent / "device/touch"))
 
 from evdev import AbsInfo, InputDevice, UInput  # noqa: E402
 from evdev import ecodes as e  # noqa: E402
@@ -26,24 +26,25 @@ from gpio_lines import GpioLines  # noqa: E402
 from peers.ft5x06_chip import Ft5x06Chip  # noqa: E402
 from peers.gt911_chip import STATUS, Gt911Chip  # noqa: E402
 
-from controller.board.board import load_board  # noqa: E402
-from controller.board.lookup import find_board  # noqa: E402
-from controller.board.touch_panels import Ft5x06Touch, Gt911Touch  # noqa: E402
+from controller.device.board.board import load_board  # noqa: E402
+from controller.device.board.lookup import find_board  # noqa: E402
+from controller.device.touch.drivers.event_device import LinuxInput  # noqa: E402
+from controller.device.touch.event_codes import Protocol  # noqa: E402
+from controller.device.touch.live_source import LiveSource  # noqa: E402
+from controller.device.touch.panels.ft5x06 import Ft5x06Touch  # noqa: E402
+from controller.device.touch.panels.ft5x06 import open_panel as open_ft5x06  # noqa: E402
+from controller.device.touch.panels.gt911 import Gt911Touch  # noqa: E402
+from controller.device.touch.panels.gt911 import open_panel as open_gt911  # noqa: E402
+from controller.device.touch.recordings.recording import Recording  # noqa: E402
+from controller.device.touch.recordings.replay import RecordingSource  # noqa: E402
+from controller.device.touch_calibration.mouse import Mouse  # noqa: E402
 from controller.errors import TouchError  # noqa: E402
-from controller.touch.event_codes import Protocol  # noqa: E402
-from controller.touch.ft5x06 import open_panel as open_ft5x06  # noqa: E402
-from controller.touch.gt911 import open_panel as open_gt911  # noqa: E402
-from controller.touch.linux_input import LinuxInput  # noqa: E402
-from controller.touch.live_source import LiveSource  # noqa: E402
-from controller.touch.mouse import Mouse  # noqa: E402
-from controller.touch.recording import Recording  # noqa: E402
-from controller.touch.replay import RecordingSource  # noqa: E402
 
 BOARD = load_board(find_board("simulated"))
 DEADLINE_S = 20.0
 RECORDER_S = 60.0  # Python has much to import in a guest
 AXES_MM = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
-RECORDINGS = HERE.parent / "touch" / "recordings"
+RECORDINGS = HERE.parent / "device/touch/recordings"
 PANEL_B = {
     e.EV_KEY: [e.BTN_TOUCH],
     e.EV_ABS: [

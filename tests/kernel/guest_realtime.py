@@ -10,8 +10,8 @@ import threading
 import traceback
 from pathlib import Path
 
-from controller.board.devices import Realtime
-from controller.service.realtime import enter_realtime
+from controller.device.board.devices import Realtime
+from controller.device.service.realtime import enter_realtime
 
 BANK_BYTES = 300 << 20
 
@@ -48,16 +48,16 @@ def test_a_user_gets_priority_and_core_but_not_for_threads_started_later():
         assert os.sched_getscheduler(0) == os.SCHED_FIFO | os.SCHED_RESET_ON_FORK
         assert os.sched_getparam(0).sched_priority == 50
         assert os.sched_getaffinity(0) == {0}
-        thread = threading.Thread(target=lambda: told.append(os.sched_getscheduler(0)))
+        thread = threading.Thread(target=lambda: reported.append(os.sched_getscheduler(0)))
         thread.start()
         thread.join()
-        assert told == [os.SCHED_OTHER]
+        assert reported == [os.SCHED_OTHER]
 
-    told = []
+    reported = []
     as_nobody(check)
 
 
-def test_more_than_the_limit_is_refused_and_told():
+def test_more_than_the_limit_is_refused_and_reported():
     def check():
         (warning,) = enter_realtime(Realtime(priority=51, lock_memory=False))
         assert "SCHED_FIFO at priority 51: Operation not permitted (ulimit -r is 50; LimitRTPRIO=51 in the unit)" in warning

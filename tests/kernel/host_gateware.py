@@ -1,6 +1,7 @@
 """The compiled Verilog, or a whole board, computed here for a guest, 25 times slower there: a virtual serial port between them.
 
-The guest's clock stands still meanwhile: for it the answer takes no time, however busy this machine is.
+The guest's clock stands still meanwhile: for it the answer takes no time, however busy this machine is. The guest itself stops it
+as soon as it has asked, by QEMU's device for a guest that panics, so no time passes until the host sees that it is asked.
 
 usage: host_gateware.py SOCKET MONITOR     serves whoever is at the far end of QEMU's virtio-serial, until that is gone;
                                            MONITOR is QEMU's socket for its machine protocol (QMP)
@@ -12,10 +13,12 @@ import multiprocessing.connection
 import os
 import socket
 import sys
+import time
 from functools import cache
 from pathlib import Path
 
 NAME = "gateware"  # of the port
+PANIC_PORT, PANICKED = 0x505, b"\1"  # of QEMU's device `pvpanic`, which pauses the machine (-action panic=pause)
 
 
 @cache
@@ -25,9 +28,16 @@ def port():
     return multiprocessing.connection.Connection(os.open(f"/dev/{name.name}", os.O_RDWR))
 
 
+@cache
+def input_output_ports():
+    """The processor's, as a file."""
+    return os.open("/dev/port", os.O_WRONLY)
+
+
 def ask(what, *arguments):
-    """Have the host do something, and its answer."""
+    """Have the host do something while time stands still, and its answer."""
     port().send((what, arguments))
+    os.pwrite(input_output_ports(), PANICKED, PANIC_PORT)
     answer = port().recv()
     if isinstance(answer, Exception):
         raise answer
@@ -43,7 +53,7 @@ class HostGateware:
     def advance(self, tick):
         self.now = ask("advance", tick)
 
-    def permit(self, tick, level, which):
+    def permit(self, tick, *, level, which):
         ask("permit", tick, level, which)
 
     def trigger(self, tick, high_ticks):
@@ -60,7 +70,7 @@ class Served:
     """What the host does of it."""
 
     def open(self, parameters):
-        from controller.simulation.rtl_gateware import RtlGateware
+        from controller.workshop.gateware.rtl_gateware import RtlGateware
 
         self._gateware = RtlGateware(parameters)
         return self._gateware.now
@@ -68,6 +78,9 @@ class Served:
     def advance(self, tick):
         self._gateware.advance(tick)
         return self._gateware.now
+
+    def permit(self, tick, level, which):
+        self._gateware.permit(tick, level=level, which=which)
 
     def exchange(self, select_tick, release_tick, mosi):
         miso = bytearray(len(mosi))
@@ -100,36 +113,46 @@ class Monitor:
 
     def __init__(self, path):
         wire = socket.socket(socket.AF_UNIX)
-        wire.connect(path)
+        while wire.connect_ex(path):  # QEMU does not listen yet
+            time.sleep(0.05)
         self._wire = wire.makefile("rw")
         self._wire.readline()  # its greeting
+        self._stops = 0  # of the guest's time that were reported and not waited for
         self.execute("qmp_capabilities")
 
     def execute(self, command):
-        """Have it done, whatever else is told meanwhile."""
+        """Have it done, whatever else is reported meanwhile."""
         self._wire.write(json.dumps({"execute": command}))
         self._wire.flush()
-        while "return" not in (said := json.loads(self._wire.readline())):
+        while "return" not in (said := self._reported()):
             assert "error" not in said, said
 
-    @contextlib.contextmanager
-    def time_stands_still(self):
-        """Of the guest."""
-        self.execute("stop")
-        yield
-        self.execute("cont")
+    def wait_for_stop(self):
+        """Until the guest's time stands still."""
+        while not self._stops:
+            self._reported()
+        self._stops -= 1
+
+    def _reported(self):
+        line = self._wire.readline()
+        if not line:
+            raise EOFError  # the machine is gone
+        said = json.loads(line)
+        self._stops += said.get("event") == "STOP"
+        return said
 
 
 def serve(guest, monitor):
     served = Served()
     while True:
         what, arguments = guest.recv()
-        with monitor.time_stands_still():
-            try:
-                answer = getattr(served, what)(*arguments)
-            except Exception as error:
-                answer = error
-            guest.send(answer)
+        monitor.wait_for_stop()
+        try:
+            answer = getattr(served, what)(*arguments)
+        except Exception as error:
+            answer = error
+        guest.send(answer)
+        monitor.execute("cont")
 
 
 def main():
@@ -138,8 +161,7 @@ def main():
         listener.accept() as guest,
         contextlib.suppress(EOFError, OSError),  # the guest is gone
     ):
-        guest.poll(None)  # QEMU listens by now
-        serve(guest, Monitor(sys.argv[2]))
+        serve(guest, Monitor(sys.argv[2]))  # before the guest has booted, so that no stop is missed
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Makes the file tree of a machine with a dpkg of its own, which the Debian package is installed on: a small Debian, this checkout
 # at /checkout, and the packages of make_packages.sh at /packages. Debian's Python runs the tests, with what the environment of this machine's tests has at /opt/packages.
-# usage: make_debian_tree.sh PYTHON TREE FILE.py...     the files are run by run_tests.py; TREE/binds lists what is to be bound where
+# usage: make_debian_tree.sh PYTHON TREE [--slow] FILE.py...     the files are run by run_tests.py; TREE/binds lists what is to be bound where
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 checkout=$(realpath "$here/../..")

@@ -10,15 +10,14 @@ cache=${XDG_CACHE_HOME:-$HOME/.cache}/haptic-panel/packages
 mkdir -p "$cache"
 exec 9>"$cache/lock"
 flock 9 # a second run waits for the first and finds its work
-sources() { cd "$checkout" && find controller boards fpga_rtl systemd pyproject.toml README.md LICENSE tests/kernel/make_packages.sh -type f ! -name '*.pyc' ! -name '*.so' | sort; }
-done=$cache/$(sources | (cd "$checkout" && xargs sha256sum) | sha256sum | cut -c1-16)
+done=$cache/$("$here/state_of_checkout.sh" make_packages.sh)
 if [ ! -e "$done" ]; then
   "$here/install_packages.sh" debhelper fakeroot lintian unzip >&2
   find "$cache" -mindepth 1 -maxdepth 1 -type d -mtime +0 -exec rm -rf {} +
   work=$(mktemp -d "$cache/making.XXXXXX")
   trap 'rm -rf "$work"' EXIT
   mkdir "$work/ready"
-  export SOURCE_DATE_EPOCH=1700000000 PYTHONPATH=$checkout:$checkout/tests/update:$here OPENBLAS_NUM_THREADS=1
+  export SOURCE_DATE_EPOCH=1700000000 PYTHONPATH=$checkout:$checkout/tests/device/update:$here OPENBLAS_NUM_THREADS=1
   board=$work/panel
   cp -r "$checkout/boards/simulated" "$board"
   sed -i 's/^pitch_mm = .*/pitch_mm = 15.0\ncoarse = true/; s/^snap_mm = .*/snap_mm = 7.0/; s/^bit_clock_hz = .*/bit_clock_hz = 250e3/' "$board/board.toml"

@@ -6,10 +6,10 @@ usage: release_manifest.py VERSION
 import platform
 import sys
 
-from controller.bank.file_format import VERSION as BANK_FORMAT
-from controller.fpga.registers import PROTOCOL_VERSION
-from controller.service.drivers import gateware_hash
-from controller.update.manifest import SETTINGS_FORMAT, Manifest
+from controller.device.bank.file_format import VERSION as BANK_FORMAT
+from controller.device.fpga.registers import PROTOCOL_VERSION
+from controller.device.service.drivers import gateware_hash
+from controller.device.update.manifest import SETTINGS_FORMAT, Manifest
 
 manifest = Manifest(
     version=sys.argv[1], counter=1, python=f"3.{sys.version_info[1]}", architecture=platform.machine(), protocol=PROTOCOL_VERSION,

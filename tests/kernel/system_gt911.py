@@ -14,12 +14,12 @@ import far_end_spi
 import panel_board
 from gpio_lines import GpioLines
 from host_gateware import HostGateware
-from the_service import cell, fresh_start, install, journal, main_pid, said, wait_for, wait_for_emission
+from the_service import UNIT, cell, fresh_start, install, journal, main_pid, run, said, wait_for, wait_for_emission
 
-from controller.application_socket.client import PanelClient
-from controller.board.board import load_board
+from controller.device.application_socket.client import PanelClient
+from controller.device.board.board import load_board
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "touch"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "device/touch"))
 
 from peers.gt911_chip import STATUS, Gt911Chip
 
@@ -54,7 +54,7 @@ class Bench:
         self.fpga = far_end_spi.FarEnd(load_board(panel_board.BOARD), LINES, HostGateware)
         self.chip = Gt911Chip(width=2100, height=1480)
         self.panel = far_end_i2c.FarEnd(self.chip, self.lines)
-        Path("/sys/module/labdev/parameters/timeout_ms").write_text("20000")  # of both buses
+        Path("/sys/module/labdev/parameters/timeout_ms").write_text("8000")  # of both buses
 
     def tap(self, x_m, y_m):
         """A finger comes, is seen twice, and goes."""
@@ -63,9 +63,10 @@ class Bench:
             self.panel.touch(held)
             wait_for("the report to be fetched", lambda: not self.chip.registers[STATUS] & 0x80)
 
-    def finger_is_felt(self):
-        """Tap on a cell until its entry in the bank has been on the FPGA's pins, bit for bit."""
+    def finger_is_felt(self, damaged=0):
+        """Tap on a cell until its entry in the bank has been on the FPGA's pins, bit for bit; so many frames are damaged first."""
         place, words = cell(CELL)
+        self.fpga.ask("damage", damaged)
         wait_for_emission(self.fpga, words, lambda: self.tap(*place))
 
     def outputs_are(self, on):
@@ -78,6 +79,10 @@ def bench(made=[]):  # noqa: B006
     if not made:
         made.append(Bench())
     return made[0]
+
+
+def teardown_module():
+    run("systemctl", "stop", UNIT)  # before its lines are unplugged
 
 
 def test_it_starts_with_both_of_them():
@@ -94,8 +99,7 @@ def test_a_finger_plays_the_banks_entry_of_its_cell():
 
 def test_damaged_frames_change_nothing():
     pid = main_pid()
-    bench().fpga.ask("damage", 3)
-    bench().finger_is_felt()
+    bench().finger_is_felt(damaged=2)  # two heartbeats, if the finger comes later
     assert main_pid() == pid, journal()
     assert "outputs off" not in said(), said()
 
@@ -107,7 +111,7 @@ def heartbeats():
 
 
 def test_a_touch_bus_that_hangs_for_seconds_costs_no_heartbeat():
-    """Of an adapter that does not keep to the time it is given: 20 s."""
+    """Of an adapter that does not keep to the time it is given: 8 s."""
     pid = main_pid()
     bench().chip.hangs = True
     bench().panel.touch({0: (700, 700)})

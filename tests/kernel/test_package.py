@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from controller.update.manifest import Manifest
+from controller.device.update.manifest import Manifest
 
 HERE = Path(__file__).parent
 BUILD = HERE.parents[1] / "systemd/package/build.sh"

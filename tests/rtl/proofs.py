@@ -132,11 +132,13 @@ PROOFS = {
                 "accept_q <= sync_good_q && whole",
                 "accepts_only_good_frames",
             ),
-            "any second byte of the sync word": Bug(
-                "sync_good_q && {byte_i, 8'h5A} == `FRAME_SYNC", "sync_good_q", "sync_is_whole"
-            ),
+            "any second byte of the sync word": Bug("sync_good_q && byte_i == SYNC[15:8]", "sync_good_q", "sync_is_whole"),
             "bits left over": Bug("length_good_q && !partial_i &&", "length_good_q &&", "accepts_only_good_frames"),
-            "a byte more": Bug("{1'b0, length_q} + 17'd12", "{1'b0, length_q} + 17'd13", "accepts_(only|all)_good_frames"),
+            "a byte more": Bug(
+                "{1'b0, length_q} + `FRAME_OVERHEAD_BYTES",
+                "{1'b0, length_q} + `FRAME_OVERHEAD_BYTES + 17'd1",
+                "accepts_(only|all)_good_frames",
+            ),
             "a count that wraps": Bug("if (count_q != 10'h3FF) count_q", "count_q", "counts_bytes"),
             "half a word of a LOAD": Bug(" && length_q[1:0] == 2'b00", "", "accepts_only_good_frames|header_is_known"),
             "words beyond the payload": Bug(
@@ -243,7 +245,9 @@ PROOFS = {
             "the host's emissions": Bug("most_emission ? EMISSION_TICKS_MAX[EMISSION_BITS-1:0] :", "", "emission_is_clamped"),
             "every channel": Bug("channel_mask_i & CHANNEL_MASK_MAX", "channel_mask_i", "no_stage_no_move"),
             "limits that change while armed": Bug("if (off_o) begin", "begin", "limits_rest"),
-            "edges judged by what is asked for later": Bug("if (arm) begin ", "if (arm || off_o) begin ", "limits_of_edges_rest"),
+            "edges evaluated by what is asked for later": Bug(
+                "if (arm) begin ", "if (arm || off_o) begin ", "limits_of_edges_rest"
+            ),
             "the other link": Bug("heard_i && !off_o && link_i == link_q", "heard_i && !off_o", "one_link_feeds"),
             "arming in the heat": Bug("&& run_permit && temperature_ok;", "&& run_permit;", "arming_is_safe"),
         },

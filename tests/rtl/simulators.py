@@ -8,7 +8,7 @@ import os
 import sys
 from pathlib import Path
 
-from controller.simulation.rtl_build import verilator_root
+from controller.workshop.gateware.rtl_build import verilator_root
 
 # Verilator's own object files are most of a build and the same for every module: compile them once
 KEEP_RUNTIME = """#!/bin/sh

@@ -6,8 +6,8 @@ import zlib
 import cocotb
 from clocked import after_reset, clocks, reset
 
-from controller.fpga import frames
-from controller.fpga.registers import FrameType, Result
+from controller.device.fpga import frames
+from controller.device.fpga.registers import FrameType, Result
 
 BIT_TICKS = 8
 
@@ -153,7 +153,7 @@ async def lets_the_words_of_a_load_through_as_they_come(dut):
         assert decoder.loads == list(range(count)), "all of them are for the landing buffer"
         assert int(dut.payload_words_o.value) == count
     for argument in (8, 0x100, 0x8000, 0xFFFF):
-        assert await decoder.feed(frame_of(FrameType.LOAD, bytes(40), argument=argument)) is Result.OK, "judged elsewhere"
+        assert await decoder.feed(frame_of(FrameType.LOAD, bytes(40), argument=argument)) is Result.OK, "evaluated elsewhere"
         assert decoder.loads == []
         assert len(decoder.words) == 10
     assert await decoder.feed(frame_of(FrameType.TEST, random.randbytes(500))) is Result.OK
@@ -221,7 +221,7 @@ async def frames_may_follow_each_other_at_once(dut):
 
 @cocotb.test(timeout_time=2, timeout_unit="ms")
 async def fast_means_that_the_words_outlast_the_frame(dut):
-    """Judged from select to release: n words of a bit period each against the clocks of the frame."""
+    """Evaluated from select to release: n words of a bit period each against the clocks of the frame."""
     decoder = await ready(dut)
     verdicts = set()
     for count, gap in ((5, 3), (125, 2), (20, 5)):
@@ -297,7 +297,7 @@ def random_frame():
 
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")
-async def random_frames_are_judged_by_the_contract(dut):
+async def random_frames_are_evaluated_by_the_contract(dut):
     decoder = await ready(dut)
     seen, paces = set(), set()
     for _ in range(300):

@@ -5,7 +5,7 @@ import random
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.registers import FrameType
+from controller.device.fpga.registers import FrameType
 
 FIELDS = {"kind": 8, "sequence": 8, "argument": 16, "payload_words": 7}
 KINDS = {

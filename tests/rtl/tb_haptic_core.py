@@ -31,11 +31,10 @@ from panel import (
 )
 from random_script import random_script
 
-from controller.errors import LinkError
-from controller.fpga import frames
-from controller.fpga.configuration import LIMITS
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import (
+from controller.device.fpga import frames
+from controller.device.fpga.configuration import LIMITS
+from controller.device.fpga.frames import FRAME_BYTES, Play
+from controller.device.fpga.registers import (
     FILTER_TICKS,
     IDENTITY_MAGIC,
     PLAY_LANDING,
@@ -53,11 +52,12 @@ from controller.fpga.registers import (
     Start,
     State,
 )
-from controller.fpga.status import parse_status
-from controller.gateware_model.edge_counts import turn
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.limits import LATEST_TICKS, TURN_TICKS
-from controller.gateware_model.player import FETCH_TICKS
+from controller.device.fpga.status import parse_status
+from controller.errors import LinkError
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.edge_counts import turn
+from controller.workshop.gateware.model.limits import LATEST_TICKS, TURN_TICKS
+from controller.workshop.gateware.model.player import FETCH_TICKS
 
 SHORT = 20  # words of most waveforms here
 SOUNDING = SHORT * BIT_TICKS
@@ -98,7 +98,7 @@ async def plays_a_bank_entry_bit_for_bit(dut):
     await panel.arm()
     words = bank_entry_words()
     await panel.upload(1, words)
-    await panel.send(frames.pack_play, 1)
+    await panel.send(frames.pack_play, Play(1))
     await panel.wait(10)
     before = await panel.status()
     assert State.PENDING | State.WAITING in before.state
@@ -177,7 +177,7 @@ async def a_scheduled_play_begins_at_its_tick_exactly(dut):
     async def schedule(lead):
         """A play that begins so long after its frame is accepted; what becomes of it."""
         when = panel.tick + FRAME_TICKS + JUDGED_TICKS + lead
-        await panel.send(frames.pack_play, 0, start=Start.TIME, when_ticks=when)
+        await panel.send(frames.pack_play, Play(0, start=Start.TIME, when_ticks=when))
         assert when == panel.release_tick + JUDGED_TICKS + lead
         scheduled.append(when)
 
@@ -196,8 +196,8 @@ async def a_scheduled_play_begins_at_its_tick_exactly(dut):
     await schedule(5000)
     free = scheduled[-1] + SOUNDING + BIT_TICKS + 2  # the idle word, and until the next play is fetched
     for when in (scheduled[-1] - 1000, free - 1):
-        assert await panel.result_of(frames.pack_play, 0, start=Start.TIME, when_ticks=when) is Result.OVERLAP
-    await panel.send(frames.pack_play, 0, start=Start.TIME, when_ticks=free)
+        assert await panel.result_of(frames.pack_play, Play(0, start=Start.TIME, when_ticks=when)) is Result.OVERLAP
+    await panel.send(frames.pack_play, Play(0, start=Start.TIME, when_ticks=free))
     await panel.until(free + SOUNDING + 20)
     assert panel.words[seen:] == expected + shown(scheduled[-1], words) + shown(free, words)
     assert await panel.read(Register.PLAYS_MISSED) == 0
@@ -209,9 +209,9 @@ async def eight_plays_wait_their_turn_and_the_ninth_is_refused(dut):
     panel, *waveforms = await armed(dut, SHORT, 7, 3)
     plays = [(number % SLOTS, 0xFFFFFFFF >> number) for number in range(QUEUE_PLAYS)]
     for number, (slot, mask) in enumerate(plays):
-        await panel.send(frames.pack_play, slot, mask=mask)
+        await panel.send(frames.pack_play, Play(slot, mask=mask))
         assert (await panel.status()).queued == number + 1
-    assert await panel.result_of(frames.pack_play, 0) is Result.QUEUE_FULL
+    assert await panel.result_of(frames.pack_play, Play(0)) is Result.QUEUE_FULL
     assert await panel.read(READ_QUEUE + 8 * 7 + 3) == plays[7][1]
     assert await panel.read(Register.QUEUE) == 8
     for beyond in (6, 8 * 8, 8 * 8 + 3):  # a word, a play that there is not
@@ -234,7 +234,7 @@ async def plays_that_start_now_follow_one_another_a_bit_period_apart(dut):
     panel, *waveforms = await armed(dut, SHORT, 7, 3)
     await panel.play(0)
     for slot in (1, 2, 1):
-        await panel.send(frames.pack_play, slot, start=Start.NOW)
+        await panel.send(frames.pack_play, Play(slot, start=Start.NOW))
     seen = len(panel.words)
     tick = await panel.trigger() + FIRST_WORD_TICKS
     await panel.wait(400)
@@ -243,7 +243,7 @@ async def plays_that_start_now_follow_one_another_a_bit_period_apart(dut):
         expected += shown(tick, waveforms[slot])
         tick += (len(waveforms[slot]) + 1) * BIT_TICKS
     assert panel.words[seen:] == expected
-    await panel.send(frames.pack_play, 2, start=Start.NOW, when_ticks=40)
+    await panel.send(frames.pack_play, Play(2, start=Start.NOW, when_ticks=40))
     start = panel.release_tick + JUDGED_TICKS + FETCH_TICKS + 40 + 5
     await panel.wait(120)
     assert panel.words[seen + len(expected) :] == shown(start, waveforms[2])
@@ -263,13 +263,13 @@ async def a_waveform_plays_while_it_arrives(dut):
     panel, _ = await armed(dut, 1, bit_period=SLOW_WORD_TICKS << 16)
     words = random_words(300)
     loads = loads_of(words)
-    assert await panel.result_of(frames.pack_play, PLAY_LANDING) is Result.INCOMPLETE
+    assert await panel.result_of(frames.pack_play, Play(PLAY_LANDING)) is Result.INCOMPLETE
     panel.sck_half_ns = 18  # 125 words in more ticks than they last
     await panel.send(frames.pack_load, 0, loads[0])
-    assert await panel.result_of(frames.pack_play, PLAY_LANDING, length=300) is Result.LINK_SLOW
+    assert await panel.result_of(frames.pack_play, Play(PLAY_LANDING, length=300)) is Result.LINK_SLOW
     panel.sck_half_ns = 15
     await panel.send(frames.pack_load, 0, loads[0])
-    await panel.send(frames.pack_play, PLAY_LANDING, length=300)
+    await panel.send(frames.pack_play, Play(PLAY_LANDING, length=300))
     await panel.wait(20)
     start = await panel.trigger() + FIRST_WORD_TICKS
     seen = len(panel.words)
@@ -294,7 +294,7 @@ async def a_word_that_has_not_arrived_shuts_the_outputs_and_never_plays(dut, tai
     words = random_words(250) | 1
     loads = loads_of(words)
     await panel.send(frames.pack_load, 0, loads[0])
-    await panel.send(frames.pack_play, PLAY_LANDING, length=250, start=Start.NOW)
+    await panel.send(frames.pack_play, Play(PLAY_LANDING, length=250, start=Start.NOW))
     start = panel.release_tick + JUDGED_TICKS + FETCH_TICKS + 5
     seen = len(panel.words)
     if tail == "damaged":
@@ -322,9 +322,9 @@ async def a_slot_whose_crc_does_not_match_is_not_played(dut):
     bad = random_words(SHORT)
     await panel.send(frames.pack_load, 0, memoryview(bad.tobytes()))
     assert await panel.result_of(frames.pack_store, 1, SHORT, zlib.crc32(bad) ^ 1 << 17) is Result.OK
-    assert await panel.result_of(frames.pack_play, 1) is Result.SLOT_DAMAGED
-    assert await panel.result_of(frames.pack_play, 2) is Result.EMPTY_SLOT
-    assert await panel.result_of(frames.pack_play, SLOTS) is Result.BAD_SLOT
+    assert await panel.result_of(frames.pack_play, Play(1)) is Result.SLOT_DAMAGED
+    assert await panel.result_of(frames.pack_play, Play(2)) is Result.EMPTY_SLOT
+    assert await panel.result_of(frames.pack_play, Play(SLOTS)) is Result.BAD_SLOT
     assert await panel.read(Register.SLOTS_LOADED) == 0b01
     assert await panel.read(READ_SLOT_CRC + 1) == zlib.crc32(bad)
     seen = len(panel.words)
@@ -345,7 +345,7 @@ async def words_begin_at_the_floor_of_a_bit_period_with_a_fraction(dut):
     await panel.arm(bit_period=FINE)
     words = random_words(125)
     await panel.upload(0, words)
-    for _ in range(2):  # the fraction begins anew with each emission
+    for _ in range(2):  # the fraction starts again with each emission
         await panel.play()
         seen = len(panel.words)
         start = await panel.trigger() + FIRST_WORD_TICKS
@@ -412,7 +412,7 @@ async def a_damaged_load_does_not_count_and_spoils_nothing_else(dut):
         await panel.exchange(bytes(damage(load)))
         assert await panel.result_of(frames.pack_store, 1, SHORT, zlib.crc32(words)) is Result.INCOMPLETE
     await panel.upload(1, words)
-    await panel.send(frames.pack_play, 1)
+    await panel.send(frames.pack_play, Play(1))
     await panel.wait(20)
     start = await panel.trigger() + FIRST_WORD_TICKS
     await panel.wait(SOUNDING + 20)
@@ -426,7 +426,7 @@ async def loading_and_storing_never_disturb_what_plays_or_waits(dut):
     await panel.arm()
     old, new = random_words(125), random_words(SHORT)
     await panel.upload(0, old)
-    await panel.send(frames.pack_play, 0, count=0, period_ticks=125 * BIT_TICKS)
+    await panel.send(frames.pack_play, Play(0, emissions=0, period_ticks=125 * BIT_TICKS))
     await panel.wait(20)
     await panel.trigger()
     await panel.upload(0, new)  # stored while the old one sounds
@@ -446,7 +446,7 @@ async def loading_and_storing_never_disturb_what_plays_or_waits(dut):
 async def shuts_within_the_timeout_when_the_host_falls_silent_and_keeps_the_cause(dut):
     heartbeat_ticks = 6000
     panel, _ = await armed(dut, SHORT, HEARTBEAT_TICKS=heartbeat_ticks)
-    await panel.send(frames.pack_play, 0, count=0, period_ticks=SOUNDING)
+    await panel.send(frames.pack_play, Play(0, emissions=0, period_ticks=SOUNDING))
     await panel.wait(20)
     await panel.trigger()
     await panel.status()
@@ -464,7 +464,7 @@ async def shuts_within_the_timeout_when_the_host_falls_silent_and_keeps_the_caus
     assert not status.state & (State.ARMED | State.PLAYING | State.REPEATING | State.HV_ENABLE)
     await panel.unlock_and_arm()
     assert (await panel.status()).result is Result.FAULTED
-    assert await panel.result_of(frames.pack_play, 0) is Result.FAULTED
+    assert await panel.result_of(frames.pack_play, Play(0)) is Result.FAULTED
     assert await panel.read(Register.FAULT) == Fault.HOST_SILENT
     await panel.control(Control.CLEAR)
     await panel.arm_again()
@@ -476,7 +476,7 @@ async def shuts_within_the_timeout_when_the_host_falls_silent_and_keeps_the_caus
 async def a_trigger_while_unarmed_or_with_nothing_to_play_is_counted_and_ignored(dut):
     panel = await Panel.after_reset(dut)
     await panel.trigger()
-    assert await panel.result_of(frames.pack_play, 0) is Result.NOT_ARMED
+    assert await panel.result_of(frames.pack_play, Play(0)) is Result.NOT_ARMED
     await panel.trigger()
     await panel.wait(50)
     assert panel.words == []
@@ -502,7 +502,7 @@ async def is_low_within_four_clocks_of_a_lost_permit_and_says_so(dut, which):
     panel = await Panel.after_reset(dut)
     await panel.arm()
     await panel.upload(0, random_words(SHORT) | 1)
-    await panel.play(count=3, period_ticks=300)
+    await panel.play(emissions=3, period_ticks=300)
     await panel.trigger()
     await panel.wait(4 * BIT_TICKS)
     lost = panel.tick
@@ -550,7 +550,7 @@ async def a_limit_of_the_stages_shuts_the_outputs_within_its_clocks(dut, limit):
     await panel.arm(**{limit: most}, DUTY_SHARE=0 if limit == "DUTY_TICKS" else 65536)
     words = TOGGLING if limit != "CHANNEL_EDGES" else TOGGLING & np.uint32(1 << 13) | np.uint32(IDLE_WORD & ~(1 << 13))
     await panel.upload(0, words)
-    await panel.send(frames.pack_play, 0, count=0, period_ticks=SOUNDING)
+    await panel.send(frames.pack_play, Play(0, emissions=0, period_ticks=SOUNDING))
     await panel.until((panel.tick // window + 1) * window + 3)
     begun = len(panel.words)
     start = await panel.trigger() + FIRST_WORD_TICKS
@@ -580,17 +580,17 @@ async def a_limit_of_the_stages_shuts_the_outputs_within_its_clocks(dut, limit):
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def an_emission_longer_than_allowed_is_refused_before_it_begins(dut):
     panel, _ = await armed(dut, SHORT, EMISSION_TICKS=SOUNDING - 1)
-    assert await panel.result_of(frames.pack_play, 0) is Result.TOO_LONG
-    assert await panel.result_of(frames.pack_play, 0, length=SHORT - 1) is Result.OK
+    assert await panel.result_of(frames.pack_play, Play(0)) is Result.TOO_LONG
+    assert await panel.result_of(frames.pack_play, Play(0, length=SHORT - 1)) is Result.OK
     await panel.trigger()
     await panel.wait(SOUNDING + 20)
     assert len(panel.focus_ticks) == 1
-    assert await panel.result_of(frames.pack_play, 0, count=2, period_ticks=(SHORT - 1) * BIT_TICKS) is Result.TOO_LONG
-    short = {"length": SHORT - 1, "count": 2}
+    assert await panel.result_of(frames.pack_play, Play(0, emissions=2, period_ticks=(SHORT - 1) * BIT_TICKS)) is Result.TOO_LONG
+    short = {"length": SHORT - 1, "emissions": 2}
     sounding = (SHORT - 1) * BIT_TICKS
-    assert await panel.result_of(frames.pack_play, 0, **short, period_ticks=sounding + BIT_TICKS - 1) is Result.BAD_PERIOD
-    assert await panel.result_of(frames.pack_play, 0, **short, period_ticks=sounding) is Result.OK
-    assert await panel.result_of(frames.pack_play, 0, first=1, length=SHORT) is Result.BAD_RANGE
+    assert await panel.result_of(frames.pack_play, Play(0, **short, period_ticks=sounding + BIT_TICKS - 1)) is Result.BAD_PERIOD
+    assert await panel.result_of(frames.pack_play, Play(0, **short, period_ticks=sounding)) is Result.OK
+    assert await panel.result_of(frames.pack_play, Play(0, first=1, length=SHORT)) is Result.BAD_RANGE
     panel.check_against_model()
 
 
@@ -647,7 +647,7 @@ async def arms_only_with_the_right_key_and_permits_and_glides_both_ways(dut):
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def disarming_drops_what_plays_and_what_waits(dut):
     panel, _ = await armed(dut, SHORT)
-    await panel.send(frames.pack_play, 0, count=0, period_ticks=SOUNDING + 100)
+    await panel.send(frames.pack_play, Play(0, emissions=0, period_ticks=SOUNDING + 100))
     await panel.wait(20)
     await panel.trigger()
     await panel.play(0)
@@ -671,7 +671,7 @@ async def disarming_in_the_middle_of_a_word_makes_no_short_pulse(dut, bit_period
     await panel.upload(0, words)
     sounding, lengths = len(words) * bit_period >> 16, set()
     for offset in range(0, sounding + 2 * BIT_TICKS, 1 if WHOLE or bit_period != FINE else 3):
-        await panel.send(frames.pack_play, 0)
+        await panel.send(frames.pack_play, Play(0))
         control = cocotb.start_soon(panel.control(Control.DISARM))
         await panel.wait(FRAME_TICKS + JUDGED_TICKS - offset - 4)
         seen = len(panel.words)
@@ -723,16 +723,16 @@ async def gives_signs_of_life_at_10_khz_while_the_outputs_are_on_and_only_then(d
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def the_waiting_line_is_high_from_an_accepted_play_to_its_trigger(dut):
     panel, _ = await armed(dut, SHORT)
-    await panel.send(frames.pack_play, 0)
+    await panel.send(frames.pack_play, Play(0))
     accepted = panel.release_tick + JUDGED_TICKS
     await panel.wait(20)
     assert panel.waits == [(accepted + FETCH_TICKS + PAD_TICKS, 1)]
     tick = await panel.trigger()
     assert panel.waits[1:] == [(tick + 5 + PAD_TICKS, 0)]
-    await panel.send(frames.pack_play, 0)  # accepted after the emission has ended
-    await panel.send(frames.pack_play, SLOTS)  # refused
+    await panel.send(frames.pack_play, Play(0))  # accepted after the emission has ended
+    await panel.send(frames.pack_play, Play(SLOTS))  # refused
     await panel.trigger()
-    await panel.send(frames.pack_play, 0, start=Start.NOW)
+    await panel.send(frames.pack_play, Play(0, start=Start.NOW))
     await panel.status()
     assert [level for _, level in panel.waits] == [1, 0, 1, 0], "no trigger is asked for what starts by itself"
     await panel.play(0)
@@ -810,7 +810,7 @@ async def frames_over_the_uart_reach_the_same_core(dut):
     new = random_words(SHORT)
     await panel.exchange_by_uart(panel.packed(frames.pack_load, 0, memoryview(new.tobytes())))
     await panel.exchange_by_uart(panel.packed(frames.pack_store, 1, SHORT, zlib.crc32(new)))
-    await panel.exchange_by_uart(panel.packed(frames.pack_play, 1))
+    await panel.exchange_by_uart(panel.packed(frames.pack_play, Play(1)))
     assert (await panel.status()).result is Result.OK
     seen = len(panel.words)
     start = await panel.trigger() + FIRST_WORD_TICKS
@@ -841,7 +841,7 @@ async def frames_on_both_links_at_once_are_both_carried_out(dut):
     done = 0
     for number, (uart_begins, spi_begins) in enumerate(begins):
         seen = len(panel.words)
-        frame = panel.packed(frames.pack_play, 0, start=Start.NOW)
+        frame = panel.packed(frames.pack_play, Play(0, start=Start.NOW))
 
         wire = cobs.encode(uart_play(number + 1)) + b"\0"
 
@@ -870,7 +870,7 @@ async def frames_on_both_links_at_once_are_both_carried_out(dut):
 def uart_play(sequence):
     """A PLAY of the other polarity, as the UART numbers its frames."""
     frame = bytearray(FRAME_BYTES)
-    frames.pack_play(frame, 0, sequence, 0, start=Start.NOW, inverted=True)
+    frames.pack_play(frame, 0, sequence, Play(0, start=Start.NOW, inverted=True))
     return bytes(frame)
 
 
@@ -881,11 +881,11 @@ async def a_reset_in_the_middle_of_everything_leaves_nothing_behind(dut):
         await panel.arm()
         await panel.upload(0, random_words(SHORT))
         await panel.open_uart()
-        await panel.play(0, count=0, period_ticks=SOUNDING)
+        await panel.play(0, emissions=0, period_ticks=SOUNDING)
         for slot_start in (Start.NOW, Start.TRIGGER):
-            await panel.send(frames.pack_play, 0, start=slot_start)
+            await panel.send(frames.pack_play, Play(0, start=slot_start))
         await panel.trigger()
-        wire = cocotb.start_soon(panel.wire.send(cobs.encode(panel.packed(frames.pack_play, 0)) + b"\0"))
+        wire = cocotb.start_soon(panel.wire.send(cobs.encode(panel.packed(frames.pack_play, Play(0))) + b"\0"))
         frame = cocotb.start_soon(panel.exchange(panel.packed(frames.pack_store, 1, SHORT, 0)))
         await panel.wait(random.randrange(5, FRAME_TICKS - 60))
         assert dut.hv_enable_o.value == 1
@@ -919,7 +919,7 @@ async def a_reset_in_the_middle_of_everything_leaves_nothing_behind(dut):
 
 
 def scripts_of(frames_wanted):
-    """Seeds and random scripts, until they have so many frames together."""
+    """Seeds and random scripts, until they have this many frames together."""
     seed, done = 0, 0
     while done < frames_wanted:
         script = random_script(seed)

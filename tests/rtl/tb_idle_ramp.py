@@ -5,7 +5,7 @@ import random
 import cocotb
 from clocked import after_reset, clocks, reset
 
-from controller.gateware_model.pins import ramp_bits, turned_ramp_bits
+from controller.workshop.gateware.model.pins import ramp_bits, turned_ramp_bits
 
 
 async def bits_while(dut, signal, bit_ticks, most=10_000):

@@ -9,7 +9,7 @@ import random
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.registers import Fault
+from controller.device.fpga.registers import Fault
 
 HEARTBEAT_TICKS = 40
 ALIVE_HALF_TICKS = 7  # as test_rtl.py sets it

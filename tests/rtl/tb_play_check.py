@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import cocotb
 from clocked import after_reset, clocks, reset, settled
 
-from controller.fpga.registers import PLAY_LANDING, Result, Start
+from controller.device.fpga.registers import PLAY_LANDING, Result, Start
 
 REST_TICKS = 2  # argument, slot and word 0 rest before words 0 to 2 are there
 BEGIN_TO_ACCEPT = 29  # ticks from words 0 to 2 to the first in which the frame may be accepted: 28 between
 ASK_TICKS = REST_TICKS + BEGIN_TO_ACCEPT
-LEAD = 28  # a time is met if it is so many ticks, or more, behind the tick in which its frame is accepted
+LEAD = 28  # a time is met if it is this many ticks, or more, behind the tick in which its frame is accepted
 NAMES = [
     "argument", "first", "asked", "count", "start", "polarity", "period", "when", "bit_period", "emission_ticks",
     "slot_good", "slot_buffer", "slot_words", "slot_intact", "slot_checking", "landing", "arriving", "fast",
@@ -355,7 +355,7 @@ def random_play(tick, free_from):
 
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")
-async def random_plays_are_judged_as_the_reference_says(dut):
+async def random_plays_are_evaluated_as_the_reference_says(dut):
     bench = await Bench.ready(dut)
     seen = set()
     for _ in range(4_000):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.registers import QUEUE_PLAYS, Result, Start
+from controller.device.fpga.registers import QUEUE_PLAYS, Result, Start
 
 BEGINS = {"triggered": Start.TRIGGER, "scheduled": Start.TIME, "immediate": Start.NOW}  # flags of the head
 FETCH = 9  # ticks until the head is valid, after the push or the pop that made it the head

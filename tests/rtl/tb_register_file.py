@@ -5,8 +5,7 @@ import random
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.register_lines import signal
-from controller.fpga.registers import (
+from controller.device.fpga.registers import (
     BIT_CLOCK_HZ_MAX,
     BIT_CLOCK_HZ_MIN,
     BIT_TICKS_MIN,
@@ -23,6 +22,7 @@ from controller.fpga.registers import (
     Register,
     Result,
 )
+from controller.workshop.gateware.register_lines import signal
 
 ALL = 0xFFFFFFFF
 PULSES = {Control.ARM: "arm_o", Control.DISARM: "disarm_o", Control.CLEAR: "clear_o", Control.STOP: "stop_o"}

@@ -3,7 +3,7 @@
 import cocotb
 from clocked import after_reset, clocks, pulse
 
-from controller.fpga.registers import Fault
+from controller.device.fpga.registers import Fault
 
 BUILT_IN = {  # as benches.py has them
     "channel_mask": 0x0000FFFF,
@@ -40,7 +40,7 @@ def fault(dut):
 
 
 async def toggled(dut, channels, every, edges=1000):
-    """Edges of these channels, one every so many clocks, that it took to a fault; None if so many took it to none."""
+    """Edges of these channels, one every this many clocks, that it took to a fault; None if this many took it to none."""
     for edge in range(1, edges + 1):
         dut.drive_i.value = channels * (edge % 2)
         await clocks(dut, every)

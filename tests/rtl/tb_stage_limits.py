@@ -64,7 +64,7 @@ async def a_pulse_may_be_as_short_as_the_limit_and_no_shorter(dut):
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
-async def a_chain_of_close_changes_is_judged_strictly_until_the_pins_rest(dut):
+async def a_chain_of_close_changes_is_evaluated_strictly_until_the_pins_rest(dut):
     chain = {10: 0x1, 16: 0x3, 22: 0x2}  # the pulse on channel 0 is 12 ticks long
     assert causes(await follow(dut, pins(chain, 60), pulse_ticks=6)) == {}
     assert causes(await follow(dut, pins(chain, 60), pulse_ticks=7)) == {24: SHORT_PULSE}

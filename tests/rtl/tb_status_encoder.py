@@ -1,13 +1,13 @@
-"""status_encoder: the answer that controller.fpga.frames reads, as of the beginning of a frame."""
+"""status_encoder: the answer that controller.device.fpga.frames reads, as of the beginning of a frame."""
 
 import random
 
 import cocotb
 from clocked import after_reset, clocks, pulse, reset
 
-from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES
-from controller.fpga.registers import Fault, Result, State
-from controller.fpga.status import Status, pack_status
+from controller.device.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES
+from controller.device.fpga.registers import Fault, Result, State
+from controller.device.fpga.status import Status, pack_status
 
 NAMES = (
     "result_i",

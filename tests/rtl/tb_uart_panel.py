@@ -11,12 +11,13 @@ from cocotb.task import bridge, resume
 from cocotb.triggers import RisingEdge, Timer
 from uart import Wire
 
+from controller.device.fpga import frames
+from controller.device.fpga.frames import FRAME_BYTES
+from controller.device.fpga.links import serial_link
+from controller.device.fpga.registers import Result, State
+from controller.device.fpga.status import parse_status
+from controller.device.kernel import load_frames_bytes, pack_loads
 from controller.errors import LinkError
-from controller.fpga import frames, serial_link
-from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import Result, State
-from controller.fpga.status import parse_status
-from controller.kernel import load_frames_bytes, pack_loads
 
 WORDS = np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32)
 WORDS[100:140] = 0

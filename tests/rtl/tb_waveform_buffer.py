@@ -9,13 +9,13 @@ import zlib
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.registers import CHUNK_WORDS, CHUNKS, READ_MEMORY, READ_SLOT_CRC, WAVEFORM_WORDS, Result
+from controller.device.fpga.registers import CHUNK_WORDS, CHUNKS, READ_MEMORY, READ_SLOT_CRC, WAVEFORM_WORDS, Result
 
 CHECK_TICKS = 5  # and one for each word, from a STORE until its slot's CRC is known
 LOOK_TICKS = 16  # a STORE and the chunks before it are there at least so long before it is accepted
 NAME_TICKS = 1  # from an argument, or a STORE, to what is said of the slot that it names
 ADDRESS_TICKS = 5  # from an argument to the word of memory that it names
-SETTLE_TICKS = 4  # a READ of memory needs so many in which nobody else has the buffer
+SETTLE_TICKS = 4  # a READ of memory needs this many in which nobody else has the buffer
 READ_TICKS = 2  # from the tick in which the player asks for a word to the first in which it has it; it asks no sooner for another
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.registers import Start
+from controller.device.fpga.registers import Start
 
 IDLE = 0xAAAA5555
 ALL = 0xFFFFFFFF
@@ -637,7 +637,7 @@ async def a_reset_in_the_middle_forgets_everything(dut):
         assert set(bench.drive[1:]) == {IDLE}
         await bench.put(start=Start.TIME, when=60)
         await bench.step(40)
-        assert bench.starts == [60 - PINS], "time begins anew"
+        assert bench.starts == [60 - PINS], "time starts again"
     bench = await Bench.ready(dut)
     await bench.put(start=Start.NOW)
     await bench.step(2)

@@ -13,11 +13,12 @@ from pathlib import Path
 
 import pytest
 import safety_mutants
+from tables import each_row
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.fpga.build_parameters import BuildParameters
-from controller.simulation.rtl_build import verilator_root
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.workshop.gateware.rtl_build import verilator_root
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
 WAIVERS = RTL / "lint_waivers.vlt"
@@ -85,7 +86,7 @@ def broken(tmp_path):
     return write
 
 
-@pytest.mark.parametrize("module", MODULES)
+@each_row("module", MODULES)
 def test_verilator_warns_of_nothing(module):
     assert verilator(module, RTL / f"{module}.v") == (0, "")
 
@@ -124,7 +125,7 @@ def test_other_defaults_are_the_simulated_boards():
         assert int(default.replace("_", "")) == value, (module, name)
 
 
-@pytest.mark.parametrize("without", [name for name in BUILT_IN if name not in ("BUILD_HASH", "BOARD")])
+@each_row("without", [name for name in BUILT_IN if name not in ("BUILD_HASH", "BOARD")])
 def test_the_core_is_not_built_without_one_of_its_parameters(without):
     given = {name: value for name, value in BUILT_IN.items() if name != without}
     code, text = verilator(TOP, RTL / f"{TOP}.v", parameters=given)
@@ -178,7 +179,7 @@ BOARDS = RTL.parent / "boards"
 TESTS = Path(__file__).parent.parent
 
 
-@pytest.mark.parametrize(
+@each_row(
     "sources",
     [
         sorted(RTL.glob("*.v")),
@@ -214,7 +215,7 @@ ROWS = safety_mutants.rows()
 WITHOUT_MUTANT = ["bitstream of another panel"]  # what the host compares, in Python
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[hazard for hazard, *_ in ROWS])
+@each_row("row", ROWS, ids=[hazard for hazard, *_ in ROWS])
 def test_what_the_safety_table_names_exists(row):
     hazard, _, proofs, tests, mutants = row
     named = safety_mutants.tests_named(tests)
@@ -228,7 +229,7 @@ def test_what_the_safety_table_names_exists(row):
     assert proofs == "–" or proof
     if hazard in WITHOUT_MUTANT:
         assert mutants == "–"
-        assert re.search(r"tests/\w+/test_\w+\.py", tests)
+        assert re.search(r"tests/[\w/]+/test_\w+\.py", tests)
         return
     for mutant in mutants.split("; "):
         change = safety_mutants.MUTANTS[mutant]

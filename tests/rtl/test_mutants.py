@@ -7,7 +7,7 @@ import mutants
 import pytest
 from verilog_mutants import OPERATORS, find, sample, schema
 
-from controller.simulation.rtl_build import verilator_root
+from controller.workshop.gateware.rtl_build import verilator_root
 
 MODULE = """`default_nettype none
 module little #(parameter LIMIT = 3) (input wire clk_i, input wire rst_i, input wire [1:0] a_i, output wire b_o);

@@ -10,8 +10,9 @@ import pytest
 from benches import BENCHES, RUNS, SLOW_RUNS, make_variables
 from verilog_coverage import MODULES, line_counts, load_waivers, read, readable, table, together, too_little, uncovered, waive
 
-from controller.bank.grid import Grid
-from controller.bank_builder.build import build_bank
+from controller.device.bank.grid import Grid
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
 
 PITCH_M = 5e-3
 
@@ -22,7 +23,7 @@ def one_entry_bank(board, tmp_path_factory):
     cells = np.zeros(Grid.of(board.plate, PITCH_M).cells, bool)
     cells[len(cells) // 3] = True
     path = tmp_path_factory.mktemp("bank") / "one.bank"
-    build_bank(board, path, PITCH_M, cells, measure_sgemm=False)
+    build_bank(BankRequest(board, path, PITCH_M, cells))
     return path
 
 
@@ -57,11 +58,11 @@ def all_benches(simulator, verilog_coverage):
     if simulator != "verilator":
         pytest.skip("coverage is Verilator's")
     if set(verilog_coverage) != set(BENCHES):
-        pytest.skip(f"coverage is judged after all {len(BENCHES)} benches, not {len(verilog_coverage)}")
+        pytest.skip(f"coverage is evaluated after all {len(BENCHES)} benches, not {len(verilog_coverage)}")
     return verilog_coverage
 
 
-def judged(benches):
+def evaluated(benches):
     """Rows of the table, modules with too little, lines without cover and bad waivers of these benches."""
     hits = together(benches.values())
     counts, wrong = waive(line_counts(hits), load_waivers())
@@ -70,7 +71,7 @@ def judged(benches):
 
 
 def test_the_benches_perform_the_lines_of_every_module(all_benches):
-    rows, modules, lines, wrong = judged(all_benches)
+    rows, modules, lines, wrong = evaluated(all_benches)
     assert not modules, "\n".join([*readable(rows), *lines])
     assert not wrong
 
@@ -78,7 +79,7 @@ def test_the_benches_perform_the_lines_of_every_module(all_benches):
 def test_a_bench_left_out_is_missed(all_benches):
     """The core's bench performs nearly everything; without it each module has its own."""
     modules = {module: bench for module, bench in all_benches.items() if module != "haptic_core"}
-    assert "haptic_core" in judged(modules)[1]
+    assert "haptic_core" in evaluated(modules)[1]
     for module in ("spi_peripheral", "output_gate"):
-        assert module not in judged(modules)[1]
-        assert module in judged({name: bench for name, bench in modules.items() if name != module})[1]
+        assert module not in evaluated(modules)[1]
+        assert module in evaluated({name: bench for name, bench in modules.items() if name != module})[1]

@@ -2,7 +2,7 @@
 
 import msgspec
 
-from controller.benchmark.focus_emission import emission_at, judged_foci
+from controller.workshop.benchmark.focus.focus_emission import emission_at, evaluated_foci
 
 
 def changed(board, **tables):
@@ -27,4 +27,4 @@ def scaled(board, larger, thickness_mm):
 def focus_on(board, points_m, memory_mb=None):
     """The field at T of an emission that focuses on points, and the figures of each focus."""
     emission = emission_at(board, points_m, memory_mb)
-    return emission.field, judged_foci(emission, board.waveform.duration_s)
+    return emission.field, evaluated_foci(emission, board.waveform.duration_s)

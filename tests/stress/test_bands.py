@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from stress.boards import changed, focus_on
 
-from controller.bank.packing import channel_bits
-from controller.bank.reader import Bank
-from controller.bank_builder.build import build_bank
-from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import mode_cut_hz
-from controller.physics.plate_twin import PlateTwin
+from controller.device.bank.packing import channel_bits
+from controller.device.bank.reader import Bank
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.physics.plate import mode_cut_hz
+from controller.workshop.physics.plate_twin import PlateTwin
+from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 
 def with_band(board, low_hz, high_hz, bit_clock_hz, **plate):
@@ -39,11 +40,11 @@ def test_bank_focus_and_twin_have_the_modes_of_the_band(board, tmp_path, band):
     model, twin = ResponseModel(panel), PlateTwin(panel)
     assert band[1] * 1.2 < model.plate_modes.angular_frequency[-1] / (2 * np.pi) <= cut_hz
     assert np.array_equal(model.plate_modes.angular_frequency, twin.modes.angular_frequency)
-    build_bank(panel, tmp_path / "bank", 70e-3, measure_sgemm=False)
+    build_bank(BankRequest(panel, tmp_path / "bank", 70e-3))
     with Bank.open(tmp_path / "bank", panel) as bank:
         assert bank.header.parameters["highest_hz"] == cut_hz
         place = bank.grid.place(0)
-        played = channel_bits(np.frombuffer(bank.words(0), "<u4"))
+        played = channel_bits(np.frombuffer(bank.drive.words(0), "<u4"))
     more = ResponseModel(panel, 1.5 * cut_hz)
     in_band, whole = (some[0] for some in (more.drive_order_responses([place], dtype=np.float64), more.responses([place])[:, ::-1]))
     assert np.vdot(2.0 * played - 1, in_band) > 0.99 * np.abs(in_band).sum(), (

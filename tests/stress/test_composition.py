@@ -8,15 +8,15 @@ import math
 
 import numpy as np
 import pytest
-from controller_kernel.test_compose import PITCH_M, buffers, compiled, needs_compiled, outcome
+from device.kernel.test_compose import PITCH_M, buffers, compiled, needs_compiled, outcome
 
-from controller.bank.grid import Grid
-from controller.bank.packing import CHANNELS, channel_bits, drive_words, quantise
-from controller.bank.reader import Bank
-from controller.kernel import words_twin
-from controller.physics.focusing import balanced_weights, focus
-from controller.waveforms.composition import MAX_FOCI, Composer
-from controller.waveforms.selection import Selection
+from controller.device.bank.grid import Grid
+from controller.device.bank.packing import CHANNELS, channel_bits, drive_words, quantise
+from controller.device.bank.reader import Bank
+from controller.device.kernel import words_twin
+from controller.device.waveforms.composition import MAX_FOCI, Composer
+from controller.device.waveforms.selection import Selection
+from controller.workshop.physics.focusing import balanced_weights, focus
 
 SHORT, LONG = 60, 6000
 IDLE_WORD = 0x69969669
@@ -127,7 +127,7 @@ def test_a_sum_of_zero_plays_the_idle_bit_on_every_path(tmp_path, make_bank):
     assert np.array_equal(bits_of(focus(np.stack([coarse, -coarse]), [1.0, 1.0], IDLE_WORD).tobytes()), idle), "they cancel"
     make_bank(tmp_path / "bank", Grid(5e-3, 1, 1, X0_M, Y0_M), [True], 40, responses={0: levels * 1e-9})
     with Bank.open(tmp_path / "bank") as bank:
-        assert np.array_equal(bits_of(bank.words(0)), expected)
+        assert np.array_equal(bits_of(bank.drive.words(0)), expected)
         composer = Composer(bank, IDLE_WORD)
         for points in ([(X0_M, Y0_M, 1.0)], [(X0_M, Y0_M, 1.0)] * 2, [(X0_M, Y0_M, 1.0)] * 10):
             assert np.array_equal(bits_of(composer.compose(points)), expected)

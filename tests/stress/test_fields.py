@@ -3,18 +3,19 @@
 import numpy as np
 import pytest
 from stress.boards import changed, focus_on, scaled
+from tables import each_row
 
-from controller.board.bending_waves import bending_wavelength_m
-from controller.fpga.capture import Capture
-from controller.physics.field import AROUND_S, CREST_M, LINE_M, MAP_STEP_M, OUTSIDE_M, FocusScale
-from controller.physics.plate_twin import PlateTwin, capture_of_words
+from controller.device.board.relations.bending_waves import bending_wavelength_m
+from controller.device.fpga.capture import Capture
+from controller.workshop.physics.field import AROUND_S, CREST_M, LINE_M, MAP_STEP_M, OUTSIDE_M, FocusScale
+from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
 
 POINT = (0.08, 0.06)
 FEW_HZ = 12e3  # some 220 modes: arithmetic is the same for all
 
 
-@pytest.mark.parametrize("inductance_h", [1e-9, 1e-7, 1e-5, 6.8e-3, 1.0])
-@pytest.mark.parametrize("resistance_ohm", [1.0, 2000.0])
+@each_row("inductance_h", [1e-9, 1e-7, 1e-5, 6.8e-3, 1.0])
+@each_row("resistance_ohm", [1.0, 2000.0])
 def test_the_time_around_a_focus_is_that_of_foci_then_whatever_the_coil(board, inductance_h, resistance_ohm):
     """A driver that forgets within nanoseconds was stepped back through the 5 us before T: 1e103 m for 10 uH."""
     panel = changed(board, driver={"inductance_h": inductance_h, "resistance_ohm": resistance_ohm})

@@ -6,23 +6,24 @@ import numpy as np
 import pytest
 from stress.boards import changed
 
-from controller.bank.grid import Grid
-from controller.bank.inspection import bank_info, verify_bank
-from controller.bank.reader import Bank
-from controller.bank_builder.build import build_bank
-from controller.bank_builder.optimised import Workers
-from controller.waveform_design.descent import AIMS
-from controller.waveforms.composition import Composer
+from controller.device.bank.grid import Grid
+from controller.device.bank.inspection import bank_info, verify_bank
+from controller.device.bank.reader import Bank
+from controller.device.waveforms.composition import Composer
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.optimised import Workers
+from controller.workshop.bank_builder.request import BankRequest
 
 THICK = {"thickness_mm": 5.0}
 
 
 def test_a_bank_of_one_cell_plays_and_composes_everywhere(board, tmp_path):
     thick = changed(board, plate=THICK)
-    build_bank(thick, tmp_path / "bank", 74e-3, measure_sgemm=False)
+    build_bank(BankRequest(thick, tmp_path / "bank", 74e-3))
     with Bank.open(tmp_path / "bank", thick) as bank:
         assert (bank.grid.nx, bank.grid.ny, bank.cells.tolist()) == (1, 1, [True])
-        entry = bytes(bank.words(0))
+        entry = bytes(bank.drive.words(0))
         composer = Composer(bank, thick.idle_word)
         for place in (bank.grid.place(0), (0.0, 0.0), (0.21, 0.148), (-1e9, 1e9)):
             composed = np.frombuffer(composer.compose([(*place, 1.0)]).tobytes(), np.uint8)
@@ -47,7 +48,7 @@ def test_a_grid_of_a_million_cells_of_which_few_are_built(board, tmp_path):
     chosen = np.zeros(grid.cells, bool)
     built = [0, grid.nx - 1, grid.cells // 2, grid.cells - grid.nx, grid.cells - 1]
     chosen[built] = True
-    report = build_bank(floor, tmp_path / "bank", pitch_m, chosen, measure_sgemm=False, highest_hz=12e3)
+    report = build_bank(BankRequest(floor, tmp_path / "bank", pitch_m, chosen, highest_hz=12e3))
     assert report.cells == len(built)
     assert (tmp_path / "bank").stat().st_size < 6e6, "an index of 4 bytes a cell, and the entries"
     verify_bank(tmp_path / "bank")
@@ -56,7 +57,7 @@ def test_a_grid_of_a_million_cells_of_which_few_are_built(board, tmp_path):
         for cell in built:
             x_m, y_m = bank.grid.place(cell)
             assert bank.grid.nearest(x_m, y_m)[0] == cell
-            assert len(bank.words(cell)) == 4 * floor.waveform.samples
+            assert len(bank.drive.words(cell)) == 4 * floor.waveform.samples
             Composer(bank, floor.idle_word).compose([(x_m, y_m, 1.0)])
 
 
@@ -84,12 +85,12 @@ def test_the_header_tells_inputs_and_content_and_both_change_with_what_they_are_
         ("pitch", thick, 69e-3),
         ("plate", changed(thick, plate={"young_modulus_pa": thick.plate.young_modulus_pa * 1.0001}), 70e-3),
     ):
-        build_bank(some, tmp_path / name, pitch_m, measure_sgemm=False)
+        build_bank(BankRequest(some, tmp_path / name, pitch_m))
     assert (tmp_path / "one").read_bytes() == (tmp_path / "again").read_bytes()
-    told = {name: of_inputs(tmp_path / name) for name in ("one", "again", "pitch", "plate")}
-    assert told["one"] == told["again"]
-    assert all(len(hashed) == 64 and int(hashed, 16) for pair in told.values() for hashed in pair)
-    assert len({inputs for inputs, _ in told.values()}) == len({content for _, content in told.values()}) == 3
+    reported = {name: of_inputs(tmp_path / name) for name in ("one", "again", "pitch", "plate")}
+    assert reported["one"] == reported["again"]
+    assert all(len(hashed) == 64 and int(hashed, 16) for pair in reported.values() for hashed in pair)
+    assert len({inputs for inputs, _ in reported.values()}) == len({content for _, content in reported.values()}) == 3
 
 
 @pytest.mark.stress
@@ -98,10 +99,8 @@ def test_optimised_banks_have_the_same_bytes_for_one_worker_and_for_two(board, t
     cells = np.zeros(Grid.of(thick.plate, 35e-3).cells, bool)
     cells[[0, 3, 7, 8, 11]] = True
     for processes in (1, 2):
-        build_bank(
-            thick, tmp_path / str(processes), 35e-3, cells, measure_sgemm=False, aim=AIMS["contrast"], workers=Workers(processes)
-        )
+        build_bank(BankRequest(thick, tmp_path / str(processes), 35e-3, cells, aim=AIMS["contrast"], workers=Workers(processes)))
     one, two = ((tmp_path / name).read_bytes() for name in ("1", "2"))
     assert hashlib.sha256(one).digest() == hashlib.sha256(two).digest()
-    build_bank(thick, tmp_path / "plain", 35e-3, cells, measure_sgemm=False)
+    build_bank(BankRequest(thick, tmp_path / "plain", 35e-3, cells))
     assert (tmp_path / "plain").read_bytes() != one

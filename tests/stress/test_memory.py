@@ -8,30 +8,32 @@ import numpy as np
 import pytest
 from stress.boards import changed, focus_on
 
-from controller.bank_builder.build import build_bank
 from controller.errors import ConfigError
-from controller.physics import audible
-from controller.physics.audible import surface_spectrum
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.physics import audible
+from controller.workshop.physics.audible import surface_spectrum
 
 RUN = """
 import json, sys
 from pathlib import Path
 from stress.boards import changed, focus_on
-from controller.bank_builder.build import build_bank, peak_memory_mb
-from controller.board.board import load_board
-from controller.board.lookup import find_board
+from controller.workshop.bank_builder.build import build_bank, peak_memory_mb
+from controller.workshop.bank_builder.request import BankRequest
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
 plate, what, allowed_mb, file = json.loads(sys.argv[1])
 board = changed(load_board(find_board("simulated")), plate=plate)
 if what == "bank":
-    modes = build_bank(board, Path(file), 15e-3, measure_sgemm=False, memory_mb=allowed_mb).modes
+    modes = build_bank(BankRequest(board, Path(file), 15e-3, memory_mb=allowed_mb)).modes
 else:
     modes = focus_on(board, [(0.08, 0.06), (0.1, 0.09)], allowed_mb)[0].modes.count
 print(json.dumps([peak_memory_mb(), modes]))
 """
 
 
-def peak_mb(tests_folder, *told):
-    done = subprocess.run([sys.executable, "-c", RUN, json.dumps(told)], capture_output=True, check=True, cwd=tests_folder)
+def peak_mb(tests_folder, *reported):
+    done = subprocess.run([sys.executable, "-c", RUN, json.dumps(reported)], capture_output=True, check=True, cwd=tests_folder)
     return json.loads(done.stdout)
 
 
@@ -58,7 +60,7 @@ def test_what_cannot_fit_is_refused_with_what_it_needs_and_nothing_is_left(board
     with pytest.raises(
         ConfigError, match=r"a bank of 'simulated' with 19\d\d\d modes .* takes \d+ MB, .* give --memory-mb \d+ or more"
     ):
-        build_bank(thin, tmp_path / "bank", 10e-3, measure_sgemm=False, memory_mb=memory_mb)
+        build_bank(BankRequest(thin, tmp_path / "bank", 10e-3, memory_mb=memory_mb))
     with pytest.raises(ConfigError, match=r"a focus on 'simulated' with 19\d\d\d modes takes \d+ MB"):
         focus_on(thin, [(0.08, 0.06)], memory_mb)
     assert not list(tmp_path.iterdir())
@@ -67,10 +69,10 @@ def test_what_cannot_fit_is_refused_with_what_it_needs_and_nothing_is_left(board
 def test_the_bank_is_the_same_whatever_memory_it_was_built_in(board, tmp_path):
     few = changed(board, plate={"thickness_mm": 5.0})
     for name, memory_mb in (("roomy", None), ("narrow", 214)):
-        build_bank(few, tmp_path / name, 10e-3, measure_sgemm=False, memory_mb=memory_mb)
+        build_bank(BankRequest(few, tmp_path / name, 10e-3, memory_mb=memory_mb))
     assert (tmp_path / "roomy").read_bytes() == (tmp_path / "narrow").read_bytes()
     with pytest.raises(ConfigError, match="give --memory-mb"):
-        build_bank(few, tmp_path / "narrow", 10e-3, measure_sgemm=False, memory_mb=205)
+        build_bank(BankRequest(few, tmp_path / "narrow", 10e-3, memory_mb=205))
 
 
 def test_sound_is_the_same_whatever_number_of_frequencies_is_transformed_at_once(board, monkeypatch):

@@ -6,12 +6,19 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from stress.boards import changed
+from tables import each_row
 
-from controller.physics import modal_response
-from controller.physics.closed_form import SimplySupported
-from controller.physics.driver import DriverResponse
-from controller.physics.modal_response import band_gain, band_limited_response, edge_width_hz, modes_at_once, pulse_response
-from controller.physics.step_response import StepResponse
+from controller.workshop.physics.modes.closed_form import SimplySupported
+from controller.workshop.physics.responses import modal_response
+from controller.workshop.physics.responses.driver import DriverResponse
+from controller.workshop.physics.responses.modal_response import (
+    band_gain,
+    band_limited_response,
+    edge_width_hz,
+    modes_at_once,
+    pulse_response,
+)
+from controller.workshop.physics.responses.step_response import StepResponse
 
 BAND_HZ = (20e3, 70e3)
 BIT_S = 2e-6
@@ -54,7 +61,7 @@ def test_split_at_the_poles_a_response_is_what_a_long_transform_gives(board, mon
     assert np.abs(off - whole).max() > 20 * tolerance * largest or driver, "one per cent of damping would be seen"
 
 
-@pytest.mark.parametrize("decay_time_s", [0.1e-3, 1e-3, 10e-3, 0.1, 1.0, 10.0, np.inf])
+@each_row("decay_time_s", [0.1e-3, 1e-3, 10e-3, 0.1, 1.0, 10.0, np.inf])
 def test_any_damping_down_to_none_has_finite_responses_next_to_those_of_its_neighbour(board, decay_time_s):
     """Rings of 10 s would need a transform of 70 million samples for each mode."""
     some = slice(200, 1700, 50)
@@ -90,7 +97,7 @@ def test_blocks_of_modes_change_rounding_only(board, decay_time_s):
     assert np.abs(np.concatenate(pulses) - whole).max() <= 1e-14 * np.abs(whole).max()
 
 
-@pytest.mark.parametrize("band_hz", [(20e3, 70e3), (1e3, 5e3), (1e3, 1.2e3), (105e3, 125e3), (200e3, 400e3)])
+@each_row("band_hz", [(20e3, 70e3), (1e3, 5e3), (1e3, 1.2e3), (105e3, 125e3), (200e3, 400e3)])
 def test_the_filter_passes_its_band_by_half_at_the_edges_and_nothing_at_rest(band_hz):
     low, high = band_hz
     gain = band_gain(np.array([0.0, low * 0.8, low, (low + high) / 2, high, high + edge_width_hz(band_hz) / 2]), band_hz)

@@ -4,12 +4,12 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.bank.reader import Bank
-from controller.fpga.registers import Register
-from controller.gateware_model.model import GatewareModel
-from controller.scene.scene import load_scene
-from controller.simulation.simulated_run import play
-from controller.touch.recording import Recording
+from controller.device.bank.reader import Bank
+from controller.device.fpga.registers import Register
+from controller.device.scene.scene import load_scene
+from controller.device.touch.recordings.recording import Recording
+from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.simulation.simulated_run import Hardware, play
 
 DAY_S = 86_400.0
 WRAPS = {
@@ -22,9 +22,9 @@ SCENE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
 PLACES = [(50.0, 50.0), (105.0, 74.0), (160.0, 100.0)]
 
 
-def worn(*told, **named):
+def worn(*reported, **named):
     """A gateware that has counted nearly as far as it can."""
-    model = GatewareModel(*told, **named)
+    model = GatewareModel(*reported, **named)
     telemetry = model._core._telemetry
     for register, wrap in WRAPS.items():
         telemetry.counts[register] = wrap - 3
@@ -51,7 +51,12 @@ def run(board, bank_file, tmp_path, reports, evemu_text, gateware=worn, **keys):
     (tmp_path / "scene.toml").write_text(SCENE)
     with Bank.open(bank_file, on) as bank:
         return play(
-            on, load_scene(tmp_path / "scene.toml", on), bank, Recording(evemu_text(*reports)), real_time=False, gateware=gateware
+            on,
+            load_scene(tmp_path / "scene.toml", on),
+            bank,
+            Recording(evemu_text(*reports)),
+            real_time=False,
+            hardware=Hardware(gateware),
         )
 
 

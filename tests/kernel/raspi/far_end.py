@@ -16,14 +16,14 @@ from statistics import median
 
 import numpy as np
 
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.status import pack_status
-from controller.gateware_model.gateware import Permit
-from controller.gateware_model.model import INPUT_TICKS, GatewareModel
-from controller.gateware_model.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
-from controller.service.drivers import gateware_hash
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.status import pack_status
+from controller.device.service.drivers import gateware_hash
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.model import INPUT_TICKS, GatewareModel
+from controller.workshop.gateware.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
 
 HEADER = struct.Struct("<cBBBIQ")  # kind, line, level, 0, bytes, virtual time in ns
 STATUS_BYTES = 36
@@ -58,7 +58,7 @@ class Gateware:
         board = load_board(find_board(name))
         self._clock_hz = board.link.clock_hz
         self._model = GatewareModel(BuildParameters.of(board, gateware_hash()))
-        self._model.permit(0, True, Permit.TEMPERATURE)
+        self._model.permit(0, level=True, which=Permit.TEMPERATURE)
         self._start_ns = None
         self._free_tick = START_TICK
         self._select_tick = 0
@@ -96,7 +96,7 @@ class Gateware:
             self._model.trigger(tick + TRIGGER_PERIOD_TICKS)
             self._free_tick = tick + 2 * TRIGGER_PERIOD_TICKS
         elif number == PERMIT:
-            self._model.permit(self._tick(at_ns), bool(level), Permit.RUN)
+            self._model.permit(self._tick(at_ns), level=bool(level), which=Permit.RUN)
 
     def _note(self):
         """Sample the channel pins of each emission that has ended, bit by bit."""

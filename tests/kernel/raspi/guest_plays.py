@@ -7,18 +7,20 @@ import sys
 import time
 from pathlib import Path
 
-from controller.bank.reader import Bank
-from controller.board.board import load_board
-from controller.board.lookup import find_board
 from controller.clocks import MonotonicClock
-from controller.fpga.spi_link import SpiLink
-from controller.loop.wiring import assemble
+from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.fpga.frames import Play
+from controller.device.fpga.links.spi_link import SpiLink
+from controller.device.loop.context import LoopContext, Watch
+from controller.device.loop.wiring import assemble
+from controller.device.scene.scene import load_scene
+from controller.device.service.drivers import open_session, tracked
+from controller.device.touch.live_source import LiveSource
+from controller.device.waveforms.selection import Selection
 from controller.metrics import STAGES
-from controller.scene.scene import load_scene
-from controller.service.drivers import open_session, tracked
-from controller.touch.live_source import LiveSource
-from controller.waveforms.selection import Selection
-from tests.benchmark.looped_panel import LoopedPanel
+from tests.workshop.benchmark.looped_panel import LoopedPanel
 
 FORM = sys.argv[1]
 TESTS = Path(__file__).parent / "tests"
@@ -37,11 +39,11 @@ def play_entries(board, session, bank):
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     played, begun = [], session.heartbeat().emissions
     for slot, cell in enumerate(UPLOADED):
-        session.upload_and_play(slot, selection.waveform(cell), 1, 0.0, stop=False)
+        session.upload_and_play(Play(slot), selection.waveform(cell), stop=False)
         played.append(cell)
         finish(session, begun + len(played))
     for slot in RESIDENT:
-        session.play(slot, 1, 0.0, stop=False)
+        session.play(Play(slot), stop=False)
         played.append(UPLOADED[slot])
         finish(session, begun + len(played))
     ramped_s = session.disarm()
@@ -68,11 +70,13 @@ def play_loop(board, clock, session, bank):
             panel.stopped = True
 
     source = tracked(LiveSource(panel, board), board)
-    assembly = assemble(board, load_scene(TESTS / "benchmark/scene.toml", board), bank, clock, session, source, progress=progress)
+    assembly = assemble(
+        LoopContext(board, clock, session, source), load_scene(TESTS / "benchmark/scene.toml", board), bank, watch=Watch(progress)
+    )
     counters = assembly.counters
     assembly.selection.prepare()
     for cell in bank.cells.nonzero()[0].tolist():  # as the service has it done beside the loop
-        bank.verify_response(cell)
+        bank.responses.verify(cell)
     began_s = clock.now_s()
     last_s = began_s + AT_MOST_S
     armed = []

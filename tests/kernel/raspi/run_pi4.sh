@@ -26,10 +26,11 @@ export PYTHONPATH=$checkout PYTHONDONTWRITEBYTECODE=1 OPENBLAS_NUM_THREADS=1
 "$python" - "$out/panel.bank" <<'P'
 import sys
 from pathlib import Path
-from controller.bank_builder.build import build_bank
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-build_bank(load_board(find_board("ulx3s")), Path(sys.argv[1]), 10e-3, measure_sgemm=False)
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+build_bank(BankRequest(load_board(find_board("ulx3s")), Path(sys.argv[1]), 10e-3))
 P
 wheel_of() { # FORM VARIABLES...: the wheel for aarch64, unpacked as a form of the package
   local form=$1
@@ -43,14 +44,14 @@ wheel_of() { # FORM VARIABLES...: the wheel for aarch64, unpacked as a form of t
   find "$root/$form" -name '*-x86_64-linux-gnu.so' | while read -r module; do mv "$module" "${module/x86_64/aarch64}"; done # named for this Python
 }
 root=$run/tree/root
-mkdir -p "$root"/{numpy,tests/benchmark,tests/touch}
+mkdir -p "$root"/{numpy,tests/workshop/benchmark,tests/device/touch}
 (cd "$checkout" && tar c --exclude=__pycache__ --exclude='*.so' controller boards fpga_rtl pyproject.toml) | tar x -C "$root/numpy"
 mkdir "$root/numpy/haptic_panel-0.dist-info"
 printf 'Metadata-Version: 2.1\nName: haptic-panel\nVersion: 0\n' >"$root/numpy/haptic_panel-0.dist-info/METADATA"
 wheel_of kernel
 wheel_of mypyc HAPTIC_PANEL_MYPYC=1 CFLAGS="-I$machine/include" # Python's headers for aarch64: only the kernel does without
-cp "$checkout"/tests/benchmark/{looped_panel.py,scene.toml} "$root/tests/benchmark/"
-cp -r "$checkout/tests/touch/recordings" "$root/tests/touch/"
+cp "$checkout"/tests/workshop/benchmark/{looped_panel.py,scene.toml} "$root/tests/workshop/benchmark/"
+cp -r "$checkout/tests/device/touch/recordings" "$root/tests/device/touch/"
 cp "$here/guest_plays.py" "$out/panel.bank" "$root/"
 install -m 755 "$here/guest_init" "$run/tree/init"
 (cd "$run/tree" && python3 -m compileall -q -j 0 --invalidation-mode unchecked-hash root || true) # in the machine that takes minutes

@@ -9,12 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from controller import kernel
-from controller.bank.reader import Bank
-from controller.bank_builder.build import build_bank
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.waveforms.selection import Selection
+from controller.device import kernel
+from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.waveforms.selection import Selection
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
 
 PITCH_M = 20e-3
 POINTS = 40
@@ -23,7 +24,7 @@ POINTS = 40
 def main(folder):
     board = load_board(find_board("ulx3s"))
     path = Path(folder) / "panel.bank"
-    build_bank(board, path, PITCH_M, measure_sgemm=False)
+    build_bank(BankRequest(board, path, PITCH_M))
     print("bank", hashlib.sha256(path.read_bytes()).hexdigest())
     words = hashlib.sha256()
     random = np.random.default_rng(11)
@@ -35,7 +36,7 @@ def main(folder):
             amplitudes = random.uniform(0.25, 1.0, fingers) if number % 2 else np.ones(fingers)
             points = [(float(x), float(y), float(a)) for x, y, a in zip(x_m, y_m, amplitudes, strict=True)]
             key = selection.key(points)
-            words.update(bank.words(key) if isinstance(key, int) else selection.waveform(key))
+            words.update(bank.drive.words(key) if isinstance(key, int) else selection.waveform(key))
     print("words", words.hexdigest())
     print("kernel", "compiled" if kernel.COMPILED else "numpy", file=sys.stderr)
 

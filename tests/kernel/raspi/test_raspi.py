@@ -16,10 +16,10 @@ from pathlib import Path
 
 import pytest
 
-from controller.bank.reader import Bank
-from controller.board.board import load_board
-from controller.board.lookup import find_board
-from controller.fpga.bring_up import CHIRP_REPETITIONS
+from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.doctor.bring_up import CHIRP_REPETITIONS
 
 HERE = Path(__file__).parent
 NS_PER_INSTRUCTION = 2
@@ -120,7 +120,7 @@ def test_doctor_misses_a_touch_panel_and_a_bank_and_nothing_else(product):
 @cache
 def entry(bank, cell):
     with Bank.open(bank, load_board(find_board("ulx3s"))) as opened:
-        return hashlib.sha256(opened.words(cell)).hexdigest()
+        return hashlib.sha256(opened.drive.words(cell)).hexdigest()
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -149,7 +149,7 @@ def played(product, form):
     return len(entries) + int(product.found(rf"^{form}: armed 1 emissions (\d+)")[0])
 
 
-def test_the_far_end_emitted_as_often_as_it_was_told(product):
+def test_the_far_end_emitted_as_often_as_it_was_asked(product):
     assert len(product.seen["emissions"]) == 32 * CHIRP_REPETITIONS + sum(played(product, form) for form in FORMS)
     assert product.seen["most_ahead_us"] < 1, "the far end's clock is the machine's"
 

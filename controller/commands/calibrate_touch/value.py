@@ -1,0 +1,73 @@
+"""What `calibrate-touch --ghosts` and `--lag` share: measure or replay, judge the recording, print or write one key of [touch]."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+from controller.commands.common.output import show
+from controller.device.board.board import Board, load_board
+from controller.device.board.lookup import find_board
+from controller.device.touch.recordings.recording import Recording
+from controller.device.touch_calibration.event_capture import write_recording
+from controller.device.touch_calibration.touch_table import check_writable, value_line, write_value
+
+T = TypeVar("T")
+
+
+def calibrate_value(
+    options: argparse.Namespace,
+    key: str,
+    measure: Callable[[argparse.Namespace, Board], str],
+    judge: Callable[[Recording, Board], T],
+    figures: Callable[[T], dict[str, Any]],
+    table: Callable[[dict[str, Any]], list[str]],
+) -> int:
+    """Determine one value of [touch] from a measurement, or with --replay from a recording of one.
+
+    Parameters
+    ----------
+    options : argparse.Namespace
+        Of `calibrate-touch`: board, replay, out, write, json.
+    key : str
+        Of [touch], and the attribute of what `judge` returns.
+    measure : callable
+        Returns the measurement as the text of an evemu recording.
+    judge : callable
+        Computes the result from a recording.
+    figures : callable
+        The result as figures for JSON.
+    table : callable
+        Figures as lines for people.
+
+    Raises
+    ------
+    ConfigError
+        If board.toml is to be written and cannot be; this is checked before anything is measured.
+    """
+    board = load_board(find_board(options.board))
+    file = board.folder / "board.toml"
+    if options.write:
+        check_writable(file)
+    if options.replay:
+        recording = Recording.open(Path(options.replay))
+    else:
+        text = measure(options, board)
+        if options.out:
+            write_recording(Path(options.out), text)
+        recording = Recording(text, options.out or "this measurement")
+    found = judge(recording, board)
+    value = getattr(found, key)
+    if options.write:
+        write_value(file, key, value)
+
+    def shown(all_figures: dict[str, Any]) -> str:
+        written = all_figures["written"]
+        where = f"written to {written}" if written else "for [touch] of board.toml (--write puts it there)"
+        return "\n".join([*all_figures["lines"], *table(all_figures), where])
+
+    result = {"lines": [value_line(key, value)], "written": str(file) if options.write else None}
+    show(options, {"board": board.name} | figures(found) | result, shown)
+    return 0

@@ -1,0 +1,1 @@
+"""What several commands share: arguments, boards and links by name, output."""

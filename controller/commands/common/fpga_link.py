@@ -1,0 +1,35 @@
+"""The link of a command to a board's FPGA: a real one, or a simulated one, which only the workshop has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from controller.device.board.board import Board
+from controller.device.fpga.capture import Capture
+from controller.device.fpga.links.link import Link
+from controller.device.service.drivers import OpenLink, open_link
+
+
+def open_fpga_of(board: Board) -> OpenLink:
+    """What opens the link to the FPGA of `board`."""
+    if board.link.kind != "simulated":
+        return open_link
+    from controller.workshop.gateware.simulated_link import open_simulated
+
+    return open_simulated
+
+
+def fpga_link(board: Board, now_s: Callable[[], float]) -> tuple[Link, Callable[[], Capture] | None]:
+    """Link for bring-up, which may wait longer for answers; of a simulated FPGA also what its pins did.
+
+    Raises
+    ------
+    LinkError
+        If its device cannot be opened.
+    """
+    if board.link.kind != "simulated":
+        return open_link(board, now_s, unhurried=True), None
+    from controller.workshop.gateware.simulated_link import open_simulated
+
+    link = open_simulated(board, now_s)
+    return link, link.take_capture

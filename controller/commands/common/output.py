@@ -1,0 +1,77 @@
+"""Output of commands: figures as a table or as JSON, progress bars, and the file of --plot."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import sys
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from controller.console import say
+
+NARROWEST = 40  # characters of a terminal that lines are broken for
+
+Declare = Callable[..., argparse.ArgumentParser]
+"""Makes the parser of a command, by the arguments of `argparse.ArgumentParser`; `cli` has given name and help text."""
+
+
+def show(options: argparse.Namespace, figures: dict[str, Any], table: Callable[[dict[str, Any]], str]) -> None:
+    """Print figures on stdout: one JSON object with --json, else a table, no wider than the terminal."""
+    say(json.dumps(figures, allow_nan=False) if options.json else fitted(table(figures)))
+
+
+def fitted(text: str) -> str:
+    """The lines of a text, each broken where it is wider than the terminal; where stdout is none, as they are."""
+    if not sys.stdout or not sys.stdout.isatty():
+        return text
+    wrap = textwrap.TextWrapper(
+        max(shutil.get_terminal_size().columns, NARROWEST),
+        expand_tabs=False,
+        replace_whitespace=False,
+        break_on_hyphens=False,
+        subsequent_indent="  ",
+    )
+    return "\n".join("\n".join(wrap.wrap(line)) for line in text.splitlines())
+
+
+def progress_bar(what: str) -> Callable[[int, int], None]:
+    """A progress bar on stderr for work that takes more than 2 s; none if stderr is not a terminal, or without tqdm.
+
+    Parameters
+    ----------
+    what : str
+        Label of the bar.
+
+    Returns
+    -------
+    callable
+        To be called with the amount done and the total.
+    """
+    try:
+        from tqdm import tqdm
+    except ModuleNotFoundError:
+        return lambda _done, _total: None
+
+    bar = tqdm(desc=what, disable=None, delay=2, leave=False)
+
+    def progress(done: int, total: int) -> None:
+        bar.total = total
+        bar.update(done - bar.n)
+        if done >= total:
+            bar.close()
+
+    return progress
+
+
+def picture_path(options: argparse.Namespace) -> Path | None:
+    """File given with --plot; checked before any work, so that it can be written later."""
+    if options.plot is None:
+        return None
+    from controller.workshop.physics.pictures.plot import check_picture
+
+    check_picture(Path(options.plot))
+    return Path(options.plot)

@@ -1,0 +1,78 @@
+"""`haptic-panel gateware load`: a bitstream into an FPGA, by the program that board.toml names."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import fcntl
+import os
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+from controller.commands.common.output import show
+from controller.console import tell
+from controller.device.board.board import Board, load_board
+from controller.device.board.lookup import find_board
+from controller.device.fpga.bitstream import differences, read_identity
+from controller.device.fpga.bitstream_loader import ATTEMPTS
+from controller.device.service.drivers import bitstream_path, gateware_hash
+from controller.errors import ConfigError, GatewareError, LinkError
+from controller.programs import CannotStart, ProgramError, run_program
+
+TO_MEMORY, TO_FLASH = "--write-sram", "--write-flash"  # of openFPGALoader
+FLASH_S = 600.0  # that writing the flash may take
+PACKAGES = {"openFPGALoader": "openfpgaloader"}  # Debian's, by program
+
+
+def add(step: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    step.add_argument("file", nargs="?", metavar="FILE", help="the bitstream (default: gateware.bitstream of the board)")
+    step.add_argument("--flash", action="store_true", help="write the flash, where a lost supply goes back to, not the memory")
+    step.set_defaults(command=gateware_load)
+
+
+def gateware_load(options: argparse.Namespace) -> int:
+    """Load a bitstream that the board's bring-up would take, while nothing else uses the board; the link stays silent."""
+    board = load_board(find_board(options.board))
+    if board.gateware is None:
+        raise ConfigError(f"board {board.name!r} does not say how its FPGA is loaded: give it a table [gateware]")
+    command = list(board.gateware.load)
+    if options.flash:
+        if TO_MEMORY not in command:
+            raise ConfigError(f"board {board.name!r}: --flash: gateware.load has no {TO_MEMORY} that {TO_FLASH} could replace")
+        command[command.index(TO_MEMORY)] = TO_FLASH
+    file = Path(options.file) if options.file else bitstream_path(board)
+    if not file.is_file():
+        raise ConfigError(f"{file}: there is no such bitstream: haptic-panel gateware build --board {options.board} --out {file}")
+    if complaints := differences(read_identity(file), board, gateware_hash()):
+        raise ConfigError(f"{file}: bring-up would refuse it: {'; '.join(complaints)}")
+    command = [word.replace("{bitstream}", str(file)) for word in command]
+    with _nobody_else(board):
+        tell(f"{shlex.join(command)}")
+        limit_s = FLASH_S if options.flash else board.gateware.limit_s
+        package = PACKAGES.get(command[0], "")
+        try:
+            run_program(command, limit_s, attempts=ATTEMPTS, package=package, shown=True)
+        except CannotStart as error:
+            raise ConfigError(str(error) if package else f"{error}: gateware.load of board.toml names it") from error
+        except ProgramError as error:
+            raise GatewareError(f"{error}: is its USB plugged in?") from error
+    show(options, {"file": str(file), "flash": options.flash}, lambda done: f"{done['file']}: loaded")
+    return 0
+
+
+@contextlib.contextmanager
+def _nobody_else(board: Board) -> Iterator[None]:
+    """Keep every other program from the link, where this computer has it: none may have the outputs on meanwhile."""
+    if board.link.kind == "simulated" or not Path(board.link.device).exists():
+        yield
+        return
+    device = os.open(board.link.device, os.O_RDWR | os.O_NONBLOCK | os.O_NOCTTY)
+    try:
+        fcntl.flock(device, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    except BlockingIOError as error:
+        raise LinkError(f"{board.link.device} is in use by another program: systemctl stop haptic-panel") from error
+    finally:
+        os.close(device)

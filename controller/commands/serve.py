@@ -1,0 +1,116 @@
+"""`haptic-panel serve`: a simulated panel with an application socket."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import select
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.console import tell
+from controller.programs import SHOWN_EVERY_S, end, repeat
+
+if TYPE_CHECKING:
+    from controller.commands.common.output import Declare
+
+PITCH_M = 4e-3  # of the bank: the whole plate in a second
+
+
+def add(declare: Declare, _: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    command = declare(
+        example="haptic-panel serve /tmp/panel.sock",
+        description="Simulate a panel in real time with an application socket, to develop a user interface against. Loop, scene, "
+        "bank and socket are those of a device; the FPGA is its model, and two fingers move back and forth. Ctrl-C or SIGTERM ends "
+        "it.",
+    )
+    command.add_argument("socket", metavar="SOCKET", help="path of the application socket to create")
+    command.add_argument("--board", default="simulated", metavar="B", help="name, or folder with a board.toml (default: simulated)")
+    command.add_argument("--commands-per-s", type=float, default=500.0, metavar="N", help="rate limit of one client (default: 500)")
+    command.add_argument(
+        "--touched-s", type=float, default=3600.0, metavar="S", help="for how long fingers are down (default: 3600)"
+    )
+    command.add_argument("--background", action="store_true", help="return once the panel plays; it runs until it is ended")
+    command.add_argument(
+        "--ready-fd",
+        type=int,
+        metavar="FD",
+        help="write a byte to this file descriptor once the panel plays, and nothing to standard output and error from then on",
+    )
+    command.set_defaults(command=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Build a bank of the whole plate, and play from it until a signal."""
+    from threadpoolctl import threadpool_limits
+
+    from controller.device.bank.reader import Bank
+    from controller.device.board.board import load_board
+    from controller.device.board.devices import ApplicationSocket
+    from controller.device.board.lookup import find_board
+    from controller.device.board.records import as_record
+    from controller.workshop.bank_builder.build import build_bank
+    from controller.workshop.bank_builder.request import BankRequest
+    from controller.workshop.simulation.served_panel import serve
+
+    board = load_board(find_board(options.board))
+    asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
+    settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
+    if options.background:
+        return _in_background(options)
+
+    def ready() -> None:
+        tell(f"playing; its socket is {options.socket}, and `kill {os.getpid()}` or Ctrl-C ends it")
+        if options.ready_fd is not None:
+            os.write(options.ready_fd, b"1")
+            os.close(options.ready_fd)
+            _leave_output()
+
+    with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
+        path = Path(folder) / "whole plate.bank"
+        tell(f"building a bank of the whole plate, {PITCH_M * 1e3:g} mm from cell to cell: some seconds")
+        report = build_bank(BankRequest(board, path, PITCH_M, progress=True))
+        tell(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
+        started_s = time.monotonic()
+        with Bank.open(path, board) as bank:
+            serve(board, settings, bank, options.touched_s, ready)
+    tell(f"served for {time.monotonic() - started_s:.0f} s")
+    return 0
+
+
+def _leave_output() -> None:
+    """Let go of standard output and error: whoever reads them to their end does not wait for a panel in the background."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for fd in (1, 2):
+        os.dup2(nowhere, fd)
+    os.close(nowhere)
+
+
+def _in_background(options: argparse.Namespace) -> int:
+    """Start this command as another process; 0 once the panel plays, else the exit code of that process.
+
+    What it says until then is repeated, from a file: its helpers would keep a pipe of our caller open for as long as it plays.
+    """
+    command = [sys.executable, "-m", "controller", "serve", "--board", options.board]
+    command += ["--commands-per-s", str(options.commands_per_s), "--touched-s", str(options.touched_s)]
+    read_end, write_end = os.pipe()
+    with os.fdopen(read_end, "rb") as answer, tempfile.TemporaryFile() as said:
+        command += ["--ready-fd", str(write_end), "--", options.socket]
+        panel = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, pass_fds=(write_end,), start_new_session=True
+        )
+        os.close(write_end)
+        shown, answered = 0, False
+        try:
+            while not answered:
+                answered = bool(select.select([answer], [], [], SHOWN_EVERY_S)[0])
+                shown += repeat(said, shown)
+        except BaseException:
+            end(panel)
+            raise
+        return 0 if answer.read(1) else panel.wait()

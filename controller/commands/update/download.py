@@ -1,0 +1,43 @@
+"""`haptic-panel update download`: fetch the release that is offered into the store, without installing it."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from controller.commands.common.output import progress_bar, show
+from controller.commands.update.check import at_work, declare_source
+
+
+def add(step: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    declare_source(step)
+    step.set_defaults(command=download)
+
+
+def download(options: argparse.Namespace) -> int:
+    """Fetch the release; raises if it is refused."""
+    from controller.device.update.download.fetch import TransferStatistics, fetch
+
+    figures = TransferStatistics()
+    with at_work() as (layout, settings):
+        manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
+    reported: dict[str, Any] = {
+        "version": manifest.version,
+        "counter": manifest.counter,
+        "release_bytes": figures.release_bytes,
+        "kept_bytes": figures.kept_bytes,
+        "reused_bytes": figures.reused_bytes,
+        "fetched_bytes": figures.fetched_bytes,
+    }
+    show(options, reported, _table)
+    return 0
+
+
+def _table(figures: dict[str, Any]) -> str:
+    if not figures["release_bytes"]:
+        return f"{figures['version']} is in use: nothing to fetch"
+    return (
+        f"{figures['version']} is here: {figures['fetched_bytes']:,} bytes fetched for {figures['release_bytes']:,};"
+        f" {figures['kept_bytes']:,} were here, {figures['reused_bytes']:,} came from older banks"
+    )

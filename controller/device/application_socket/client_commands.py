@@ -1,0 +1,122 @@
+"""The client on a command line: `python -m controller.device.application_socket.client --socket S play click --at 100 70`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from controller.console import ReaderGone, flush, program, say
+from controller.device.application_socket.client import DEFAULT_PATH, PanelClient
+
+
+@program
+def main(arguments: list[str] | None = None) -> int:
+    """Command line of the client; messages of the panel go to stdout, one JSON object a line."""
+    options = _parser().parse_args(arguments)
+    try:
+        return send(options)
+    except ReaderGone:
+        return 0
+
+
+def send(options: argparse.Namespace) -> int:
+    """Send the request that was asked for, and show what the panel says, until Ctrl-C where that has no end.
+
+    Raises
+    ------
+    ControllerError
+        If there is no panel, or it refuses.
+    """
+    try:
+        with PanelClient(options.socket) as panel:
+            return _run(panel, options)
+    except KeyboardInterrupt:  # how `touches` and `state --follow` end
+        return 0
+
+
+def _run(panel: PanelClient, options: argparse.Namespace) -> int:
+    match options.request:
+        case "play":
+            at_mm = tuple(options.at) if options.at else None
+            answer = panel.play(options.effect, at_mm=at_mm, finger=options.finger, amplitude=options.amplitude)
+            _show(answer)
+            return 0 if answer.outcome in ("played", "merged") else 1
+        case "touches":
+            for touch in panel.touches():
+                _show(touch)
+        case "regions":
+            from controller.device.board.records import read_tables  # no other request needs a board's modules
+
+            tables = read_tables(options.file)
+            _show(panel.put_regions(tables.get("regions", ()), effects=tables.get("effects")))
+            for state in () if options.once else panel.states():  # the regions stay as long as this does
+                _show(state)
+        case "load":
+            panel.load_scene(options.name)
+        case "arm":
+            panel.arm()
+        case "disarm":
+            panel.disarm()
+        case "stop":
+            panel.stop()
+        case "state" if options.follow:
+            for state in panel.states():
+                _show(state)
+        case "state":
+            _show(panel.state())
+        case "figures":
+            _show(panel.figures())
+        case "describe" if options.follow:
+            for description in panel.descriptions():
+                _show(description)
+        case "describe":
+            _show(panel.describe())
+        case "faults":
+            for fault in panel.faults():
+                _show(fault)
+        case "hello":
+            _show(panel.hello())
+    return 0
+
+
+def _show(what: Any) -> None:
+    say(msgspec.json.encode(what).decode())
+    flush()
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m controller.device.application_socket.client", description="Drive a running haptic panel."
+    )
+    declare_requests(parser)
+    return parser
+
+
+def declare_requests(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("--socket", default=DEFAULT_PATH, metavar="S", help=f"the panel's socket (default: {DEFAULT_PATH})")
+    commands = parser.add_subparsers(dest="request", title="requests", metavar="REQUEST", required=True)
+    play = commands.add_parser("play", help="play an effect at a point or for a finger")
+    play.add_argument("effect")
+    where = play.add_mutually_exclusive_group(required=True)
+    where.add_argument("--at", nargs=2, type=float, metavar=("X_MM", "Y_MM"))
+    where.add_argument("--finger", type=int, metavar="N", help="as numbered by `touches`")
+    play.add_argument("--amplitude", type=float, metavar="A", help="0.1 to 1 (default: the largest that is allowed)")
+    commands.add_parser("touches", help="print every touch until Ctrl-C")
+    regions = commands.add_parser("regions", help="lay the regions of a scene.toml over the scene until Ctrl-C")
+    regions.add_argument("file", type=Path, metavar="SCENE.toml")
+    regions.add_argument("--once", action="store_true", help="only say what would be refused")
+    commands.add_parser("load", help="load another scene of the board").add_argument("name")
+    commands.add_parser("stop", help="switch the outputs off until an operator arms; any client may")
+    commands.add_parser("disarm", help="as stop, for operators")
+    commands.add_parser("arm", help="switch the outputs on as soon as the FPGA allows it")
+    state = commands.add_parser("state", help="print the panel's state")
+    state.add_argument("--follow", action="store_true", help="and after each change, until Ctrl-C")
+    commands.add_parser("figures", help="print counters and latencies")
+    describe = commands.add_parser("describe", help="print plate, patches, axes, scene, effects, limits, versions, last faults")
+    describe.add_argument("--follow", action="store_true", help="and whenever another scene is in force, until Ctrl-C")
+    commands.add_parser("faults", help="print every fault until Ctrl-C")
+    commands.add_parser("hello", help="print version, board, extents, effects and your rights")

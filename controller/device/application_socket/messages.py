@@ -1,0 +1,299 @@
+"""Messages of the application socket: one JSON object per line; `kind` names the message.
+
+Every line of a client is answered exactly once, with the line's `id` (null if it has none that can be read). Touches and
+states are sent between answers to clients that subscribed to them. Lengths are in mm, ages in ms, `time_s` in s. Unknown keys
+are refused, so that a misspelt key is noticed.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import msgspec
+from msgspec import Meta, Raw, Struct
+
+from controller.device.scene.layers import MOST_SHIFT_MM, RefusedRegion, Scale
+
+LINE_BYTES = 8192  # longest line of a client, with its newline, but for regions
+PROTOCOL = 1  # raised when a message changes so that a client has to know
+
+Id = Annotated[int, Meta(ge=-(2**53), le=2**53)] | Annotated[str, Meta(max_length=64)] | None
+Word = Annotated[str, Meta(min_length=1, max_length=64)]
+# Never a path: a client chooses among the installed scenes.
+PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
+Right = Literal["look", "play", "regions", "operate"]
+ShiftMm = Annotated[float, Meta(ge=-MOST_SHIFT_MM, le=MOST_SHIFT_MM)]
+Topic = Literal["touches", "state", "description", "faults"]
+Outcome = Literal["played", "merged", "skipped", "refused", "done"]
+
+
+def _empty() -> Raw:
+    return Raw(b"{}")
+
+
+class Request(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="kind", gc=False):
+    """A request; `id` is returned with its answer."""
+
+    id: Id = None
+
+
+class PlayRequest(Request, frozen=True, kw_only=True, tag="play", gc=False):
+    """Play an effect at a point (`x_mm` and `y_mm`), or at a finger as it moves (`finger`, as in `Touch`).
+
+    `amplitude` is a share of the full amplitude; null: the largest that the board allows to clients.
+    """
+
+    effect: Word
+    x_mm: float | None = None
+    y_mm: float | None = None
+    finger: Annotated[int, Meta(ge=0, le=2**53)] | None = None
+    amplitude: float | None = None
+
+
+class Subscribe(Request, frozen=True, kw_only=True, tag="subscribe", gc=False):
+    """Send every touch or fault from now on, the panel's state or description now and whenever it changes; or several of these."""
+
+    to: Annotated[tuple[Topic, ...], Meta(min_length=1, max_length=4)] = ("touches",)
+
+
+class Unsubscribe(Request, frozen=True, kw_only=True, tag="unsubscribe", gc=False):
+    """Send no more of what was subscribed to."""
+
+
+class Describe(Request, frozen=True, kw_only=True, tag="describe", gc=False):
+    """Request what the panel is and plays, as `Description`."""
+
+
+class Transform(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, gc=False):
+    """Where a client's layer lies: its point (x, y) is at (`x_mm` + `scale` x, `y_mm` + `scale` y) on the plate."""
+
+    x_mm: ShiftMm = 0.0
+    y_mm: ShiftMm = 0.0
+    scale: Scale = 1.0
+
+
+class Regions(Request, frozen=True, kw_only=True, tag="regions", gc=False):
+    """Replace this client's layer of regions; answered when it is in force, as `LayerAnswer`.
+
+    `regions` and `effects` are a scene's tables, checked beside the loop (`layer_tables.read_layer`); `transform` null: where the
+    layer before lies.
+    """
+
+    regions: tuple[Raw, ...]
+    effects: Raw = msgspec.field(default_factory=_empty)
+    transform: Transform | None = None
+
+
+class MoveRegions(Request, frozen=True, kw_only=True, tag="transform", gc=False):
+    """Move this client's layer of regions, as `Transform` says, without describing it again."""
+
+    x_mm: ShiftMm = 0.0
+    y_mm: ShiftMm = 0.0
+    scale: Scale = 1.0
+
+
+class Arm(Request, frozen=True, kw_only=True, tag="arm", gc=False):
+    """Switch the outputs on as soon as the FPGA allows it; `StateAnswer` reports when they are."""
+
+
+class Disarm(Request, frozen=True, kw_only=True, tag="disarm", gc=False):
+    """Ramp the outputs down to 0 V; they stay off until a client arms, whatever happens meanwhile."""
+
+
+class Stop(Request, frozen=True, kw_only=True, tag="stop", gc=False):
+    """As `Disarm`, for every client, whatever its rights and its rate: outputs off, and off they stay."""
+
+
+class AskState(Request, frozen=True, kw_only=True, tag="state", gc=False):
+    """Request the panel's state, as `StateAnswer`."""
+
+
+class LoadScene(Request, frozen=True, kw_only=True, tag="load_scene", gc=False):
+    """Load another scene of the board by its name; answered when it is in force, or refused."""
+
+    name: PlainName
+
+
+class AskFigures(Request, frozen=True, kw_only=True, tag="figures", gc=False):
+    """Request counters and latencies, as `FiguresAnswer`."""
+
+
+class Hello(Request, frozen=True, kw_only=True, tag="hello", gc=False):
+    """Request version, board and rights, as `Greeting`."""
+
+
+class Numbered(Struct, gc=False):
+    """Decodes only the id of a line that is refused."""
+
+    id: Id = None
+
+
+class Answer(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field="kind", tag="answer", gc=False):
+    """Outcome of a request; `age_ms` is the time from a command to play to its outcome."""
+
+    id: Id
+    outcome: Outcome
+    age_ms: float | None = None
+    reason: str = ""
+
+
+class Greeting(Struct, frozen=True, kw_only=True, tag_field="kind", tag="hello", gc=False):
+    """Answer to `Hello`."""
+
+    id: Id
+    version: str
+    board: str
+    length_mm: float
+    width_mm: float
+    max_amplitude: float
+    effects: tuple[str, ...]
+    rights: tuple[Right, ...]
+
+
+class LayerAnswer(Struct, frozen=True, kw_only=True, tag_field="kind", tag="layer", gc=False):
+    """Answer to `Regions`: the layer is in force since now, `age_ms` after it had been read.
+
+    `regions` are in it, `off_plate` of them as a whole off the plate. Of the `refused_count` others `refused` says the first.
+    """
+
+    id: Id
+    regions: int
+    off_plate: int
+    age_ms: float
+    refused: tuple[RefusedRegion, ...]
+    refused_count: int
+
+
+class FiguresAnswer(Struct, frozen=True, kw_only=True, tag_field="kind", tag="figures", gc=False):
+    """Answer to `AskFigures`; at most a second old."""
+
+    id: Id
+    figures: dict[str, Any]
+
+
+class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc=False):
+    """A finger was put down, moved or lifted; touches of one report have the same `time_s` (CLOCK_MONOTONIC)."""
+
+    finger: int
+    x_mm: float
+    y_mm: float
+    time_s: float
+    contact: bool
+    size_mm: float
+
+
+class StateAnswer(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc=False):
+    """State of the panel: the answer to `AskState` or, with an id of null, a notification to subscribers.
+
+    `state` is a value of `panel_state.PanelState`; `cause` says why not everything works; `outputs_on` is false only once a status
+    of the FPGA has said that there is no voltage at the actuators, or it has certainly switched off by itself; `temperature_c` is
+    the plate's temperature, null if unknown.
+    """
+
+    id: Id = None
+    state: str
+    cause: str
+    outputs_on: bool
+    panel_present: bool
+    temperature_c: float | None
+
+
+class PatchPlace(Struct, frozen=True, gc=False):
+    """A piezo patch: the FPGA's output that drives it, its centre and its edge length in mm."""
+
+    channel: int
+    x_mm: float
+    y_mm: float
+    size_mm: float
+
+
+class Axes(Struct, frozen=True, gc=False):
+    """How a touch panel's axes become millimetres: x_mm = a + b X + c Y of its own units, and so y_mm."""
+
+    x_mm_from_axes: tuple[float, float, float]
+    y_mm_from_axes: tuple[float, float, float]
+
+
+class SceneRegion(Struct, frozen=True, gc=False):
+    """A region of the scene: its name, its shape with the keys of a scene.toml, and on which occasions something is felt."""
+
+    name: str
+    shape: dict[str, Any]
+    occasions: tuple[str, ...]
+
+
+class ClientLimits(Struct, frozen=True, kw_only=True, gc=False):
+    """What a client may ask for: the settings of the board's `application_socket`."""
+
+    max_amplitude: float
+    line_bytes: int
+    commands_per_s: float
+    burst: int
+    layer_regions: int
+    layer_bytes: int
+    layers_per_s: float
+
+
+class ClientCounts(Struct, frozen=True, gc=False):
+    """Clients that are connected now, and all since the service started."""
+
+    connected: int
+    accepted: int
+
+
+class FaultNotice(Struct, frozen=True, kw_only=True, tag_field="kind", tag="fault", gc=False):
+    """The panel cannot play: since when (CLOCK_MONOTONIC), its state and the cause."""
+
+    time_s: float
+    state: str
+    cause: str
+
+
+class Description(Struct, frozen=True, kw_only=True, tag_field="kind", tag="description", gc=False):
+    """The panel: the answer to `Describe` or, with an id of null, a notification to subscribers.
+
+    `release` is the name of the installed release, empty outside of one; of the scene's `region_count` regions `regions` has the
+    first, without those of clients; `faults` are the last 50, the oldest first.
+    """
+
+    id: Id
+    protocol: int
+    version: str
+    release: str
+    board: str
+    board_digest: str
+    length_mm: float
+    width_mm: float
+    patches: tuple[PatchPlace, ...]
+    axes: Axes
+    scene: str
+    regions: tuple[SceneRegion, ...]
+    region_count: int
+    effects: tuple[str, ...]
+    limits: ClientLimits
+    faults: tuple[FaultNotice, ...]
+    clients: ClientCounts
+
+
+class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field="kind", tag="farewell", gc=False):
+    """The panel ends the connection for `reason`; `lacks` is the right that the user does not have."""
+
+    reason: str
+    lacks: Right | None = None
+
+
+AnyOrder = PlayRequest | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene
+AnyQuestion = Subscribe | Unsubscribe | AskFigures | AskState | Describe | Hello
+AnyRequest = AnyOrder | AnyQuestion
+Data = Greeting | FiguresAnswer | StateAnswer | Description
+AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Farewell
+
+
+def request_decoder() -> msgspec.json.Decoder[AnyRequest]:
+    """Decoder of the lines that clients send."""
+    return msgspec.json.Decoder(AnyRequest)
+
+
+def message_decoder() -> msgspec.json.Decoder[AnyMessage]:
+    """Decoder of the lines that the panel sends."""
+    return msgspec.json.Decoder(AnyMessage)

@@ -1,0 +1,73 @@
+"""What clients are sent without a request, once subscribed: touches, and the panel's condition."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from controller.device.application_socket import messages
+from controller.device.application_socket.clients import Clients
+from controller.device.application_socket.description import Faults
+from controller.device.board.panel_state import Condition
+from controller.device.touch.source import TouchSample
+
+
+class Notifications:
+    """Sends touches and conditions to the clients that subscribed to them.
+
+    Attributes
+    ----------
+    condition : Condition
+        The panel's, as last reported.
+    faults : Faults
+        The last ones.
+    """
+
+    def __init__(self, clients: Clients) -> None:
+        self.condition = Condition()
+        self.faults = Faults()
+        self._clients = clients
+
+    def touches(self, samples: Sequence[TouchSample]) -> None:
+        """Send the touch samples of one report, lengths in mm."""
+        if not self._clients.touch_subscribers:
+            return
+        for client in self._clients.places:
+            if client.subscribed:
+                for finger, x_m, y_m, time_s, contact, size_m in samples:
+                    client.put(
+                        messages.Touch(
+                            finger=finger,
+                            x_mm=round(x_m * 1e3, 3),
+                            y_mm=round(y_m * 1e3, 3),
+                            time_s=time_s,
+                            contact=contact,
+                            size_mm=round(size_m * 1e3, 3),
+                        )
+                    )
+                self._clients.send(client)
+
+    def changed(self, condition: Condition, now_s: float) -> None:
+        """Keep the panel's new condition, of host time `now_s`, and send it, and the fault if it is one."""
+        self.condition = condition
+        fault = self.faults.changed(condition, now_s)
+        if fault is not None:
+            for client in self._clients.places:
+                if client.warned:
+                    client.put(fault)
+                    self._clients.send(client)
+        for client in self._clients.places:
+            if client.informed:
+                client.put(self.state())
+                self._clients.send(client)
+
+    def state(self, number: messages.Id = None) -> messages.StateAnswer:
+        """The condition as a message: the answer to the request with id `number`, or with None a notification."""
+        now = self.condition
+        return messages.StateAnswer(
+            id=number,
+            state=now.state.value,
+            cause=now.cause,
+            outputs_on=now.outputs_on,
+            panel_present=now.panel_present,
+            temperature_c=now.temperature_c,
+        )

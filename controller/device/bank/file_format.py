@@ -1,0 +1,297 @@
+"""The format of a bank file in `struct`, as README.md specifies it.
+
+A header of one or more pages, then seven sections, each starting at a page; all other bytes are
+zero. Tables are covered by a CRC-32 in the header, entries by one each.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+from dataclasses import dataclass, field
+from typing import Any
+
+from controller import __version__
+from controller.device.bank.grid import Grid
+from controller.device.bank.packing import CHANNELS
+from controller.device.bank.provenance import MODEL_VERSION, Provenance, provenance_of
+from controller.device.kernel import load_frames_bytes
+from controller.device.kernel.crc import intact, sealed
+from controller.errors import BankError
+
+MAGIC = b"HPNLBANK"
+VERSION = 4
+PAGE = 4096
+LINE = 64  # responses start on a cache line
+REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean
+LEAST_WAVE_SCALE = 1e-3  # 10 um
+SAMPLES_MAX = 1000  # what LOAD frames can carry
+MAX_HEADER = 1 << 20
+
+# magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
+# nx, ny, samples, channels, entries, parameters bytes, sections, compositions
+FIXED = struct.Struct("<8sIIQ64s32sddddIIIIIIII")
+SECTION = struct.Struct("<16sQQIIII")  # name, offset, bytes, rows, bytes of a row, stride, CRC-32
+SECTIONS = 7
+COMPOSITIONS_MAX = 1024
+FOCI = 10  # of a composition, at most
+COMPOSITION = struct.Struct(f"<II{3 * FOCI}i")  # CRC-32 of the words, foci, x, y and amplitude step of each; zeros
+CRC = struct.Struct("<I")  # the last four bytes of the header: of all before them
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """Rows of equal length, `stride` bytes apart; `crc` is 0 where each row has its own checksum."""
+
+    name: str
+    offset: int
+    rows: int
+    row_bytes: int
+    stride: int
+    crc: int = 0
+
+    @property
+    def size(self) -> int:
+        """Bytes from the first row to the end of the last one's stride."""
+        return self.rows * self.stride
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """Header of a bank: what it was built for and by, its grid, and how many entries it has.
+
+    Attributes
+    ----------
+    creator : str
+        Program, its version and that of the model; at most 64 bytes in UTF-8.
+    board_digest : bytes
+        `Board.digest`, 32 bytes.
+    samples : int
+        Of an emission: 1 to 1000.
+    entries : int
+        Cells that were built.
+    parameters : dict
+        Build parameters, for JSON.
+    compositions : int
+        Waveforms of several points that were composed beforehand.
+    """
+
+    creator: str
+    board_digest: bytes
+    grid: Grid
+    bit_clock_hz: float
+    samples: int
+    entries: int
+    parameters: dict[str, Any] = field(default_factory=dict)
+    compositions: int = 0
+
+    @property
+    def header_bytes(self) -> int:
+        """Bytes of the header: whole pages."""
+        return round_up(FIXED.size + SECTIONS * SECTION.size + len(self._json()) + CRC.size, PAGE)
+
+    @property
+    def composes(self) -> bool:
+        """Whether there are responses, from which other places, less amplitude and several points at once are composed."""
+        return self.parameters.get("composes") is not False
+
+    @property
+    def choice(self) -> dict[str, Any] | None:
+        """What was chosen with the bank, and what for (`workshop/bank_builder/choice.py`); None if nothing was."""
+        choice = self.parameters.get("choice")
+        if not isinstance(choice, dict) or not isinstance(choice.get("asked"), dict):
+            return None
+        whole = (
+            all(type(choice.get(name)) in {int, float} for name in ("pitch_mm", "snap_mm"))
+            and choice.get("composes") is self.composes
+        )
+        return choice if whole else None
+
+    @property
+    def wave_scale(self) -> float:
+        """How much longer the plate's waves are than the paper's plate's: distances on the device go with it. 1, if not given."""
+        reported: object = self.parameters.get("wave_scale")
+        return (
+            float(reported) if isinstance(reported, int | float) and LEAST_WAVE_SCALE <= reported <= 1 / LEAST_WAVE_SCALE else 1.0
+        )
+
+    @property
+    def provenance(self) -> Provenance | None:
+        """Where the responses come from; None if the header does not tell."""
+        return provenance_of(self.parameters.get("responses"))
+
+    @property
+    def rest_rows(self) -> int:
+        """Rows of the rest of a response: one for each `REST_SAMPLES` samples."""
+        return -(-self.samples // REST_SAMPLES)
+
+    def sections(self) -> tuple[Section, ...]:
+        """Section table without CRCs: offsets follow from the numbers of cells, entries, samples and compositions."""
+        drive_bytes, response_bytes = load_frames_bytes(4 * self.samples), CHANNELS * (self.samples + self.rest_rows)
+        offset = self.header_bytes
+        placed = []
+        for name, rows, row_bytes, stride in (
+            ("index", self.grid.cells, 4, 4),
+            ("checksums", self.entries, 8, 8),
+            ("scale", self.entries, 4, 4),
+            ("drive", self.entries, drive_bytes, round_up(drive_bytes, PAGE)),
+            ("response", self.entries if self.composes else 0, response_bytes, round_up(response_bytes, LINE)),
+            ("points", self.compositions, COMPOSITION.size, COMPOSITION.size),
+            ("composed", self.compositions, drive_bytes, round_up(drive_bytes, PAGE)),
+        ):
+            placed.append(Section(name, offset, rows, row_bytes, stride))
+            offset = round_up(offset + placed[-1].size, PAGE)
+        return tuple(placed)
+
+    @property
+    def file_bytes(self) -> int:
+        """Bytes of the whole file."""
+        last = self.sections()[-1]
+        return round_up(last.offset + last.size, PAGE)
+
+    def pack(self, sections: tuple[Section, ...]) -> bytes:
+        """Bytes of the header, with the sections' checksums in its table.
+
+        Raises
+        ------
+        ValueError
+            If the creator or the build parameters are too long.
+        """
+        maker, parameters = self.creator.encode(), self._json()
+        if len(maker) > 64:
+            raise ValueError(f"creator {self.creator!r} is longer than 64 bytes")
+        if self.header_bytes > MAX_HEADER:
+            raise ValueError(f"parameters of {len(parameters)} bytes do not fit a header of {MAX_HEADER} bytes")
+        grid = self.grid
+        body = FIXED.pack(
+            *(MAGIC, VERSION, self.header_bytes, self.file_bytes, maker, self.board_digest),
+            *(grid.pitch_m, grid.x0_m, grid.y0_m, self.bit_clock_hz, grid.nx, grid.ny),
+            *(self.samples, CHANNELS, self.entries, len(parameters), len(sections), self.compositions),
+        )
+        for s in sections:
+            body += SECTION.pack(s.name.encode(), s.offset, s.size, s.rows, s.row_bytes, s.stride, s.crc)
+        body = (body + parameters).ljust(self.header_bytes - CRC.size, b"\0")
+        return sealed(body)
+
+    def _json(self) -> bytes:
+        return json.dumps(self.parameters, sort_keys=True, allow_nan=False).encode()
+
+
+def creator() -> str:
+    """This program, its version and the version of the model that it computes responses by, as the header of a bank names them."""
+    return f"haptic-panel {__version__}, model {MODEL_VERSION}"
+
+
+def model_version_of(creator: str) -> str:
+    """Version of the model that a header's `creator` names; empty if it names none."""
+    return creator.partition(", model ")[2]
+
+
+def begins_as_bank(start: bytes) -> bool:
+    """Whether a file that starts with the bytes `start` may be replaced by a bank: it is one, damaged or not, or a part of one."""
+    return MAGIC.startswith(start[: len(MAGIC)])
+
+
+def round_up(value: int, step: int) -> int:
+    """Round `value` up to a multiple of `step`."""
+    return -(-value // step) * step
+
+
+def header_length(start: bytes, file_bytes: int) -> int:
+    """Length of the header in bytes.
+
+    Parameters
+    ----------
+    start : bytes
+        First 16 bytes of the file, or as many as it has.
+    file_bytes : int
+        Size of the file.
+
+    Raises
+    ------
+    BankError
+        For what is empty, no bank, of another version, or cut off within the header.
+    """
+    if file_bytes == 0:
+        raise BankError("is empty")
+    if start[:8] != MAGIC[: len(start)]:
+        raise BankError(f"is not a bank: it begins with {start[:8]!r}")
+    if len(start) < 16:
+        raise BankError(f"is truncated: {file_bytes} bytes, less than a header")
+    _, version, length, *_ = struct.unpack("<8sII", start[:16])
+    if version != VERSION:
+        raise BankError(f"has format version {version}; this program reads version {VERSION}")
+    if not PAGE <= length <= MAX_HEADER or length % PAGE:
+        raise BankError(f"is damaged: header of {length} bytes")
+    if file_bytes < length:
+        raise BankError(f"is truncated: {file_bytes} bytes, less than its header of {length}")
+    return int(length)
+
+
+def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
+    """Read a header; the reverse of `Header.pack`.
+
+    Parameters
+    ----------
+    data : bytes
+        As many bytes as `header_length` said.
+    file_bytes : int
+        Size of the file in which it was found.
+
+    Raises
+    ------
+    BankError
+        If the checksum is wrong, the file is cut short or has grown, or a table or section is not
+        where this version of the format puts it.
+    """
+    body = data[: -CRC.size]
+    if not intact(data):
+        raise BankError("is damaged: CRC-32 of the header is wrong")
+    fixed = FIXED.unpack_from(body)
+    reported_bytes, maker, digest, pitch_m, x0_m, y0_m, bit_clock_hz, nx, ny, samples, channels, entries = fixed[3:15]
+    parameters_bytes, section_count, compositions = fixed[15:]
+    if file_bytes != reported_bytes:
+        raise BankError(
+            f"{'is truncated' if file_bytes < reported_bytes else 'has grown'}: {file_bytes} bytes instead of {reported_bytes}"
+        )
+    at = FIXED.size + section_count * SECTION.size
+    counts_fit = section_count == SECTIONS and compositions <= COMPOSITIONS_MAX and 1 <= samples <= SAMPLES_MAX
+    if channels != CHANNELS or not counts_fit or at + parameters_bytes > len(body):
+        raise BankError("has a header that this version of the format does not allow")
+    if not all(map(math.isfinite, (pitch_m, x0_m, y0_m, bit_clock_hz))) or pitch_m <= 0 or bit_clock_hz <= 0 or entries > nx * ny:
+        raise BankError("has a grid or bit clock that cannot be")
+    try:
+        parameters = json.loads(body[at : at + parameters_bytes])
+        grid = Grid(pitch_m, nx, ny, x0_m, y0_m)
+        header = Header(maker.rstrip(b"\0").decode(), digest, grid, bit_clock_hz, samples, entries, parameters, compositions)
+    except ValueError as error:
+        raise BankError(f"has unreadable build parameters or creator ({error})") from None
+    if not isinstance(parameters, dict):
+        raise BankError("has build parameters that are no table")
+    if body[at + parameters_bytes :].strip(b"\0"):
+        raise BankError("has padding in its header that is not zero")
+    rows = [SECTION.unpack_from(body, FIXED.size + i * SECTION.size) for i in range(section_count)]
+    return header, _sections(header, rows, len(data), reported_bytes)
+
+
+def _sections(header: Header, rows: list[tuple[Any, ...]], header_bytes: int, file_bytes: int) -> dict[str, Section]:
+    """Check the section table: known names, in order, each on the page after the last one's end."""
+    found = {}
+    end = header_bytes
+    for reported, should in zip(rows, header.sections(), strict=True):
+        name, offset, size, count, row_bytes, stride, crc = reported
+        name = name.rstrip(b"\0").decode(errors="replace")
+        if name != should.name:
+            raise BankError(f"has section {name!r} where {should.name!r} belongs")
+        if offset != round_up(end, PAGE):
+            raise BankError(
+                f"has section {name!r} at byte {offset}, not at {round_up(end, PAGE)}: out of order, apart or overlapping"
+            )
+        if (size, count, row_bytes, stride) != (should.size, should.rows, should.row_bytes, should.stride):
+            raise BankError(f"has a section {name!r} that does not fit its samples, cells and entries")
+        end = offset + size
+        found[name] = Section(name, offset, count, row_bytes, stride, crc)
+    if round_up(end, PAGE) != file_bytes:
+        raise BankError(f"has sections that end at byte {end} of {file_bytes}")
+    return found

@@ -1,0 +1,111 @@
+"""Where the responses of a bank come from, as its header tells it: the build parameter `responses`."""
+
+from __future__ import annotations
+
+from pathlib import PurePosixPath
+from typing import Any, Literal
+
+import msgspec
+
+from controller.device.board.board import sha256
+
+# Of the plate model (physics/). Raised whenever a response that it computes changes by more than rounding; a bank of another
+# version is built again. tests/workshop/physics/test_model_version.py compares responses with those of this version.
+MODEL_VERSION = 1
+MOST_FILES = 8  # of a folder and a kind that a header names one by one
+MEASURE_AGAIN = "haptic-panel calibrate bank FOLDER"  # what builds a bank from measurements
+
+
+class SourceFile(msgspec.Struct, frozen=True):
+    """A file that responses were learned from: its name and the SHA-256 of its bytes, in hex."""
+
+    name: str
+    sha256: str
+
+
+class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
+    """Origin of responses, kept in a bank's header.
+
+    Attributes
+    ----------
+    kind
+        `modelled`, `measured`, or `completed`: measured, with gaps filled by a model.
+    model
+        Plate model in words: theory, edges, damping; of measured responses, what interpolates between points.
+    files
+        Measurements.
+    date
+        Of the measurements, ISO 8601.
+    temperature_c
+        Of the plate while it was measured.
+    points
+        Number of points that were measured.
+    kept
+        Expected share of the amplitude that drive words from these responses keep on the plate they come from: (median, least)
+        over points left out. Absent for models, which say nothing about a plate.
+    """
+
+    kind: Literal["modelled", "measured", "completed"]
+    model: str
+    files: tuple[SourceFile, ...] = ()
+    date: str | None = None
+    temperature_c: float | None = None
+    points: int | None = None
+    kept: tuple[float, float] | None = None
+
+    @property
+    def from_measurements(self) -> bool:
+        """Whether a real plate was measured: such responses cannot be computed again without the measurements."""
+        return self.kind != "modelled"
+
+    def condensed(self) -> Provenance:
+        """The same with one entry for many files of a folder and a kind: `records/*.npy (250 files)`, by the hash of their hashes.
+
+        A header has no room for a file for each of thousands of points.
+        """
+        kinds: dict[PurePosixPath, list[SourceFile]] = {}
+        for file in self.files:
+            path = PurePosixPath(file.name)
+            kinds.setdefault(path.parent / f"*{path.suffix}", []).append(file)
+        found: list[SourceFile] = []
+        for pattern, files in kinds.items():
+            if len(files) <= MOST_FILES:
+                found += files
+            else:
+                every = "".join(f"{file.sha256}  {file.name}\n" for file in files)  # as sha256sum prints them
+                found.append(SourceFile(f"{pattern} ({len(files)} files)", sha256(every.encode()).hex()))
+        return msgspec.structs.replace(self, files=tuple(found))
+
+    def in_words(self) -> str:
+        """One line for people."""
+        if not self.from_measurements:
+            return f"modelled: {self.model}"
+        files = self.condensed().files
+        several = [
+            f"{self.points} points" if self.points is not None else "",
+            ", ".join(file.name for file in files[:4]) + (f" and {len(files) - 4} more" if len(files) > 4 else ""),
+            self.date or "",
+            f"{self.temperature_c:g} °C" if self.temperature_c is not None else "",
+            self.model,
+            f"keeps {self.kept[0]:.3g} of the amplitude, {self.kept[1]:.3g} at least" if self.kept else "",
+        ]
+        return f"{self.kind}: {'; '.join(part for part in several if part)}"
+
+
+def provenance_of(reported: object) -> Provenance | None:
+    """What the build parameter `responses` of a bank tells; None if it tells nothing that is understood.
+
+    Banks from before there were others tell `"modelled"`.
+    """
+    if reported == "modelled":
+        return Provenance("modelled", "a simply supported plate, Kirchhoff's theory")
+    try:
+        return msgspec.convert(reported, Provenance)
+    except msgspec.ValidationError:
+        return None
+
+
+def as_parameter(provenance: Provenance) -> dict[str, Any]:
+    """The build parameter of a bank."""
+    reported: dict[str, Any] = msgspec.to_builtins(provenance.condensed())
+    return reported

@@ -1,0 +1,133 @@
+"""Reads a bank: each section is mapped when it is first needed, each entry is checked when it is first used."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.bank.bank_file import BankFile
+from controller.device.bank.drive_entries import DriveEntries
+from controller.device.bank.file_format import begins_as_bank, header_length, parse
+from controller.device.bank.packing import CHANNELS
+from controller.device.bank.provenance import MEASURE_AGAIN
+from controller.device.bank.response_entries import ResponseEntries
+from controller.device.bank.tables import read_tables
+from controller.device.board.board import Board
+from controller.device.board.paths import build_line
+from controller.errors import BankError
+from controller.regular_file import open_regular
+
+
+class Bank:
+    """An open bank; the file may be replaced by a new one while it is open.
+
+    Use `Bank.open`. Memoryviews and arrays handed out stay valid as long as they are held.
+
+    Attributes
+    ----------
+    drive : DriveEntries
+        Its waveforms.
+    responses : ResponseEntries
+        What others are composed from.
+    """
+
+    def __init__(self, file: BankFile) -> None:
+        self.file = file
+        self.path = file.path
+        self.header = file.header
+        self.sections = file.sections
+        self.grid = file.header.grid
+        self.samples = file.header.samples
+        self.composes = file.header.composes
+        self.counters = file.counters
+        self.rebuild = file.rebuild
+        self.close = file.close
+        self.drive = DriveEntries(file)
+        self.responses = ResponseEntries(file)
+
+    @classmethod
+    def open(cls, path: Path, board: Board | None = None) -> Bank:
+        """Open a bank and check its header and tables.
+
+        Parameters
+        ----------
+        path : Path
+            The file.
+        board : Board, optional
+            Refuse a bank that was not built for this board.
+
+        Raises
+        ------
+        BankError
+            With the reason and how to rebuild.
+        """
+        rebuild = build_line(path, board)
+        try:
+            fd = open_regular(path, links=True)
+        except OSError as error:
+            hint = f"; build it: {rebuild}" if isinstance(error, FileNotFoundError) else ""
+            raise BankError(f"{path}: cannot be read ({error.strerror}){hint}") from error
+        start: bytes | None = None  # None: unreadable, so no advice to rebuild it
+        try:
+            size = os.fstat(fd).st_size
+            start = os.pread(fd, 16, 0)
+            header, sections = parse(os.pread(fd, header_length(start, size), 0), size)
+            name = header.parameters.get("board")
+            if not board and isinstance(name, str) and name.isprintable():
+                rebuild = build_line(path, name)
+            if header.provenance and header.provenance.from_measurements:
+                rebuild = MEASURE_AGAIN
+            if board and header.board_digest != board.digest():
+                raise BankError(
+                    f"was built for another board: digest {header.board_digest.hex()[:16]}, "
+                    f"board {board.name!r} has {board.digest().hex()[:16]}"
+                )
+            tables = read_tables(fd, header, sections)
+        except (OSError, BankError) as error:
+            os.close(fd)
+            reason = error if isinstance(error, BankError) else f"cannot be read ({error.strerror})"
+            advised = start is not None and begins_as_bank(start)
+            raise BankError(f"{path}: {reason}" + (f"; rebuild it: {rebuild}" if advised else "")) from error
+        return cls(BankFile(path, fd, header, sections, tables, rebuild))
+
+    def __enter__(self) -> Bank:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    @property
+    def cells(self) -> NDArray[np.bool_]:
+        """Which cells have an entry, (grid.cells,)."""
+        return np.array(self.file.tables.entries) >= 0
+
+    @property
+    def wave_scale(self) -> float:
+        """As `Header.wave_scale`."""
+        return self.header.wave_scale
+
+    def snap_m(self, board: Board) -> float:
+        """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says.
+
+        A bank without responses has nothing else to play: its cells are played as far as was chosen with it in any case.
+        """
+        choice = self.header.choice if board.compose.method == "auto" or not self.composes else None
+        if choice is None and not self.composes:
+            return math.inf
+        return float(choice["snap_mm"] if choice else board.bank.snap_mm) * 1e-3
+
+    @property
+    def worst_edges(self) -> tuple[int, int]:
+        """Most edges in an entry, with those from and to the idle word: of one channel, and of all channels together.
+
+        For a bank whose parameters do not say, the most that an emission can have.
+        """
+        reported = self.header.parameters.get("channel_edges"), self.header.parameters.get("all_edges")
+        most = self.samples + 1
+        channel, together = (edges if type(edges) is int and edges >= 0 else None for edges in reported)
+        return most if channel is None else channel, CHANNELS * most if together is None else together

@@ -1,0 +1,294 @@
+"""Boards: everything about one panel, from `boards/<name>/board.toml` to frozen, checked records.
+
+Files use mm and ms; properties return SI units. An unknown key, a wrong type or an impossible value is a ConfigError that
+names file, key and value. The reference for users (reference.md) is generated from these records and their docstrings.
+"""
+
+from __future__ import annotations
+
+import operator
+import os
+import tomllib
+from collections.abc import Collection, Sequence
+from contextlib import suppress
+from functools import cache, reduce
+from importlib import import_module
+from pathlib import Path
+from typing import Annotated, Any, cast
+
+import msgspec
+from msgspec import Meta
+
+from controller.device.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
+from controller.device.board.lookup import board_places, find_board, in_system_folder
+from controller.device.board.panel import Actuator, BankSettings, Compose, Driver, Limits, Plate, Waveform
+from controller.device.board.patches import Patches
+from controller.device.board.records import Record, as_record, read_tables
+from controller.device.board.relations.checked import judge
+from controller.device.board.relations.panel import PLACES
+from controller.device.board.relations.relation import Relation
+from controller.device.board.touch_panels import TouchPanel, touch_record, touch_records
+from controller.errors import ConfigError
+
+LATER_KEYS = {"layers": (), "damping": None}  # of the plate: where left out, they are not part of the digest
+SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
+
+
+class Board(Record, frozen=True):
+    """One panel: the whole board.toml. Names of scenes and recordings are relative to its folder.
+
+    Attributes
+    ----------
+    name
+        Name of the board: lower case letters, digits, - and _.
+    scene
+        Scene that is played unless another is asked for: a name beside board.toml, or a path.
+    plate
+        The plate.
+    actuators
+        The piezo patches; each channel at most once, each patch on the plate and none on another.
+    driver
+        The driver stages.
+    waveform
+        The waveform of one emission.
+    bank
+        The bank of precomputed waveforms.
+    compose
+        Left out: as `bank` says.
+    touch
+        The touch panel.
+    link
+        The link to the FPGA.
+    limits
+        Limits.
+    patches
+        Left out: the patches neither weigh anything nor stiffen the plate.
+    temperature
+        Left out: the plate is taken to be as warm as the bank assumes.
+    gateware
+        Left out: an FPGA with another gateware is refused.
+    realtime
+        Left out: the defaults.
+    application_socket
+        Left out: there is no socket.
+    idle_disarm_s
+        After so long without a touch, a command or a fixed emitter the outputs ramp to 0 V, and nothing is sent to the FPGA until
+        the next touch or command, felt a ramp later. A scene with a region that has `keep_armed` stays armed. Left out: never.
+    folder
+        Folder of the board.toml; set on reading, not a key of the file.
+    """
+
+    name: Annotated[str, Meta(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}\Z")]
+    scene: str
+    plate: Plate
+    actuators: tuple[Actuator, ...]
+    driver: Driver
+    waveform: Waveform
+    bank: BankSettings
+    touch: TouchPanel
+    link: LinkSettings
+    limits: Limits
+    temperature: Temperature | None = None
+    gateware: GatewareLoading | None = None
+    realtime: Realtime = Realtime()
+    application_socket: ApplicationSocket | None = None
+    idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None
+    compose: Compose = Compose()
+    patches: Patches | None = None
+    folder: Path = msgspec.field(default_factory=Path)
+
+    @property
+    def called(self) -> str:
+        """Value for --board that finds this board: the name of its folder where boards are looked up, else the folder's path."""
+        found = next((place / self.key for place in board_places() if (place / self.key / "board.toml").is_file()), None)
+        return self.key if found is not None and found.resolve() == self.folder.resolve() else str(self.folder)
+
+    @property
+    def key(self) -> str:
+        """Name of its folder, which also names its bank: a copy of a board keeps the board's `name` but not its key."""
+        return Path(os.path.abspath(self.folder)).name or self.name  # noqa: PTH100 - a symbolic link keeps its name
+
+    @property
+    def bitstream(self) -> str:
+        """File that its FPGA is loaded with: as board.toml names it, else after its folder."""
+        named = self.gateware.bitstream if self.gateware is not None else None
+        return named or f"{self.key}.bit"
+
+    @property
+    def is_the_systems(self) -> bool:
+        """Whether its folder is in /etc, where the service looks for its board."""
+        return in_system_folder(Path(os.path.abspath(self.folder)))  # noqa: PTH100
+
+    def beside(self, name: str) -> Path:
+        """Path of a file that this board names, relative to its folder.
+
+        A name such as `../simulated/scene.toml` is also looked up beside the boards of the other places, so that a copy of a
+        board still finds the files of the board beside which the original was. The file need not exist.
+        """
+        file = self.folder / name
+        if file.exists() or Path(name).parts[:1] != ("..",):
+            return file
+        elsewhere = (place / Path(*Path(name).parts[1:]) for place in board_places())
+        return next((other for other in elsewhere if other.exists()), file)
+
+    @property
+    def idle_word(self) -> int:
+        """Drive word of the idle levels: bit q is the level of channel q."""
+        return sum(a.idle << a.channel for a in self.actuators)
+
+    @property
+    def channel_mask(self) -> int:
+        """Drive word with the bit of every channel that has an actuator."""
+        return sum(1 << a.channel for a in self.actuators)
+
+    @property
+    def bit_period(self) -> int:
+        """Time for which one drive word is output, in 65536ths of a tick of the FPGA."""
+        return round(self.link.clock_hz / self.waveform.bit_clock_hz * 65536)
+
+    @property
+    def bit_ticks(self) -> int:
+        """Time for which one drive word is output, in whole ticks of the FPGA."""
+        return round(self.link.clock_hz / self.waveform.bit_clock_hz)
+
+    @property
+    def emission_ticks(self) -> int:
+        """Length of an emission in ticks of the FPGA."""
+        return self.waveform.samples * self.bit_period >> 16
+
+    def period_ticks(self, period_s: float) -> int:
+        """Period of repeated emissions in ticks; one that differs from the emission's length by a tick of rounding equals it."""
+        ticks = round(period_s * self.link.clock_hz)
+        return self.emission_ticks if abs(ticks - self.emission_ticks) <= 1 else ticks
+
+    def digest(self) -> bytes:
+        """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform, patches."""
+        plate = msgspec.to_builtins(self.plate)
+        for key, left_out in LATER_KEYS.items():
+            if getattr(self.plate, key) == left_out:
+                del plate[key]
+        tables = (plate, self.actuators, self.driver, self.waveform, *([self.patches] if self.patches else []))
+        return sha256(msgspec.json.encode(tables))  # keys in the order of the records
+
+
+def sha256(data: bytes) -> bytes:
+    """Digest of `data`, without loading OpenSSL where Python has its own."""
+    for name in SHA256:
+        with suppress(ImportError):
+            return bytes(import_module(name).sha256(data).digest())
+    raise AssertionError("every Python has hashlib")
+
+
+def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
+    """Read and check a board.toml.
+
+    Parameters
+    ----------
+    path : Path
+        The file, or the folder that holds it.
+    without : collection of Relation
+        Relations between keys that it need not keep: a command that mends these keys has to read them first.
+
+    Raises
+    ------
+    ConfigError
+        Naming file, key and value; all keys that are missing or unknown, and all relations that refuse (`relations`).
+    """
+    file = path / "board.toml" if path.is_dir() else path
+    board = as_board(f"{file}: ", read_tables(file))
+    if refused := judge(board, without).refused:
+        raise ConfigError(f"{file}: {'; '.join(refused)}")
+    return msgspec.structs.replace(board, folder=file.parent)
+
+
+def as_board(before: str, tables: dict[str, Any]) -> Board:
+    """Convert the tables of a board.toml to a board, by the record of its kind of touch panel.
+
+    Parameters
+    ----------
+    before : str
+        Start of an error message.
+
+    Raises
+    ------
+    ConfigError
+        As of `as_record`.
+    """
+    touch = tables.get("touch")
+    record = touch_record(touch.get("kind")) if isinstance(touch, dict) else None
+    found = as_record(before, tables, board_file((record,) if record else touch_records()))
+    return Board(**{name: getattr(found, name) for name in Board.__struct_fields__})
+
+
+@cache
+def board_file(panels: tuple[type[TouchPanel], ...]) -> type[Board]:
+    """The record of a board.toml whose touch panel is one of these."""
+    own: dict[str, Any] = {"touch": reduce(operator.or_, panels)}
+    as_it_is: Any = msgspec.field
+    made = msgspec.defstruct(
+        "Board",
+        [  # all of them, as one that is declared again goes behind the others
+            (one.name, own.get(one.name, one.type), as_it_is(default=one.default, default_factory=one.default_factory))
+            for one in msgspec.structs.fields(Board)
+        ],
+        bases=(Board,),
+        namespace={"__doc__": Board.__doc__},
+        module=__name__,
+        frozen=True,
+        kw_only=True,
+        forbid_unknown_fields=True,
+    )
+    return cast(type[Board], made)
+
+
+def on_other_plate(board: Board, given: Sequence[str]) -> Board:
+    """The board on the plate that a command line asks for.
+
+    Parameters
+    ----------
+    given : sequence of str
+        A board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such board, key or value, or the patches do not fit on that plate.
+    """
+    keys: dict[str, Any] = {}
+    for text in given:
+        key, equals, value = text.partition("=")
+        if not equals or Path(text).exists():
+            board = on_plate_of(board, load_board(Path(text) if Path(text).is_file() else find_board(text)))
+            continue
+        try:
+            keys[key.strip()] = tomllib.loads(f"value = {value}")["value"]
+        except ValueError:
+            keys[key.strip()] = value.strip()
+    if keys:
+        there = {name: kept for name, kept in msgspec.to_builtins(board.plate).items() if kept is not None}
+        board = msgspec.structs.replace(board, plate=as_record("--plate: ", there | keys, Plate))
+    if refused := [said for relation in PLACES for said in relation.broken(board)]:
+        raise ConfigError(f"--plate: {'; '.join(refused)}")
+    return board
+
+
+def on_plate_of(board: Board, real: Board) -> Board:
+    """The board on another one's plate: with its plate, patches and driver, but with what the host plays and the idle levels.
+
+    Raises
+    ------
+    ConfigError
+        If the other one's patches are of other channels.
+    """
+    idle = {actuator.channel: actuator.idle for actuator in board.actuators}
+    if set(idle) != {actuator.channel for actuator in real.actuators}:
+        raise ConfigError(f"{real.folder / 'board.toml'}: the patches are of other channels than those of board {board.name!r}")
+    patches = tuple(msgspec.structs.replace(patch, idle=idle[patch.channel]) for patch in real.actuators)
+    return msgspec.structs.replace(
+        board, name=real.name, plate=real.plate, actuators=patches, driver=real.driver, patches=real.patches
+    )
+
+
+def simulated(board: Board) -> Board:
+    """The same board with simulated gateware instead of its FPGA."""
+    return msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, kind="simulated"))

@@ -1,0 +1,147 @@
+"""The FPGA behind a board's top.v: fpga.toml, from which `haptic-panel gateware build` knows how its bitstream is made."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Annotated, Literal, NamedTuple
+
+from msgspec import Meta
+
+from controller.device.board.board import Board
+from controller.device.board.lookup import board_places, find_board
+from controller.device.board.records import Record, load_toml
+from controller.errors import ConfigError
+
+FILE = "fpga.toml"
+TOP = "top.v"
+
+Name = Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]+\Z")]
+
+
+class Family(NamedTuple):
+    """What goes with a family of FPGAs.
+
+    Attributes
+    ----------
+    devices, example : str
+        Pattern of its sizes, and one.
+    pins : str
+        Ending of the files of pins.
+    speeds : bool
+        Whether it has speed grades beside its sizes.
+    """
+
+    devices: str
+    example: str
+    pins: str
+    speeds: bool
+
+
+FAMILIES = {
+    "ecp5": Family(r"(um5?g?-)?(12k|25k|45k|85k)", "25k", ".lpf", speeds=True),
+    "ice40": Family(r"(lp|hx|up|u)\d+k?", "hx8k", ".pcf", speeds=False),
+}
+PLL = re.compile(r"localparam \[31:0\] PLL_HZ *= *32'd([\d_]+);")
+BAUD = re.compile(r"\.BAUD\(([\d_]+)\)")
+
+
+class FpgaPart(Record, frozen=True, kw_only=True):
+    """The whole fpga.toml.
+
+    Attributes
+    ----------
+    family
+        Which of nextpnr's programs places it.
+    devices
+        Sizes that fit the board with the same pins, as nextpnr calls them; the first is built unless another is asked for.
+    package
+        Its package, as nextpnr calls it.
+    speed
+        Speed grade; left out where the family has none.
+    constraints
+        File with its pins, beside this one.
+    seed
+        Of nextpnr's placement: one that is known to meet the clock.
+    """
+
+    family: Literal["ecp5", "ice40"]
+    devices: Annotated[tuple[Name, ...], Meta(min_length=1)]
+    package: Name
+    speed: Annotated[int, Meta(ge=1, le=9)] | None = None
+    constraints: Annotated[str, Meta(pattern=r"^[\w-]+\.(lpf|pcf)\Z")]
+    seed: Annotated[int, Meta(ge=1)] = 1
+
+    def __post_init__(self) -> None:
+        family = FAMILIES[self.family]
+        for device in self.devices:
+            if not re.fullmatch(family.devices, device):
+                raise ValueError(f"devices: {device!r} is no size of family {self.family!r}, such as {family.example!r}")
+        if not self.constraints.endswith(family.pins):
+            raise ValueError(f"constraints = {self.constraints!r}: pins of family {self.family!r} are in a file {family.pins}")
+        if self.speed is not None and not family.speeds:
+            raise ValueError(
+                f"speed = {self.speed}: the sizes of family {self.family!r} have their speed in the name; leave it out"
+            )
+
+
+def load_part(folder: Path) -> FpgaPart:
+    """Read the fpga.toml of a board.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the board.
+
+    Raises
+    ------
+    ConfigError
+        If it has none, or an invalid one; the message lists boards that have one.
+    """
+    if not (folder / FILE).is_file():
+        known = sorted({file.parent.name for place in board_places() for file in place.glob(f"*/{FILE}")})
+        raise ConfigError(
+            f"{folder}: has no {FILE}, so no gateware of its own; give the board whose top.v it uses: --top {' or '.join(known)}"
+        )
+    return load_toml(folder / FILE, FpgaPart)
+
+
+def find_part(board: Path, top: str | None) -> tuple[Path, FpgaPart]:
+    """Folder of top.v and pins for a board, and what they are for.
+
+    Parameters
+    ----------
+    board : Path
+        Folder of the board.
+    top : str, optional
+        Name or folder of the board whose top.v is built in its place.
+    """
+    folder = find_board(top) if top else board
+    part = load_part(folder)
+    for name in (TOP, part.constraints):
+        if not (folder / name).is_file():
+            raise ConfigError(f"{folder / FILE}: there is no {name} beside it")
+    return folder, part
+
+
+def check_top(board: Board, top: Path) -> None:
+    """Refuse a board whose clock or baud rate are not those of a top.v, before minutes of work.
+
+    Parameters
+    ----------
+    top : Path
+        Folder of the top.v.
+
+    Raises
+    ------
+    ConfigError
+    """
+    text = (top / TOP).read_text(encoding="utf-8", errors="replace")
+    link = board.link
+    wanted = [("clock_hz", link.clock_hz, PLL)] + ([("baud", link.baud, BAUD)] if link.kind == "serial" else [])
+    for key, value, written in wanted:
+        found = written.search(text)
+        if found and int(found[1].replace("_", "")) != value:
+            raise ConfigError(
+                f"{board.folder / 'board.toml'}: link.{key} = {value}, but {top / TOP} makes {found[1]}: set the same"
+            )

@@ -1,0 +1,1 @@
+"""Keys of board.toml that belong together: what each relation refuses or warns of."""

@@ -1,0 +1,48 @@
+"""The list of relations between the keys of a board.toml, and the verdict on a board.
+
+`load_board` refuses what breaks a relation that refuses, and so does every command; `board check`, `bank build`, `run`,
+`gateware build` and `doctor` also say what is odd. What makes a single table meaningless, such as a band upside down, is refused
+by its record.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING, NamedTuple
+
+from controller.device.board.relations import devices as device_relations
+from controller.device.board.relations import limits as limit_relations
+from controller.device.board.relations import panel as panel_relations
+from controller.device.board.relations import plate as plate_relations
+from controller.device.board.relations import stage as stage_relations
+
+if TYPE_CHECKING:
+    from controller.device.board.board import Board
+    from controller.device.board.relations.relation import Relation
+
+PARTS = (panel_relations, plate_relations, limit_relations, stage_relations, device_relations)
+RELATIONS = tuple(relation for part in PARTS for relation in part.RELATIONS)
+
+
+class BoardProblems(NamedTuple):
+    """What is wrong with a board as a whole, one line each.
+
+    Attributes
+    ----------
+    refused : tuple of str
+        Unsafe or impossible.
+    odd : tuple of str
+        Works, but hardly as it is meant.
+    """
+
+    refused: tuple[str, ...]
+    odd: tuple[str, ...]
+
+
+def judge(board: Board, without: Collection[Relation] = ()) -> BoardProblems:
+    """Check all relations of a board, but for those `without` which it is to be mended."""
+    found: dict[bool, list[str]] = {True: [], False: []}
+    for relation in RELATIONS:
+        if relation not in without:
+            found[relation.refuses] += relation.broken(board)
+    return BoardProblems(tuple(found[True]), tuple(found[False]))

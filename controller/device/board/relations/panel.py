@@ -1,0 +1,206 @@
+"""Relations of patches, drivers and bank: places and channels of the patches, what the driver passes, the bank's cells."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from controller.device.board.panel import CHANNELS
+from controller.device.board.patches import TOUCHING_MM, discs
+from controller.device.board.relations.bending_waves import bending_wavelength_m
+from controller.device.board.relations.relation import refuses, warns
+from controller.device.board.relations.stage_heat import passed
+
+if TYPE_CHECKING:
+    from controller.device.board.board import Board
+
+LARGEST_PATCH = 0.75  # of the shortest wave: one of a whole wave does not drive it at all
+LEAST_PASSED = 0.5  # of the stage's voltage, in the middle of the band
+VACUUM_F_M = 8.854e-12
+CERAMIC = (500.0, 4000.0)  # relative permittivity of piezo ceramics, hard to soft
+CERAMIC_MM = (0.05, 3.0)  # thickness that is made
+BANK_BYTES = 44.1  # of a cell, for each sample: drive words as frames, and responses
+LARGEST_BANK_BYTES = 4e9
+
+
+def coarse(board: Board, pitch_mm: float) -> Iterator[str]:
+    """Why a pitch is too coarse: above half the wavelength of the band's highest frequency, unless `bank.coarse` accepts it."""
+    half_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz) / 2
+    if pitch_mm * 1e-3 > half_m and not board.bank.coarse:
+        yield (
+            f"pitch_mm = {pitch_mm:g} is above {math.floor(half_m * 1e5) / 100:g} mm, half a wavelength of the plate at"
+            f" waveform.band_high_hz = {board.waveform.band_high_hz:g}: fingers between cells would lose part of their amplitude"
+            " or all of it; choose a smaller pitch (bank.coarse = true builds it all the same)"
+        )
+
+
+@refuses("`actuators`")
+def _count(board: Board) -> Iterator[str]:
+    """There are 1 to 32."""
+    if not 1 <= len(board.actuators) <= CHANNELS:
+        yield f"actuators are {len(board.actuators)}; a board has 1 to {CHANNELS} channels"
+
+
+@refuses("`actuators.channel`")
+def _channels(board: Board) -> Iterator[str]:
+    """No two patches share a channel."""
+    first: dict[int, int] = {}
+    for index, actuator in enumerate(board.actuators):
+        if first.setdefault(actuator.channel, index) != index:
+            yield f"actuators[{index}].channel = {actuator.channel} is taken by actuators[{first[actuator.channel]}] already"
+
+
+@refuses("`actuators.x_mm`, `y_mm`, `size_mm`, `plate.length_mm`, `width_mm`")
+def _on_plate(board: Board) -> Iterator[str]:
+    """Each patch lies on the plate."""
+    for index, a in enumerate(board.actuators):
+        for axis, value, extent in (("x_mm", a.x_mm, board.plate.length_mm), ("y_mm", a.y_mm, board.plate.width_mm)):
+            if not a.size_mm / 2 <= value <= extent - a.size_mm / 2:
+                yield f"actuators[{index}].{axis} = {value} puts the patch off the plate (0 to {extent} mm)"
+
+
+@refuses("`actuators.x_mm`, `y_mm`, `size_mm`")
+def _apart(board: Board) -> Iterator[str]:
+    """No patch lies on another."""
+    for index, a in enumerate(board.actuators):
+        for other, b in enumerate(board.actuators[:index]):
+            apart_mm = max(abs(a.x_mm - b.x_mm), abs(a.y_mm - b.y_mm))
+            if apart_mm < (a.size_mm + b.size_mm) / 2 - TOUCHING_MM:
+                yield (
+                    f"actuators[{index}] lies on actuators[{other}]: their centres are {apart_mm:g} mm apart along x or y, less"
+                    f" than half of their sizes together, {(a.size_mm + b.size_mm) / 2:g} mm"
+                )
+                return  # piled patches lie on each other in hundreds of pairs
+
+
+@refuses("`patches`, `actuators`, `plate`")
+def _patches(board: Board) -> Iterator[str]:
+    """What is glued to the plate lies on it, and not on each other."""
+    try:
+        if board.patches is not None:
+            board.patches.on(board.plate, board.actuators)
+    except ValueError as error:
+        yield str(error)
+
+
+@warns("`actuators.idle`")
+def _idle(board: Board) -> Iterator[str]:
+    """Half of the patches of each disc idle high, so that steps cancel."""
+    levels = [actuator.idle for actuator in board.actuators]
+    why = "the steps between idle and playing do not cancel, and a single emission has half the contrast"
+    advice = "let half of the patches of each disc idle high, as a checkerboard"
+    if len(set(levels)) == 1 and len(levels) > 1:
+        yield f"actuators: all {len(levels)} have idle = {levels[0]}: {why}; {advice}"
+        return
+    for group in discs(board.actuators):
+        high = sum(actuator.idle for actuator in group)
+        if abs(2 * high - len(group)) > len(group) % 2:
+            channels = ", ".join(str(actuator.channel) for actuator in group)
+            yield (
+                f"actuators: {high} of the {len(group)} patches of one disc (channels {channels}) have idle = 1: {why}; {advice}"
+            )
+            return
+
+
+@warns("`actuators.size_mm`, `plate`, `waveform.band_high_hz`")
+def _patch_size(board: Board) -> Iterator[str]:
+    """A patch is below 0.75 of the shortest wave."""
+    wave_mm = bending_wavelength_m(board.plate, board.waveform.band_high_hz) * 1e3
+    size_mm = max((actuator.size_mm for actuator in board.actuators), default=0.0)
+    if size_mm > LARGEST_PATCH * wave_mm:
+        yield (
+            f"actuators: a patch of size_mm = {size_mm:g} is {size_mm / wave_mm:.2g} of the wave of {wave_mm:.3g} mm at"
+            f" waveform.band_high_hz = {board.waveform.band_high_hz:g}, which it hardly drives: make patches smaller than half of"
+            " it, or take a lower band"
+        )
+
+
+@warns("`driver.capacitance_f`, `actuators.size_mm`")
+def _capacitance(board: Board) -> Iterator[str]:
+    """A patch is of a thickness that is made."""
+    for size_mm in sorted({actuator.size_mm for actuator in board.actuators}):
+        thin_mm, thick_mm = (1e3 * VACUUM_F_M * of * (size_mm * 1e-3) ** 2 / board.driver.capacitance_f for of in CERAMIC)
+        if thick_mm < CERAMIC_MM[0] or thin_mm > CERAMIC_MM[1]:
+            yield (
+                f"driver.capacitance_f = {board.driver.capacitance_f:g} in a patch of actuators.size_mm = {size_mm:g} is ceramic"
+                f" {thin_mm:.2g} to {thick_mm:.2g} mm thick, which is not made ({CERAMIC_MM[0]:g} to {CERAMIC_MM[1]:g} mm):"
+                " measure one patch"
+            )
+            return
+
+
+@warns("`driver`, `waveform.band_low_hz`, `band_high_hz`")
+def _driver_band(board: Board) -> Iterator[str]:
+    """The stage's filter passes half in the band's middle."""
+    hz = board.waveform.middle_hz
+    share = passed(board.driver, hz)
+    if share < LEAST_PASSED:
+        d = board.driver
+        resonance_hz = 1 / (2 * math.pi * math.sqrt(d.inductance_h * d.capacitance_f))
+        yield (
+            f"driver: resistance_ohm = {d.resistance_ohm:g}, inductance_h = {d.inductance_h:g} and capacitance_f ="
+            f" {d.capacitance_f:g} pass {share:.2g} of the stage's voltage at {hz:g} Hz, the middle of the band: a filter of"
+            f" {resonance_hz:.3g} Hz; match them to waveform.band_low_hz and band_high_hz"
+        )
+
+
+@refuses("`bank.pitch_mm`, `plate`, `waveform.band_high_hz`")
+def _pitch(board: Board) -> Iterator[str]:
+    """Cells are at most half a wave apart, unless `bank.coarse`."""
+    if board.compose.method == "bank":
+        yield from (f"bank.{why}" for why in coarse(board, board.bank.pitch_mm))
+
+
+@refuses("`bank.pitch_mm`, `plate.length_mm`, `width_mm`")
+def _cells(board: Board) -> Iterator[str]:
+    """There is a cell."""
+    half_mm = min(board.plate.length_mm, board.plate.width_mm) / 2
+    if board.compose.method == "bank" and board.bank.pitch_mm > half_mm:
+        yield (
+            f"bank.pitch_mm = {board.bank.pitch_mm:g} leaves no cell: it is above half of the plate's shorter side, {half_mm:g} mm"
+        )
+
+
+@warns("`bank.snap_mm`, `pitch_mm`")
+def _snap(board: Board) -> Iterator[str]:
+    """Some places between cells are interpolated."""
+    bank = board.bank
+    if board.compose.method == "bank" and bank.snap_mm > bank.pitch_mm * 0.5**0.5:
+        yield (
+            f"bank.snap_mm = {bank.snap_mm:g} reaches every place between cells of bank.pitch_mm = {bank.pitch_mm:g}: no lone"
+            f" finger is ever interpolated, and it loses most half a pitch away; set it below {bank.pitch_mm / 2:g}"
+        )
+
+
+@warns("`bank.pitch_mm`, `plate`, `waveform.duration_ms`")
+def _bank_size(board: Board) -> Iterator[str]:
+    """A bank of the whole plate has at most 4 GB."""
+    pitch_mm = board.bank.pitch_mm
+    cells = board.plate.length_mm * board.plate.width_mm / pitch_mm**2
+    size_bytes = cells * board.waveform.samples * BANK_BYTES
+    if board.compose.method == "bank" and size_bytes > LARGEST_BANK_BYTES:
+        least_mm = pitch_mm * (size_bytes / LARGEST_BANK_BYTES) ** 0.5
+        yield (
+            f"bank.pitch_mm = {pitch_mm:g} on plate.length_mm = {board.plate.length_mm:g} and width_mm = {board.plate.width_mm:g}"
+            f" is a bank of {size_bytes / 1e9:.3g} GB, more than a device maps with ease: take a pitch of {least_mm:.2g} mm, or"
+            " build it for a scene (bank build --scene)"
+        )
+
+
+PLACES = (_count, _channels, _on_plate, _apart, _patches)  # of patches on a plate: what any plate must keep, whatever plays on it
+RELATIONS = (
+    _count,
+    _channels,
+    _on_plate,
+    _apart,
+    _patches,
+    _idle,
+    _patch_size,
+    _capacitance,
+    _driver_band,
+    _pitch,
+    _cells,
+    _snap,
+    _bank_size,
+)

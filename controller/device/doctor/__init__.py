@@ -1,0 +1,1 @@
+"""Examinations of a device: its files, devices, link, FPGA and updates."""

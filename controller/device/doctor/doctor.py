@@ -1,0 +1,300 @@
+"""Checks of a panel for `haptic-panel doctor`: each device, file and permission that the board needs, and what to do."""
+
+from __future__ import annotations
+
+import math
+import os
+import pwd
+import resource
+import stat
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import msgspec
+
+from controller.device.bank.inspection import wrong_pitch
+from controller.device.bank.lookup import find_bank
+from controller.device.bank.reader import Bank
+from controller.device.board.board import Board
+from controller.device.board.devices import LinkSettings, Realtime
+from controller.device.board.panel_status import FOLDER, NAME, read_now
+from controller.device.board.paths import SERVICE, service_user
+from controller.device.board.relations.checked import judge
+from controller.device.board.touch_panels import DrivenPanel, I2cTouch, SerialTouch, TouchPanel
+from controller.device.doctor.finding import Finding
+from controller.device.doctor.raspberry_pi import look_at_pi
+from controller.device.fpga.frames import UPLOAD_BYTES
+from controller.device.fpga.links.link import Link
+from controller.device.scene.scene import load_scene
+from controller.device.scene.scene_file import find_scene
+from controller.device.service.drivers import open_link, open_panel, recording_path
+from controller.device.service.installation import missing_package
+from controller.device.service.scenes.prepare_scene import populate
+from controller.device.touch.panels.linux_input import LinuxInputTouch
+from controller.device.touch.recordings.recording import Recording
+from controller.device.touch.reports import FAULTS, describe_warnings
+from controller.errors import BankError, ConfigError, ControllerError, LinkError
+from controller.programs import ProgramError, run_program
+
+MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and the waveforms of a scene
+
+ASK_S = 10.0  # for an answer of systemd
+NOT_SHARED = "no other program on this machine gets its touches; [touch] share = true hands them on"
+
+
+@dataclass(frozen=True, slots=True)
+class _Allowed:
+    """Limits of a user: highest real-time priority, and memory that may be locked, in bytes."""
+
+    whose: str
+    priority: float
+    memory_bytes: float
+
+
+def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
+    """Check everything that a board needs, without outputs and without disturbing a running service.
+
+    For the service's board, its user checks with the limits of the unit; what root calls runs as that user (systemd/haptic-panel).
+
+    Parameters
+    ----------
+    now_s : callable
+        The host's clock.
+    """
+    link = board.link
+    service = service_user() if board.is_the_systems else None
+    as_the_service = service is not None and service.pw_uid == os.geteuid()
+    checks: list[tuple[str, Callable[[], str | Finding]]] = [("user", lambda: _user(board, as_the_service=as_the_service))]
+    if link.kind == "spi":
+        checks += [
+            ("SPI device", lambda: _node(link.device)),
+            ("spidev buffer", _buffer),
+            ("GPIO lines", lambda: _lines(link)),
+        ]
+    elif link.kind == "serial":
+        checks.append(("serial port", lambda: _opened(open_link(board, now_s), link.device)))
+    checks += [("touch panel", lambda: _touch(board, now_s)), ("scene", lambda: _scene(board)), ("bank", lambda: _bank(board))]
+    if board.temperature is not None:
+        checks.append(("temperature", lambda: _temperature(board)))
+    if link.kind != "simulated":
+        checks.append(("responses", lambda: _responses(board)))
+        allowed = _unit_allows if as_the_service else _this_process_may
+        checks += [
+            ("priority", lambda: _priority(board.realtime, allowed())),
+            ("locked memory", lambda: _memory(board.realtime, allowed())),
+        ]
+    findings = [Finding("board.toml", True, odd, warns=True) for odd in judge(board).odd]
+    findings += [*(_tried(about, check) for about, check in checks), *look_at_pi(board)]
+    return [finding for finding in findings if finding.good or finding.about != "responses"]  # an invalid bank is reported once
+
+
+def _tried(about: str, check: Callable[[], str | Finding]) -> Finding:
+    try:
+        found = check()
+        return found if isinstance(found, Finding) else Finding(about, True, found)
+    except (ControllerError, OSError) as error:
+        return Finding(about, False, str(error))
+    except ModuleNotFoundError as error:
+        return Finding(about, False, missing_package(error.name) or f"{error}: may this user read where it is installed?")
+
+
+def _user(board: Board, *, as_the_service: bool) -> str | Finding:
+    """User whose rights are checked."""
+    try:
+        name = pwd.getpwuid(os.geteuid()).pw_name
+    except KeyError:
+        name = str(os.geteuid())
+    said = f"looked at as {name}"
+    if as_the_service:
+        return f"{said}, as which the service runs"
+    if not board.is_the_systems:
+        return said
+    if service_user() is None:
+        raise ConfigError(f"there is no user {SERVICE}, as which the service runs: install it (systemd/README.md)")
+    return Finding("user", True, f"{said}; the service runs as {SERVICE}, and may do other things", warns=True)
+
+
+def _opened(link: Link, device: str) -> str:
+    link.close()
+    return f"{device} opens"
+
+
+def _node(device: str) -> str:
+    try:
+        mode = os.stat(device).st_mode  # noqa: PTH116 - os.stat takes the text as it is
+    except OSError as error:
+        raise LinkError(f"there is no {device} ({error.strerror}): switch SPI on, on a Raspberry Pi by dtparam=spi=on") from None
+    if not stat.S_ISCHR(mode):
+        raise LinkError(f"{device} is no device: was it made by hand?")
+    if not os.access(device, os.R_OK | os.W_OK, effective_ids=True):
+        raise LinkError(f"{device} may not be opened by this user: add it to the group that owns the device (on Debian: spi)")
+    return f"{device} may be opened"
+
+
+def _buffer() -> str:
+    from controller.device.fpga.links.spi_link import read_bufsiz
+
+    bufsiz = read_bufsiz()
+    if bufsiz >= 2 * UPLOAD_BYTES:
+        return f"{bufsiz} bytes: an upload is one message"
+    if bufsiz >= UPLOAD_BYTES:
+        return f"{bufsiz} bytes: an upload is two messages; with bufsiz={2 * UPLOAD_BYTES} it would be one"
+    raise LinkError(f"{bufsiz} bytes split an upload into many messages: put 'options spidev bufsiz=8192' into /etc/modprobe.d")
+
+
+def _lines(link: LinkSettings) -> str:
+    import gpiod
+
+    from controller.device.board.gpio_chip import find_chip, find_lines
+    from controller.device.fpga.links.gpio_lines import CONSUMER
+
+    path = find_chip(link.gpio_chip, LinkError)
+    wanted = [line for line in (link.trigger_line, link.configured_line, link.permit_line) if line]
+    with gpiod.Chip(str(path)) as chip:
+        for line, number in find_lines(chip, link.gpio_chip, wanted, LinkError).items():
+            info = chip.get_line_info(number)
+            if info.used and info.consumer != CONSUMER:
+                raise LinkError(f"line {line!r} is in use by {info.consumer or 'the kernel'}: end it, or choose another line")
+    return f"{', '.join(wanted)} on {link.gpio_chip}"
+
+
+def _touch(board: Board, now_s: Callable[[], float]) -> str | Finding:
+    touch = board.touch
+    if not touch.has_device:
+        return f"recording {Recording.open(recording_path(board, None)).name}"
+    if isinstance(touch, LinuxInputTouch):
+        board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
+    if isinstance(touch, I2cTouch | SerialTouch) and (served := _served(board)):
+        return served  # its devices are the service's alone
+    panel = open_panel(board)
+    try:
+        panel.read(now_s())  # a first look, also at the lines
+        faults = [panel.description.remark, *describe_warnings({kind: panel.warnings[kind] for kind in FAULTS})]
+    finally:
+        panel.close()
+    hindered = _not_handed_on(touch)
+    said = [f"{touch.__struct_config__.tag} answers", *filter(None, [*faults, hindered])]
+    warns = len(said) > 1
+    if not hindered:
+        said += _sharing(touch)
+    if touch.no_finger_mm:
+        said.append(f"no finger in {len(touch.no_finger_mm)} rectangles of the plate")
+    if isinstance(touch, I2cTouch):
+        said.append(
+            f"whether line {touch.interrupt_line!r} announces reports shows when it is touched: `haptic-panel status`"
+            if touch.interrupt_line
+            else "polled, as the board names no interrupt line"
+        )
+    return Finding("touch panel", True, "; ".join(said), warns=warns)
+
+
+def _sharing(touch: TouchPanel) -> list[str]:
+    """Whether other programs get the panel's touches, if it is for the board to say."""
+    if not isinstance(touch, DrivenPanel):
+        return []  # the kernel gives them
+    return ["its contacts are handed on" if touch.share else NOT_SHARED]
+
+
+def _not_handed_on(touch: TouchPanel) -> str:
+    """Why contacts that the board shares would not be handed on; empty: they would."""
+    if not (isinstance(touch, DrivenPanel) and touch.share):
+        return ""
+    from controller.device.touch.drivers.screen import why_not
+
+    reason = why_not()
+    return reason and f"touch.share: its contacts are not handed on to other programs: {reason}"
+
+
+def _served(board: Board) -> Finding | None:
+    """What the running service has found of the board's touch panel; None if no service has this panel now."""
+    status, old = read_now(FOLDER / NAME)
+    if status is None or old or status.board != board.name or not status.panel_present:
+        return None
+    counts = {kind: status.touch_warnings.get(kind, 0) for kind in FAULTS}
+    faults = [status.touch_remark, *describe_warnings(counts)]
+    said = ["read by the running service", *filter(None, faults)]
+    sharing = [] if status.touch_remark else _sharing(board.touch)  # why it is not shared stands there
+    return Finding("touch panel", True, "; ".join([*said, *sharing]), warns=len(said) > 1)
+
+
+def _scene(board: Board) -> str:
+    file = find_scene(board)
+    load_scene(file, board)
+    return str(file)
+
+
+def _bank(board: Board) -> str:
+    found, scene_file = find_bank(board), find_scene(board)
+    path = found.path
+    with Bank.open(path, board) as bank:
+        if wrong := wrong_pitch(bank, board):
+            raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
+        cells = populate(bank, load_scene(scene_file, board), str(scene_file), responses=True)
+    return f"{path}, {cells:,} cells of the scene; {found.why}"
+
+
+def _responses(board: Board) -> str | Finding:
+    """Whether the bank was computed from measured or modelled responses."""
+    with Bank.open(find_bank(board).path) as bank:
+        provenance = bank.header.provenance
+    if provenance and provenance.from_measurements:
+        return f"the bank's responses are {provenance.in_words()}"
+    said = "the bank was computed from a model of the plate: it moves the panel, but a real one is not focused by it (README.md)"
+    return Finding("responses", True, said, warns=True)
+
+
+def _temperature(board: Board) -> str:
+    from controller.device.service.temperature import Thermometer
+
+    assert board.temperature is not None
+    thermometer = Thermometer(board.temperature)
+    thermometer.scale(0.0)
+    thermometer.close()
+    if thermometer.cause:
+        raise ConfigError(thermometer.cause)
+    return f"{thermometer.temperature_c:g} °C"
+
+
+def _this_process_may() -> _Allowed:
+    priority, memory_bytes = (
+        math.inf if os.geteuid() == 0 or soft == resource.RLIM_INFINITY else soft
+        for soft, _ in map(resource.getrlimit, (resource.RLIMIT_RTPRIO, resource.RLIMIT_MEMLOCK))
+    )
+    return _Allowed("this user", priority, memory_bytes)
+
+
+def _unit_allows() -> _Allowed:
+    """Limits of the service's unit, which are not those of a shell."""
+    names = ("LoadState", "LimitRTPRIO", "LimitMEMLOCK")
+    asked = ["systemctl", "show", *(f"--property={name}" for name in names), f"{SERVICE}.service"]
+    try:
+        said = run_program(asked, ASK_S, attempts=2).out
+    except ProgramError as error:
+        raise ConfigError(f"systemctl does not tell the limits of {SERVICE}.service ({error})") from None
+    reported = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
+    if reported.get("LoadState") != "loaded":
+        raise ConfigError(f"{SERVICE}.service is not installed (systemd/README.md)")
+    priority, memory_bytes = (math.inf if reported[name] == "infinity" else float(reported[name]) for name in names[1:])
+    return _Allowed("the unit", priority, memory_bytes)
+
+
+def _priority(realtime: Realtime, allowed: _Allowed) -> str:
+    if allowed.priority < realtime.priority:
+        raise ConfigError(
+            f"{allowed.whose} may ask for {allowed.priority:g}, the board for {realtime.priority}:"
+            " LimitRTPRIO= in the unit, or limits.conf"
+        )
+    if realtime.cpu is not None and realtime.cpu not in os.sched_getaffinity(0):
+        raise ConfigError(f"there is no core {realtime.cpu} for this user: set realtime.cpu to one of those there are")
+    return f"SCHED_FIFO {realtime.priority} is permitted" if realtime.priority else "none is asked for"
+
+
+def _memory(realtime: Realtime, allowed: _Allowed) -> str:
+    if not realtime.lock_memory:
+        return "not asked for"
+    if allowed.memory_bytes < MEMORY_BYTES:
+        raise ConfigError(
+            f"{allowed.whose} may lock {int(allowed.memory_bytes) >> 20} MiB, the service needs {MEMORY_BYTES >> 20}:"
+            " LimitMEMLOCK= in the unit"
+        )
+    return "permitted"

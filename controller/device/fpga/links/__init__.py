@@ -1,0 +1,1 @@
+"""Links to the FPGA: SPI and UART, with their GPIO lines."""

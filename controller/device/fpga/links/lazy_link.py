@@ -1,0 +1,73 @@
+"""A link whose device may be absent when the service starts: the first message that finds the device opens it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from controller.device.fpga.links.link import Link
+from controller.errors import LinkError
+
+
+class LazyLink:
+    """`Link` that is opened by the first exchange for which the device is there.
+
+    Parameters
+    ----------
+    open_link : callable
+        Returns the open link, or raises LinkError.
+    now_s : callable
+        The loop's clock.
+    """
+
+    def __init__(self, open_link: Callable[[], Link], now_s: Callable[[], float]) -> None:
+        self._open = open_link
+        self._now_s = now_s
+        self._link: Link | None = None
+
+    @property
+    def bytes_sent(self) -> int:
+        """Bytes of frames sent since the link was opened."""
+        return self._link.bytes_sent if self._link is not None else 0
+
+    @property
+    def wire_ns(self) -> int:
+        """Time in ns that those bytes took on the wire."""
+        return self._link.wire_ns if self._link is not None else 0
+
+    @property
+    def blocked_ns(self) -> int:
+        """Time in ns spent inside the link."""
+        return self._link.blocked_ns if self._link is not None else 0
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """Send frames and store the answers; opens the link first if necessary. Parameters as in `Link.exchange`.
+
+        Raises
+        ------
+        LinkError
+            If the device is not there yet, or fails.
+        """
+        if self._link is None:
+            self._link = self._open()
+        self._link.exchange(sent, lengths, received)
+
+    def trigger(self) -> float:
+        """Pulse the trigger pin; returns the time of its edge in s, on the loop's clock.
+
+        Raises
+        ------
+        LinkError
+            If the link is not open yet.
+        """
+        if self._link is None:
+            raise LinkError("the link to the FPGA is not open yet")
+        return self._link.trigger()
+
+    def wire_free_s(self) -> float:
+        """When everything sent so far has left the wire, on the loop's clock; now, before the link is open."""
+        return self._link.wire_free_s() if self._link is not None else self._now_s()
+
+    def close(self) -> None:
+        """Release the device, if it was opened."""
+        if self._link is not None:
+            self._link.close()

@@ -1,0 +1,272 @@
+"""The device's link: SPI by spidev with one system call for each message; trigger and run permit by GPIO lines.
+
+Between the frames of a message chip select is high for 10 µs: the kernel's default (spi.c, cs_change_delay), which spidev cannot
+change.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import fcntl
+import os
+import re
+import struct
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Final
+
+import spidev
+
+from controller.device.board.devices import LinkSettings, divided_hz
+from controller.device.fpga.links.gpio_lines import GpioLines
+from controller.device.fpga.links.spi_messages import SpiMessages
+from controller.errors import LinkError
+
+BUFSIZ: Final = Path("/sys/module/spidev/parameters/bufsiz")
+BUFSIZ_DEFAULT: Final = 4096
+RD_BITS_PER_WORD: Final = 0x80016B03
+RD_MAX_SPEED_HZ: Final = 0x80046B04
+RD_MODE32: Final = 0x80046B05
+MODE: Final = 0  # SCK idle low, sampled on its rising edge; most significant bit first, chip select active low
+BITS_PER_WORD: Final = 8
+REMOVED: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.EBADF})  # the device was removed
+
+
+def read_bufsiz() -> int:
+    """Largest message that spidev accepts, in bytes."""
+    try:
+        return int(BUFSIZ.read_text())
+    except (OSError, ValueError):
+        return BUFSIZ_DEFAULT
+
+
+class SpiLink:
+    """`Link` to an FPGA on SPI, with its trigger and permit lines.
+
+    Parameters
+    ----------
+    settings : LinkSettings
+        Of kind "spi".
+    now_s : callable
+        The loop's clock.
+
+    Attributes
+    ----------
+    sck_hz : float
+        Actual SCK, computed from `settings.spi_source_hz` where that is given; otherwise the SCK that spidev was asked for.
+    wire_ns, blocked_ns : int
+        Both are the time spent in the kernel, which returns after the last bit.
+
+    Raises
+    ------
+    LinkError
+        If the device or a line is absent, in use or unsuitable, or the FPGA is not configured.
+    """
+
+    def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
+        self.bytes_sent = 0
+        self.wire_ns = 0
+        self.blocked_ns = 0
+        self.sck_hz = 0.0
+        self.bufsiz = read_bufsiz()
+        self._settings = settings
+        self._asked_hz = settings.sck_hz
+        self._now_s = now_s
+        self._free_s = now_s()
+        self._messages: SpiMessages | None = None
+        self._spi: spidev.SpiDev | None = self._opened()
+        try:
+            self.lines = GpioLines(settings, now_s)
+        except LinkError:
+            self._spi.close()
+            raise
+        if not self.lines.configured():
+            self.close()
+            raise LinkError(
+                f"the FPGA is not configured: its line {settings.configured_line!r} is low;"
+                " load the gateware, or look at its supply and its clock"
+            )
+        self.lines.permit(given=True)
+        self._permitted = True
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """Send frames and store the answers; parameters as in `Link.exchange`.
+
+        Raises
+        ------
+        LinkError
+            If the bus fails, or the device was removed; the next call opens it again. The run permit is withdrawn until
+            a message succeeds, since nothing else may reach the FPGA.
+        """
+        messages = self._messages
+        if messages is None or messages.sent is not sent or messages.received is not received:
+            messages = self._messages = SpiMessages(sent, received, self.bufsiz)
+        if self._spi is None:
+            self._spi = self._opened_again()
+        fd = self._spi.fileno()
+        pieces = messages.for_lengths(lengths)
+        started_ns = time.perf_counter_ns()
+        try:
+            for request, transfers, size in pieces:
+                fcntl.ioctl(fd, request, transfers)
+                self.bytes_sent += size
+            if not self._permitted:
+                self.lines.permit(given=True)
+                self._permitted = True
+        except OSError as error:
+            raise self._failure(error) from error
+        finally:
+            elapsed_ns = time.perf_counter_ns() - started_ns
+            self.wire_ns += elapsed_ns
+            self.blocked_ns += elapsed_ns
+            self._free_s = self._now_s()
+
+    def trigger(self) -> float:
+        """Pulse the trigger line; returns the time of its edge in s, on the loop's clock."""
+        return self.lines.pulse()
+
+    def wire_free_s(self) -> float:
+        """When the last message ended, on the loop's clock."""
+        return self._free_s
+
+    @property
+    def effective_hz(self) -> float:
+        """Mean bit rate in bit/s, including the kernel's time and the pauses between frames; 0 before the first message."""
+        return 8e9 * self.bytes_sent / self.wire_ns if self.wire_ns else 0.0
+
+    def set_sck_hz(self, sck_hz: int) -> float:
+        """Set SCK.
+
+        Parameters
+        ----------
+        sck_hz : int
+            At most the board's.
+
+        Returns
+        -------
+        float
+            Actual SCK in Hz.
+
+        Raises
+        ------
+        ValueError
+            If it is outside 1 to the board's.
+        LinkError
+            If the controller refuses it.
+        """
+        if not 0 < sck_hz <= self._settings.sck_hz:
+            raise ValueError(f"sck_hz = {sck_hz} is not 1 to the board's {self._settings.sck_hz}")
+        if self._spi is None:
+            self._spi = self._opened_again()
+        self._asked_hz = sck_hz
+        try:
+            self._set_speed(self._spi)
+        except OSError as error:
+            raise self._failure(error) from error
+        return self.sck_hz
+
+    def close(self) -> None:
+        """Withdraw the run permit and release the device."""
+        self.lines.close()
+        if self._spi is not None:
+            self._spi.close()
+            self._spi = None
+
+    def _opened(self) -> spidev.SpiDev:
+        """Open the device exclusively and read its settings back."""
+        device = self._settings.device
+        spi = spidev.SpiDev()
+        try:
+            spi.open(*_bus_and_select(device))
+        except OSError as error:
+            raise LinkError(_why_not_open(device, error)) from error
+        try:
+            fcntl.flock(spi.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)  # spidev itself does not refuse a second program
+            spi.lsbfirst = spi.cshigh = spi.threewire = spi.loop = spi.no_cs = False
+            spi.mode = MODE
+            spi.bits_per_word = BITS_PER_WORD
+            mode, bits = _read(spi, RD_MODE32, "=I"), _read(spi, RD_BITS_PER_WORD, "=B")
+            if mode != MODE or bits != BITS_PER_WORD:
+                raise LinkError(
+                    f"{device} stays in mode 0x{mode:X} with {bits} bits a word; the FPGA needs mode {MODE} with {BITS_PER_WORD}:"
+                    " look at the device tree's entry for it"
+                )
+            self._set_speed(spi)
+        except BlockingIOError as error:
+            spi.close()
+            raise LinkError(f"{device} is in use by another haptic-panel: end it first") from error
+        except OSError as error:
+            spi.close()
+            raise LinkError(f"{device} cannot be set to mode {MODE}, {BITS_PER_WORD} bits: {error.strerror}") from error
+        except LinkError:
+            spi.close()
+            raise
+        return spi
+
+    def _opened_again(self) -> spidev.SpiDev:
+        """Open the device after it was removed."""
+        try:
+            return self._opened()
+        except LinkError as error:
+            if isinstance(error.__cause__, OSError) and error.__cause__.errno in REMOVED:
+                raise LinkError(self._removed) from error
+            raise
+
+    @property
+    def _removed(self) -> str:
+        device = self._settings.device
+        return f"{device} was removed: its driver was unbound, or its adapter unplugged; it is opened again when it is back"
+
+    def _set_speed(self, spi: spidev.SpiDev) -> None:
+        spi.max_speed_hz = self._asked_hz
+        said_hz = _read(spi, RD_MAX_SPEED_HZ, "=I")
+        source_hz = self._settings.spi_source_hz
+        self.sck_hz = divided_hz(source_hz, said_hz) if source_hz else float(said_hz)
+
+    def _failure(self, error: OSError) -> LinkError:
+        """The error to raise for a failed system call; releases a device that was removed."""
+        device = self._settings.device
+        with contextlib.suppress(LinkError):
+            self.lines.permit(given=False)
+        self._permitted = False
+        if error.errno in REMOVED:
+            if self._spi is not None:
+                with contextlib.suppress(OSError):
+                    self._spi.close()
+            self._spi = None
+            return LinkError(self._removed)
+        if error.errno == errno.ETIMEDOUT:
+            return LinkError(
+                f"{device}: the SPI controller did not finish a transfer: its bus is stuck; restart the machine if it stays"
+            )
+        if error.errno == errno.EMSGSIZE:
+            return LinkError(
+                f"{device}: a message does not fit spidev's buffer: was bufsiz changed? It was {self.bufsiz} when opened"
+            )
+        return LinkError(f"{device} failed ({error.strerror}): look into the kernel's log (dmesg)")
+
+
+def _bus_and_select(device: str) -> tuple[int, int]:
+    """Bus and chip select of a device, of which links may be given: python3-spidev 3.6, which is Debian's, opens no path."""
+    path = os.path.realpath(device)
+    if numbers := re.fullmatch(r"/dev/spidev(\d+)\.(\d+)", path):
+        return int(numbers[1]), int(numbers[2])
+    os.stat(path)  # noqa: PTH116 - not there: the same error as of an open
+    raise LinkError(f"{device} is {path}, which is no device of spidev: give /dev/spidevB.C, or a link to it")
+
+
+def _read(spi: spidev.SpiDev, request: int, layout: str) -> int:
+    """Read one of spidev's settings from the kernel."""
+    value: int = struct.unpack(layout, fcntl.ioctl(spi.fileno(), request, bytes(struct.calcsize(layout))))[0]
+    return value
+
+
+def _why_not_open(device: str, error: OSError) -> str:
+    if error.errno in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
+        there = ", ".join(sorted(str(path) for path in Path("/dev").glob("spidev*"))) or "none"
+        return f"there is no {device} (there are: {there}): switch SPI on, on a Raspberry Pi by dtparam=spi=on in config.txt"
+    if error.errno in (errno.EACCES, errno.EPERM):
+        return f"{device} may not be opened by this user: add it to the group that owns the device (on Debian: spi)"
+    return f"{device} could not be opened: {error.strerror or error}"

@@ -1,0 +1,92 @@
+"""Inner loops of the device on buffers that the caller owns: points to drive words, waveforms to frames.
+
+They are compiled where the package was built with a C compiler, else `twin` and `words_twin` serve, with the same integers.
+`HAPTIC_PANEL_KERNEL=numpy` or `=compiled` in the environment chooses one; a compiled one that is missing is then an error.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.device.kernel.null_twin import MAX_NULLS, null_places
+from controller.device.kernel.twin import (
+    SHORT_FRAME_BYTES,
+    load_frames_bytes,
+    pack_loads,
+    renumber_loads,
+    seal_short_frames,
+    statuses_good,
+    unpack_loads,
+)
+from controller.device.kernel.words_twin import (
+    GROUP_SAMPLES,
+    MAX_BLOCK_SAMPLES,
+    MAX_FOCI,
+    MAX_SAMPLES,
+    PLAN,
+    REST_SAMPLES,
+    Point,
+    compose,
+    room_bytes,
+)
+from controller.errors import UsageError
+
+__all__ = [
+    "COMPILED",
+    "GROUP_SAMPLES",
+    "MAX_BLOCK_SAMPLES",
+    "MAX_FOCI",
+    "MAX_NULLS",
+    "MAX_SAMPLES",
+    "PLAN",
+    "REST_SAMPLES",
+    "SHORT_FRAME_BYTES",
+    "Point",
+    "compose",
+    "load_frames_bytes",
+    "null_places",
+    "pack_loads",
+    "renumber_loads",
+    "room_bytes",
+    "seal_short_frames",
+    "statuses_good",
+    "unpack_loads",
+]
+
+_SOURCE = Path(__file__).with_name("kernel.c")  # there in a checkout only
+
+
+def _has_compiled(wanted: str) -> bool:
+    """Whether the compiled kernel is used: it is there, and in a checkout not older than its source."""
+    if wanted not in ("", "compiled", "numpy"):
+        raise UsageError(f"HAPTIC_PANEL_KERNEL={wanted}: compiled, numpy, or unset for what is there")
+    if wanted == "numpy":
+        return False
+    try:
+        compiled = importlib.import_module("controller.device.kernel._kernel").__file__
+    except ImportError as error:
+        if wanted:
+            raise UsageError(f"HAPTIC_PANEL_KERNEL=compiled, but the package was built without a C compiler: {error}") from error
+        return False
+    if compiled and _SOURCE.exists() and _SOURCE.stat().st_mtime > Path(compiled).stat().st_mtime:
+        if wanted:
+            raise UsageError(f"{compiled} is older than kernel.c: pip install -e . again")
+        return False
+    return True
+
+
+COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
+
+if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the twin's, whose types it has
+    from controller.device.kernel._kernel import (
+        compose,
+        null_places,
+        pack_loads,
+        renumber_loads,
+        seal_short_frames,
+        statuses_good,
+        unpack_loads,
+    )

@@ -1,0 +1,140 @@
+"""Drive words for less than full amplitude; a part of `words_twin`.
+
+An amplitude is a share of what the same point would get if all points were composed at full amplitude. The ratio of the weights
+sets the ratio of the amplitudes; their common level is set by leaving bits at idle where `S` is weak against the mean of its
+absolute value in the same block of samples and the same channel. Both are found by measuring: the displacement at a point is
+linear in the bits, an inner product of them with the point's response, in the band and outside it.
+
+Full amplitude is the level that all points have together: the mean of their shares in the band, weighed as they are, which is
+next to the largest share that all can have. A point that differs from it by more than a sixteenth has its own, since its neighbours
+move it.
+
+Points that are near move together. Where responses are more than half alike (correlation of the sketches), points are one place,
+and none is asked for more than the least of them; soon below that each has its own. What is too much after the last
+round is lowered together with all others.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Final
+
+from numpy.typing import NDArray
+
+from controller.device.kernel.polarity_twin import product
+
+if TYPE_CHECKING:
+    from controller.device.kernel.words_twin import _Composition
+
+Numbers = NDArray[Any]
+
+# Share of the full amplitude that is left when every sample is masked whose response is below a threshold,
+# in units of the mean of its absolute value over 96 us: median over 120 points of the simulated board.
+THRESHOLDS: Final = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
+SHARES: Final = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
+MAX_ROUNDS: Final = 6  # of measuring what the bits give; most emissions need two or three. If none is good, the best one is played
+MAX_LOWERINGS: Final = 3  # behind them
+TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
+TOLERANCE: Final = 0.01  # of an amplitude: well below a step
+
+
+class Solution:
+    """Bits for wanted displacements, by rounds of weighing, masking and measuring.
+
+    The ratio of the weights sets the ratio of the displacements; the Euclidean norm of the weights sets how much is
+    masked, since the displacements of independent points are proportional to their weights.
+
+    Parameters
+    ----------
+    asked : list of float
+        Amplitude of each point: the first weights.
+    divisors : list of float
+        Of the points' responses: the sums of their absolute values, with the points' polarities.
+    balance : list of float
+        Weights at full amplitude.
+    """
+
+    def __init__(self, points: _Composition, asked: list[float], divisors: list[float], balance: list[float]) -> None:
+        self._points, self._asked, self._divisors, self._balance = points, asked, divisors, balance
+        self._sum, self._first_unit = points.weighted(_products(balance, asked), divisors)
+        self._unit = self._first_unit
+        self._first_norm = math.sqrt(product(asked, asked))
+        self._strength = points.strength(self._sum)
+
+    def bits(self, wanted: list[float]) -> Numbers:
+        """The bits; those of the last round, which meets what is wanted or is as near as they came."""
+        weights = best = self._asked
+        before: tuple[list[float], list[float]] | None = None
+        gain, least = 0.0, math.inf
+        for turn in range(MAX_ROUNDS + MAX_LOWERINGS):
+            norm = math.sqrt(product(weights, weights)) or self._first_norm
+            bits = self._weigh(weights, norm, again=turn > 0)
+            if turn == MAX_ROUNDS + MAX_LOWERINGS - 1:
+                break
+            measured, _ = self._points.measured(bits, self._divisors)
+            if all(abs(want - got) <= TOLERANCE * want for want, got in zip(wanted, measured, strict=True)):
+                break
+            gain = gain or product(measured, weights) / (norm * norm)
+            if not gain > 0:
+                break
+            error = max(abs(want - got) / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
+            if turn < MAX_ROUNDS and error < least:
+                least, best = error, weights
+            if turn == MAX_ROUNDS - 1 and error > least:
+                weights = best
+            elif turn >= MAX_ROUNDS - 1:
+                lowered = self._lowered(weights, wanted, measured)
+                if lowered is None:
+                    break
+                weights = lowered
+            else:
+                residuals = [(want - got) / gain for want, got in zip(wanted, measured, strict=True)]
+                before, weights = (weights, residuals), _next_weights(weights, residuals, before)
+        return bits
+
+    def _weigh(self, weights: list[float], norm: float, *, again: bool) -> Numbers:
+        """Bits of these weights, whose Euclidean norm is given; the sum of a single point stays as it is."""
+        if again and len(weights) > 1:
+            scaled = [weight * self._first_norm / norm for weight in weights]
+            self._sum, self._unit = self._points.weighted(_products(self._balance, scaled), self._divisors)
+        threshold = masking_threshold(norm / math.sqrt(len(weights))) * (self._unit / self._first_unit)
+        return self._points.masked(self._sum, self._strength, threshold)
+
+    def _lowered(self, weights: list[float], wanted: list[float], measured: list[float]) -> list[float] | None:
+        """Weights of all points lowered together, where one gets too much; None where none does."""
+        most = max(got / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
+        if min(measured) < 0:
+            return self._asked
+        return [weight / most for weight in weights] if most > TOO_MUCH else None
+
+
+def _next_weights(weights: list[float], residuals: list[float], before: tuple[list[float], list[float]] | None) -> list[float]:
+    """Weights with their residuals added, from the second round on by Anderson acceleration of depth one.
+
+    Points that are near each other are not independent; `before`: weights and residuals of the round before.
+    """
+    if before is None:
+        return [weight + residual for weight, residual in zip(weights, residuals, strict=True)]
+    weights_before, residuals_before = before
+    change = [new - old for new, old in zip(residuals, residuals_before, strict=True)]
+    squared = product(change, change)
+    mixing = product(residuals, change) / squared if squared > 0 else 0.0
+    further = []
+    for index in range(len(weights)):
+        new, old = weights[index] + residuals[index], weights_before[index] + residuals_before[index]
+        further.append(new + mixing * (old - new))
+    return further
+
+
+def masking_threshold(share: float) -> float:
+    """Threshold, in local strengths, that leaves about this share of the full amplitude."""
+    for index in range(1, len(SHARES)):
+        if share >= SHARES[index]:
+            above, below = SHARES[index - 1], SHARES[index]
+            part = max(above - share, 0.0) / (above - below)
+            return THRESHOLDS[index - 1] + part * (THRESHOLDS[index] - THRESHOLDS[index - 1])
+    return THRESHOLDS[-1]
+
+
+def _products(left: list[float], right: list[float]) -> list[float]:
+    return [one * other for one, other in zip(left, right, strict=True)]

@@ -1,0 +1,1359 @@
+/* The compiled kernel: points to drive words, drive words to LOAD frames.
+
+   Its specification is words_twin.py and twin.py, which do the same in NumPy and Python: the same whole numbers, to the bit, and where
+   weights and thresholds are set the same IEEE double arithmetic in the same order (so: no contraction to fused operations, no library
+   functions). Buffers are the caller's; nothing is allocated, no Python object is touched in loops. Plain loops of a fixed length and
+   vectors of 128 bits, of which compilers make SSE2 and NEON alike. */
+#define PY_SSIZE_T_CLEAN
+#include <Python.h>
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#if defined __aarch64__ && defined __linux__
+#include <sys/auxv.h>
+#define MACHINE_HAS_CRC (getauxval(AT_HWCAP) >> 7 & 1) /* HWCAP_CRC32: every Raspberry Pi of 64 bits */
+#else
+#define MACHINE_HAS_CRC 0
+#endif
+
+#if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "words and levels are read as they lie in the bank: little-endian"
+#endif
+#if FLT_EVAL_METHOD != 0
+#error "doubles have to be rounded after every operation"
+#endif
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif /* GCC has it from its command line: -ffp-contract=off */
+
+#define INLINE static inline __attribute__((always_inline))
+#define APART static __attribute__((noinline)) /* so that loops are made into vectors one by one */
+
+/* ---- words: numbers of words_twin.py ---- */
+
+enum {
+    CHANNELS = 32,
+    REST_SAMPLES = 4,
+    GROUP_SAMPLES = 8,
+    MAX_FOCI = 10,
+    MAX_SAMPLES = 2000,
+    MAX_BLOCK_SAMPLES = 256,
+    WEIGHT_SUM = 256,
+    POINT_WEIGHT_SUM = 32767,
+    STRENGTH_SHIFT = 8,
+    SKETCH_STEP = 2,
+    SKETCH_SHIFT = 4,
+    PRODUCT_BITS = 30,
+    BALANCING_ROUNDS = 2,
+    THRESHOLD_BITS = 24,
+    MAX_ROUNDS = 6,
+    MAX_LOWERINGS = 3,
+    ROW = GROUP_SAMPLES * CHANNELS, /* values that are worked on at a time */
+    RESTS = GROUP_SAMPLES / REST_SAMPLES * CHANNELS, /* and their rest outside the band */
+    LINE_BYTES = 64,
+};
+static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 16;
+static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
+static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
+static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
+static const double ONES[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
+
+struct plan {
+    int64_t samples, stride, nx, ny, entries, idle_word, block_samples;
+    double pitch_m, x0_m, y0_m;
+};
+
+struct bank {
+    struct plan plan;
+    Py_ssize_t response_bytes;
+    const uint8_t *entries, *scales, *good, *response;
+};
+
+struct patch {
+    const uint8_t *levels[4];
+    int16_t weight[4];
+    int cells;
+};
+
+/* Values lie in the order of channels 0, 2, .., 14, 1, 3, .., 15 and the same from 16 on: as 16 bytes fall into halves of 16 bits. */
+struct work {
+    int count;
+    int64_t values, rests, rows, block_rows, blocks; /* values of a response in the band, outside it; rows of eight samples, in a block too; blocks */
+    uint32_t idle_word;
+    int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
+    int32_t *strength, *threshold; /* of each block and channel */
+    int16_t *threshold_of_one;
+    int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response, as many rows as `before`, then 2, 6, 10, .. */
+    int64_t sketch_before, sketch_rows; /* rows of eight samples */
+    uint32_t *words;
+    double divisor[MAX_FOCI], balance[MAX_FOCI], measured[MAX_FOCI], in_band[MAX_FOCI], wanted[MAX_FOCI];
+};
+
+typedef int16_t shorts __attribute__((vector_size(16)));
+typedef uint16_t ushorts __attribute__((vector_size(16)));
+typedef uint32_t uints __attribute__((vector_size(16)));
+
+INLINE ushorts load(const void *from) {
+    ushorts read;
+    memcpy(&read, from, sizeof read);
+    return read;
+}
+
+INLINE void store(void *to, ushorts value) { memcpy(to, &value, sizeof value); }
+
+INLINE ushorts at_odd(ushorts levels) { return (ushorts)((shorts)levels >> 8); }
+
+INLINE ushorts at_even(ushorts levels) { return (ushorts)((shorts)(levels << 8) >> 8); }
+
+/* Halves of 16 bits, all ones or zero, to the bits of 16 channels. */
+INLINE uint32_t bits_of(ushorts even, ushorts odd) {
+    ushorts ones = {1, 1, 1, 1, 1, 1, 1, 1};
+    union {
+        ushorts vector;
+        uint64_t eight[2];
+    } bits = {.vector = (even & ones) | (odd & (ones << 8))};
+    uint64_t packing = 0x0102040810204080u; /* moves the lowest bits of eight bytes to the highest byte */
+    return (uint32_t)(bits.eight[0] * packing >> 56 | bits.eight[1] * packing >> 56 << 8);
+}
+
+/* What a channel that idles high turns into: all ones, by which a value is negated, for 16 channels from `first` on. */
+INLINE void turned(uint32_t idle_word, int first, ushorts *even, ushorts *odd) {
+    for (int lane = 0; lane < 8; lane++) {
+        (*even)[lane] = (uint16_t) - (idle_word >> (first + 2 * lane) & 1);
+        (*odd)[lane] = (uint16_t) - (idle_word >> (first + 2 * lane + 1) & 1);
+    }
+}
+
+INLINE ushorts negated(ushorts value, ushorts where) { return (value ^ where) - where; }
+
+INLINE void interpolate_16(const struct patch *patch, int cells, int64_t at, const ushorts *weight, ushorts *even, ushorts *odd) {
+    *even = *odd = (ushorts){0};
+    for (int cell = 0; cell < cells; cell++) {
+        ushorts levels = load(patch->levels[cell] + at);
+        *even += at_even(levels) * weight[cell];
+        *odd += at_odd(levels) * weight[cell];
+    }
+}
+
+INLINE ushorts positive(ushorts value) { return (ushorts)((shorts)value > 0); }
+
+/* Words of a single point at full amplitude. */
+INLINE void sign_of(struct work *work, const struct patch *patch, int cells) {
+    ushorts weight[4], even[2], odd[2], turn_even[2], turn_odd[2];
+    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
+    for (int half = 0; half < 2; half++) turned(work->idle_word, 16 * half, turn_even + half, turn_odd + half);
+    for (int64_t at = 0; at < work->values; at += CHANNELS) {
+        uint32_t word = 0;
+        for (int half = 0; half < 2; half++) {
+            interpolate_16(patch, cells, at + 16 * half, weight, even + half, odd + half);
+            word |= bits_of(positive(negated(even[half], turn_even[half])), positive(negated(odd[half], turn_odd[half]))) << 16 * half;
+        }
+        work->words[at / CHANNELS] = word ^ work->idle_word;
+    }
+}
+
+INLINE uints add_absolute(uints sum, ushorts value) {
+    ushorts sign = (ushorts)((shorts)value >> 15);
+    uints two = (uints)negated(value, sign);
+    return sum + (two >> 16) + (two & 0xffff);
+}
+
+/* Values of a response of a point, negated in channels that idle high; returns the sum of their absolute values. */
+INLINE int64_t interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int64_t from, int64_t values, int16_t *out) {
+    ushorts weight[4], even, odd, turn_even[2], turn_odd[2];
+    uints sum = {0};
+    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
+    for (int half = 0; half < 2; half++) turned(idle_word, 16 * half, turn_even + half, turn_odd + half);
+    for (int64_t at = 0; at < values; at += CHANNELS)
+        for (int half = 0; half < 2; half++) {
+            int64_t here = at + 16 * half;
+            interpolate_16(patch, cells, from + here, weight, &even, &odd);
+            even = negated(even, turn_even[half]);
+            odd = negated(odd, turn_odd[half]);
+            store(out + here, even);
+            store(out + here + 8, odd);
+            sum = add_absolute(add_absolute(sum, even), odd);
+        }
+    return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
+}
+
+APART int64_t interpolate(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+    switch (patch->cells) {
+    case 1: return interpolate_cells(idle_word, patch, 1, from, values, out);
+    case 2: return interpolate_cells(idle_word, patch, 2, from, values, out);
+    default: return interpolate_cells(idle_word, patch, 4, from, values, out);
+    }
+}
+
+APART void compose_one(struct work *work, const struct patch *patch) {
+    switch (patch->cells) {
+    case 1: sign_of(work, patch, 1); break;
+    case 2: sign_of(work, patch, 2); break;
+    default: sign_of(work, patch, 4);
+    }
+}
+
+APART void weigh_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
+    for (int i = 0; i < ROW; i++) sum[i] = p * a[i];
+}
+
+APART void weigh_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
+    for (int i = 0; i < ROW; i++) sum[i] = p * a[i] + q * b[i];
+}
+
+APART void add_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
+    for (int i = 0; i < ROW; i++) sum[i] += p * a[i];
+}
+
+APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
+    for (int i = 0; i < ROW; i++) sum[i] += p * a[i] + q * b[i];
+}
+
+/* Sums of eight samples from value `at` on. */
+INLINE void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+    int row = 2;
+    if (count == 1)
+        weigh_one(sum, response[0] + at, weight[0]);
+    else
+        weigh_two(sum, response[0] + at, response[1] + at, weight[0], weight[1]);
+    for (; row + 1 < count; row += 2) add_two(sum, response[row] + at, response[row + 1] + at, weight[row], weight[row + 1]);
+    if (row < count) add_one(sum, response[row] + at, weight[row]);
+}
+
+/* Where sums are above their threshold: -1, else 0. */
+APART void compare(int16_t *restrict above, const int32_t *restrict sum, const int32_t *restrict threshold) {
+    for (int sample = 0; sample < GROUP_SAMPLES; sample++)
+        for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(sum[CHANNELS * sample + i] > threshold[i]);
+}
+
+/* The same for a single point, whose sum is its response times a weight: against thresholds divided by that. */
+APART void compare_one(int16_t *restrict above, const int16_t *restrict response, const int16_t *restrict threshold) {
+    for (int sample = 0; sample < GROUP_SAMPLES; sample++)
+        for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(response[CHANNELS * sample + i] > threshold[i]);
+}
+
+APART void compare_nothing(int16_t *restrict above, const int32_t *restrict sum) {
+    for (int i = 0; i < ROW; i++) above[i] = (int16_t)-(sum[i] > 0);
+}
+
+APART int32_t inner_product(const int16_t *restrict a, const int16_t *restrict b, int values) {
+    int32_t sum = 0;
+    for (int i = 0; i < values; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+APART void add_samples(int16_t *restrict sum, const int16_t *restrict values, int samples) {
+    for (int i = 0; i < CHANNELS; i++) sum[i] = 0;
+    for (int sample = 0; sample < samples; sample++)
+        for (int i = 0; i < CHANNELS; i++) sum[i] += values[CHANNELS * sample + i];
+}
+
+APART void add_strength(int32_t *restrict strength, const int32_t *restrict sum, int samples) {
+    for (int sample = 0; sample < samples; sample++)
+        for (int i = 0; i < CHANNELS; i++) {
+            int32_t value = sum[CHANNELS * sample + i];
+            strength[i] += (value < 0 ? -value : value) >> STRENGTH_SHIFT;
+        }
+}
+
+INLINE void write_words(const struct work *work, int64_t at, int samples, const int16_t *above) {
+    for (int sample = 0; sample < samples; sample++, above += CHANNELS) {
+        uint32_t low = bits_of(load(above), load(above + 8)), high = bits_of(load(above + 16), load(above + 24));
+        work->words[at / CHANNELS + sample] = (low | high << 16) ^ work->idle_word;
+    }
+}
+
+/* ---- words: weights and thresholds ---- */
+
+INLINE double nearest(double value) { return (value + 0x1.8p52) - 0x1.8p52; } /* whole number; of two the even one */
+
+static double product(const double *left, const double *right, int count) {
+    double total = 0;
+    for (int i = 0; i < count; i++) total += left[i] * right[i];
+    return total;
+}
+
+static double masking_threshold(double share) {
+    for (int i = 1; i < SHARES_GIVEN; i++)
+        if (share >= SHARES[i]) {
+            double part = (SHARES[i - 1] - share > 0 ? SHARES[i - 1] - share : 0) / (SHARES[i - 1] - SHARES[i]);
+            return THRESHOLDS[i - 1] + part * (THRESHOLDS[i] - THRESHOLDS[i - 1]);
+        }
+    return THRESHOLDS[SHARES_GIVEN - 1];
+}
+
+/* Whole numbers next to the weights, each times its balance, over the divisors, times what is returned. */
+static double whole_weights(const struct work *work, const double *weights, int16_t *whole) {
+    double share[MAX_FOCI], total = 0;
+    for (int i = 0; i < work->count; i++) {
+        share[i] = work->balance[i] * weights[i] / work->divisor[i];
+        total += fabs(share[i]);
+    }
+    double unit = total > 0 && total < INFINITY ? POINT_WEIGHT_SUM / total : 0;
+    for (int i = 0; i < work->count; i++) whole[i] = unit != 0 ? (int16_t)nearest(share[i] * unit) : 0;
+    return unit;
+}
+
+enum { WRITE = 1, MEASURE = 2, STRENGTH = 4 };
+
+/* Where the weighted sum is above its threshold: the words, what they give at each point, the strength of the sum. */
+static void pass(struct work *work, const int16_t *weight, int to_do) {
+    int32_t sum[ROW];
+    int16_t above[ROW], count[RESTS];
+    int64_t in_band[MAX_FOCI] = {0}, outside[MAX_FOCI] = {0};
+    for (int64_t row = 0; row < work->rows; row++) {
+        int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
+        int samples = left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES;
+        if (work->count > 1 || to_do & STRENGTH) add_up(work->count, work->response, weight, at, sum);
+        if (to_do & STRENGTH) add_strength(work->strength + block, sum, samples);
+        if (!(to_do & (WRITE | MEASURE))) continue;
+        if (work->count > 1)
+            compare(above, sum, work->threshold + block);
+        else
+            compare_one(above, work->response[0] + at, work->threshold_of_one + block);
+        if (to_do & WRITE) write_words(work, at, samples, above);
+        if (!(to_do & MEASURE)) continue;
+        for (int part = 0; part < GROUP_SAMPLES / REST_SAMPLES; part++) {
+            int behind = samples - part * REST_SAMPLES;
+            add_samples(count + part * CHANNELS, above + part * REST_SAMPLES * CHANNELS, behind < REST_SAMPLES ? behind : REST_SAMPLES);
+        }
+        for (int i = 0; i < work->count; i++) {
+            in_band[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
+            outside[i] -= inner_product(work->rest[i] + row * RESTS, count, RESTS);
+        }
+    }
+    for (int i = 0; i < work->count; i++) {
+        work->in_band[i] = (double)in_band[i] / work->divisor[i];
+        work->measured[i] = (double)(in_band[i] + outside[i]) / work->divisor[i];
+    }
+}
+
+static void set_threshold(struct work *work, double threshold) {
+    double scale = threshold / (double)(work->block_rows * GROUP_SAMPLES) * (1 << THRESHOLD_BITS);
+    int64_t whole = scale < INT32_MAX ? (int64_t)nearest(scale) : INT32_MAX;
+    for (int64_t i = 0; i < work->blocks * CHANNELS; i++) {
+        int64_t scaled = work->strength[i] * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT);
+        work->threshold[i] = scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+        if (work->count > 1) continue;
+        int32_t of_one = work->threshold[i] / POINT_WEIGHT_SUM; /* its only point has all of the weight */
+        work->threshold_of_one[i] = of_one < INT16_MAX ? (int16_t)of_one : INT16_MAX;
+    }
+}
+
+/* Words that give what is wanted; `weight` are whole weights next to what is asked times `first_unit`, of whose sum the strength is. */
+static void solve(struct work *work, const double *asked, int16_t *weight, double first_unit) {
+    int count = work->count;
+    double now[MAX_FOCI], before[MAX_FOCI], residual[MAX_FOCI], residual_before[MAX_FOCI], scaled[MAX_FOCI], best[MAX_FOCI];
+    double gain = 0, least_error = INFINITY;
+    double unit = first_unit, first_norm = sqrt(product(asked, asked, count));
+    memcpy(now, asked, sizeof now);
+    memcpy(before, asked, sizeof before);
+    memcpy(residual_before, asked, sizeof residual_before);
+    for (int turn = 0; turn < MAX_ROUNDS + MAX_LOWERINGS; turn++) {
+        double norm = sqrt(product(now, now, count));
+        if (norm == 0) norm = first_norm;
+        if (turn && count > 1) {
+            for (int i = 0; i < count; i++) scaled[i] = now[i] * first_norm / norm;
+            unit = whole_weights(work, scaled, weight);
+        }
+        set_threshold(work, masking_threshold(norm / sqrt(count)) * (unit / first_unit));
+        int last = turn == MAX_ROUNDS + MAX_LOWERINGS - 1, reached = 1;
+        pass(work, weight, last ? WRITE : WRITE | MEASURE);
+        if (last) return;
+        for (int i = 0; i < count; i++) reached = reached && fabs(work->wanted[i] - work->measured[i]) <= TOLERANCE * work->wanted[i];
+        if (reached) return;
+        if (gain == 0) gain = product(work->measured, now, count) / (norm * norm);
+        if (!(gain > 0)) return;
+        double error = 0;
+        for (int i = 0; i < count; i++) {
+            double off = work->wanted[i] > 0 ? fabs(work->wanted[i] - work->measured[i]) / work->wanted[i] : 0;
+            if (off > error) error = off;
+        }
+        if (turn < MAX_ROUNDS && error < least_error) {
+            least_error = error;
+            memcpy(best, now, sizeof best);
+        }
+        if (turn == MAX_ROUNDS - 1 && error > least_error) {
+            memcpy(now, best, sizeof now);
+            continue;
+        }
+        if (turn >= MAX_ROUNDS - 1) {
+            double most = 0, least = INFINITY;
+            for (int i = 0; i < count; i++) {
+                double share = work->wanted[i] > 0 ? work->measured[i] / work->wanted[i] : 0;
+                if (share > most) most = share;
+                if (work->measured[i] < least) least = work->measured[i];
+            }
+            if (least < 0)
+                memcpy(now, asked, sizeof now);
+            else if (most > TOO_MUCH)
+                for (int i = 0; i < count; i++) now[i] /= most;
+            else
+                return;
+            continue;
+        }
+        double change[MAX_FOCI], mixing = 0;
+        for (int i = 0; i < count; i++) {
+            residual[i] = (work->wanted[i] - work->measured[i]) / gain;
+            change[i] = residual[i] - residual_before[i];
+        }
+        if (turn) {
+            double squared = product(change, change, count);
+            mixing = squared > 0 ? product(residual, change, count) / squared : 0;
+        }
+        for (int i = 0; i < count; i++) {
+            double further = now[i] + residual[i], old = before[i] + residual_before[i];
+            before[i] = now[i];
+            residual_before[i] = residual[i];
+            now[i] = turn ? further + mixing * (old - further) : further;
+        }
+    }
+}
+
+/* ---- words: polarities and balance, from a sketch of the responses ---- */
+
+APART void sketch_line(int16_t *restrict to, const int16_t *restrict from) {
+    for (int i = 0; i < CHANNELS; i++) to[i] = (int16_t)(from[i] >> SKETCH_SHIFT);
+}
+
+static void take_sketch(struct work *work) {
+    int64_t samples = work->values / CHANNELS;
+    for (int i = 0; i < work->count; i++) {
+        int16_t *to = work->sketch[i], *behind = to + work->sketch_before * ROW, *end = to + work->sketch_rows * ROW;
+        for (int64_t n = 0; n < samples; n += 2 * SKETCH_STEP, to += CHANNELS) sketch_line(to, work->response[i] + n * CHANNELS);
+        memset(to, 0, (size_t)(behind - to) * sizeof *to);
+        for (int64_t n = SKETCH_STEP; n < samples; n += 2 * SKETCH_STEP, behind += CHANNELS)
+            sketch_line(behind, work->response[i] + n * CHANNELS);
+        memset(behind, 0, (size_t)(end - behind) * sizeof *behind);
+    }
+}
+
+static int64_t sketched_product(const struct work *work, int i, int j) {
+    int64_t sum = 0;
+    for (int64_t at = 0; at < work->sketch_before * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
+    return sum;
+}
+
+/* Ask for no more than points so near to each other can have. */
+static void ask_alike(const struct work *work, int64_t (*gram)[MAX_FOCI], double *asked) {
+    int changed = 1;
+    double size[MAX_FOCI];
+    for (int i = 0; i < work->count; i++) size[i] = (double)sketched_product(work, i, i);
+    for (int turn = 0; changed && turn < work->count; turn++) {
+        changed = 0;
+        for (int i = 0; i < work->count; i++)
+            for (int j = 0; j < i; j++) {
+                if (!(size[i] > 0 && size[j] > 0)) continue;
+                double together = (double)gram[i][j] / sqrt(size[i] * size[j]);
+                if ((work->divisor[i] < 0) != (work->divisor[j] < 0)) together = -together;
+                if (!(together > 0)) continue;
+                double room = together < ONE_PLACE ? 1 + (ONE_PLACE - together) * RATIO_SLOPE : 1;
+                if (asked[j] * room < asked[i]) asked[i] = asked[j] * room, changed = 1;
+                if (asked[i] * room < asked[j]) asked[j] = asked[i] * room, changed = 1;
+            }
+    }
+}
+
+/* Negate the divisors of points so that the energy of the sum is largest; ask for what can be had. */
+static void polarise(struct work *work, double *asked) {
+    int count = work->count, unlike = 0;
+    int64_t gram[MAX_FOCI][MAX_FOCI];
+    double product[MAX_FOCI][MAX_FOCI], largest = 0;
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < i; j++) {
+            gram[i][j] = sketched_product(work, i, j);
+            product[i][j] = (double)gram[i][j] / work->divisor[i] / work->divisor[j];
+            if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
+            unlike = unlike || asked[i] != asked[j];
+        }
+    if (largest == 0) return;
+    double unit = (double)(1 << PRODUCT_BITS) / largest;
+    int64_t whole[MAX_FOCI][MAX_FOCI], field[MAX_FOCI] = {0}, energy = 0, most;
+    for (int i = 0; i < count; i++) {
+        whole[i][i] = 0;
+        for (int j = 0; j < i; j++) whole[i][j] = whole[j][i] = (int64_t)nearest(product[i][j] * unit);
+    }
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++) field[i] += whole[i][j];
+    for (int i = 0; i < count; i++) energy += field[i];
+    most = energy;
+    /* all choices, the first point positive, in the order of a Gray code: each turns one point; bit k is point k + 1 */
+    uint32_t choice = 0, best = 0;
+    for (uint32_t turn = 1; turn < 1u << (count - 1); turn++) {
+        int bit = __builtin_ctz(turn), point = bit + 1, was_negative = choice >> bit & 1;
+        choice ^= 1u << bit;
+        energy += was_negative ? 4 * field[point] : -4 * field[point];
+        for (int i = 0; i < count; i++) field[i] += was_negative ? 2 * whole[i][point] : -2 * whole[i][point];
+        if (energy > most || (energy == most && choice < best)) {
+            most = energy;
+            best = choice;
+        }
+    }
+    uint32_t negative = best << 1;
+    if (2 * __builtin_popcount(best) > count) negative = ~negative;
+    for (int i = 0; i < count; i++)
+        if (negative >> i & 1) work->divisor[i] = -work->divisor[i];
+    if (unlike) ask_alike(work, gram, asked);
+}
+
+/* Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had. */
+static void balance(struct work *work) {
+    int count = work->count;
+    double share[MAX_FOCI], moving = 0;
+    for (int i = 0; i < count; i++) moving += work->balance[i] = isfinite(work->divisor[i]);
+    if (moving == 0) moving = 1;
+    for (int round = 0; round < BALANCING_ROUNDS; round++) {
+        int16_t whole[MAX_FOCI], above[ROW];
+        int32_t sum[ROW];
+        int64_t got[MAX_FOCI] = {0};
+        double mean = 0;
+        whole_weights(work, ONES, whole);
+        for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
+            add_up(count, work->sketch, whole, at, sum);
+            compare_nothing(above, sum);
+            for (int i = 0; i < count; i++) got[i] -= inner_product(work->sketch[i] + at, above, ROW);
+        }
+        for (int i = 0; i < count; i++) {
+            share[i] = (double)got[i] / work->divisor[i];
+            mean += share[i];
+        }
+        mean /= moving;
+        for (int i = 0; i < count; i++) {
+            double correction = share[i] > 0 ? mean / share[i] : MAX_CORRECTION;
+            if (correction < 1 / MAX_CORRECTION) correction = 1 / MAX_CORRECTION;
+            work->balance[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
+        }
+    }
+}
+
+/* Displacements at less than full amplitude, from those at full amplitude, which were measured. */
+static void set_wanted(struct work *work, const double *asked) {
+    if (work->count == 1) {
+        work->wanted[0] = asked[0] * work->measured[0];
+        return;
+    }
+    double level = product(work->balance, work->in_band, work->count) / product(work->balance, ONES, work->count);
+    double nearly = level * OWN_LEVEL;
+    for (int i = 0; i < work->count; i++) {
+        double own = work->in_band[i] - level;
+        if (own > nearly) own = nearly;
+        if (own < -nearly) own = -nearly;
+        work->wanted[i] = asked[i] * (work->in_band[i] - own);
+    }
+}
+
+/* Compose; what is asked for and patches of `work->count` points. */
+static void compose_points(struct work *work, const struct patch *patches, double *asked) {
+    int full = 1;
+    int16_t weight[MAX_FOCI], weight_asked[MAX_FOCI];
+    for (int i = 0; i < work->count; i++) full = full && asked[i] == 1;
+    if (full && work->count == 1) {
+        compose_one(work, patches);
+        return;
+    }
+    for (int i = 0; i < work->count; i++) {
+        int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
+        work->divisor[i] = norm ? (double)norm : INFINITY;
+        memset(work->response[i] + work->values, 0, (size_t)(work->rows * ROW - work->values) * sizeof(int16_t));
+        if (full) continue;
+        interpolate(work->idle_word, patches + i, work->values, work->rests, work->rest[i]);
+        memset(work->rest[i] + work->rests, 0, (size_t)(work->rows * RESTS - work->rests) * sizeof(int16_t));
+    }
+    memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
+    memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
+    memset(work->strength, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->strength);
+    work->balance[0] = 1;
+    if (work->count > 1) {
+        take_sketch(work);
+        polarise(work, asked);
+        balance(work);
+    }
+    if (whole_weights(work, ONES, weight) == 0 || full) {
+        pass(work, weight, WRITE);
+        return;
+    }
+    double unit = whole_weights(work, asked, weight_asked);
+    int alike = !memcmp(weight, weight_asked, (size_t)work->count * sizeof *weight);
+    pass(work, weight, alike ? MEASURE | STRENGTH : MEASURE);
+    set_wanted(work, asked);
+    if (!alike) pass(work, weight_asked, STRENGTH);
+    solve(work, asked, weight_asked, unit);
+}
+
+/* Index of a row of cells and the distance beyond it, in pitches. */
+static int64_t along(double distance_m, double pitch_m, int64_t last, double *beyond) {
+    double millionths = distance_m / pitch_m * 1e6;
+    *beyond = 0;
+    if (!(millionths > 0)) return 0;
+    if (millionths >= (double)last * 1e6) return last;
+    int64_t whole = (int64_t)nearest(millionths);
+    *beyond = (double)(whole % 1000000) * 1e-6;
+    return whole / 1000000;
+}
+
+/* Responses around a point, with their weights. Returns -1; or the first cell without a response; or -2, with an exception. */
+static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struct patch *patch) {
+    const struct plan *plan = &bank->plan;
+    double right, up, share[4], total = 0;
+    int64_t ix = along(x_m - plan->x0_m, plan->pitch_m, plan->nx - 1, &right);
+    int64_t iy = along(y_m - plan->y0_m, plan->pitch_m, plan->ny - 1, &up);
+    int64_t needed = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
+    patch->cells = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        int to_right = corner & 1, upwards = corner >> 1;
+        if ((to_right && right == 0) || (upwards && up == 0)) continue;
+        int64_t cell = (iy + upwards) * plan->nx + ix + to_right;
+        int32_t entry;
+        float scale;
+        memcpy(&entry, bank->entries + 4 * cell, sizeof entry);
+        if (entry < 0 || entry >= plan->entries || !bank->good[entry]) return cell;
+        if (entry * plan->stride + needed > bank->response_bytes) {
+            PyErr_SetString(PyExc_ValueError, "the responses are too short for the plan");
+            return -2;
+        }
+        memcpy(&scale, bank->scales + 4 * (int64_t)entry, sizeof scale);
+        if (!(scale >= 0 && scale < INFINITY)) {
+            PyErr_Format(PyExc_ValueError, "the scale of response %d is not finite, or below 0", (int)entry);
+            return -2;
+        }
+        patch->levels[patch->cells] = bank->response + entry * plan->stride;
+        share[patch->cells] = (upwards ? up : 1 - up) * (to_right ? right : 1 - right) * (double)scale;
+        total += share[patch->cells++];
+    }
+    double unit = total > 0 ? WEIGHT_SUM / total : 0;
+    for (int i = 0; i < patch->cells; i++) patch->weight[i] = (int16_t)nearest(share[i] * unit);
+    if (patch->cells == 1) patch->weight[0] = WEIGHT_SUM;
+    return -1;
+}
+
+/* ---- words: from Python ---- */
+
+static int valid(const struct plan *plan) {
+    if (plan->samples < 1 || plan->samples > MAX_SAMPLES) {
+        PyErr_Format(PyExc_ValueError, "%lld samples to compose, not 1 to %d", (long long)plan->samples, (int)MAX_SAMPLES);
+        return 0;
+    }
+    int64_t block = plan->block_samples;
+    if (block < GROUP_SAMPLES || block > MAX_BLOCK_SAMPLES || block % GROUP_SAMPLES) {
+        PyErr_Format(
+            PyExc_ValueError, "blocks of %lld samples: not %d to %d, in eights", (long long)block, (int)GROUP_SAMPLES, (int)MAX_BLOCK_SAMPLES);
+        return 0;
+    }
+    int64_t values = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
+    if (plan->idle_word >= 0 && plan->idle_word <= UINT32_MAX && plan->nx >= 1 && plan->nx <= INT32_MAX && plan->ny >= 1 &&
+        plan->ny <= INT32_MAX && plan->entries >= 0 && plan->entries <= INT32_MAX && values <= plan->stride && plan->stride <= INT32_MAX &&
+        plan->pitch_m > 0 && plan->pitch_m < INFINITY && isfinite(plan->x0_m) && isfinite(plan->y0_m))
+        return 1;
+    PyErr_SetString(PyExc_ValueError, "a number of the plan is beyond its range");
+    return 0;
+}
+
+/* Numbers of a point; 0 with an exception if they are not three, or beyond their range. */
+static int read_point(PyObject *points, Py_ssize_t index, double *read) {
+    PyObject *point = PySequence_GetItem(points, index);
+    if (!point) return 0;
+    Py_ssize_t size = PySequence_Size(point);
+    int good = size == 3;
+    if (!good && !PyErr_Occurred()) PyErr_SetString(PyExc_ValueError, "points to compose have x_m, y_m and amplitude");
+    for (int i = 0; good && i < 3; i++) {
+        PyObject *number = PySequence_GetItem(point, i);
+        read[i] = number ? PyFloat_AsDouble(number) : -1;
+        Py_XDECREF(number);
+        good = !(read[i] == -1 && PyErr_Occurred());
+    }
+    Py_DECREF(point);
+    if (!good) return 0;
+    if (!isfinite(read[0]) || !isfinite(read[1]))
+        PyErr_SetString(PyExc_ValueError, "a place of the points to compose is not finite");
+    else if (!(read[2] > 0 && read[2] <= 1))
+        PyErr_SetString(PyExc_ValueError, "an amplitude of the points to compose is not above 0 and at most 1");
+    else {
+        if (read[2] < LEAST_AMPLITUDE) read[2] = LEAST_AMPLITUDE;
+        return 1;
+    }
+    return 0;
+}
+
+static Py_ssize_t room_needed(int64_t samples) {
+    int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES, of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP);
+    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches);
+}
+
+static void lay_out(struct work *work, const struct plan *plan, int count, uint8_t *room, void *words) {
+    work->count = count;
+    work->values = plan->samples * CHANNELS;
+    work->rests = (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES * CHANNELS;
+    work->rows = (plan->samples + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
+    work->block_rows = plan->block_samples / GROUP_SAMPLES;
+    work->blocks = (work->rows + work->block_rows - 1) / work->block_rows;
+    work->idle_word = (uint32_t)plan->idle_word;
+    work->words = words;
+    room += -(uintptr_t)room % LINE_BYTES;
+    for (int i = 0; i < count; i++) {
+        work->response[i] = (int16_t *)room;
+        work->rest[i] = work->response[i] + work->rows * ROW;
+        room += work->rows * (ROW + RESTS) * (int64_t)sizeof(int16_t);
+    }
+    int64_t before = (plan->samples + 2 * SKETCH_STEP - 1) / (2 * SKETCH_STEP), all = (plan->samples + SKETCH_STEP - 1) / SKETCH_STEP;
+    work->sketch_before = (before + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
+    work->sketch_rows = work->sketch_before + (all - before + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
+    for (int i = 0; i < count; i++, room += work->sketch_rows * ROW * (int64_t)sizeof(int16_t)) work->sketch[i] = (int16_t *)room;
+    work->strength = (int32_t *)room;
+    work->threshold = work->strength + work->blocks * CHANNELS;
+    work->threshold_of_one = (int16_t *)(work->threshold + work->blocks * CHANNELS);
+}
+
+enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS, POINTS = BUFFERS, COMPOSE_ARGUMENTS };
+
+/* The bank in the buffers; 0 with an exception if they do not fit each other. */
+static int take_bank(const Py_buffer *buffer, struct bank *bank) {
+    struct plan *plan = &bank->plan;
+    if (buffer[PLAN].len != sizeof *plan) {
+        PyErr_Format(PyExc_ValueError, "a plan has %zd bytes, not %zd", (Py_ssize_t)sizeof *plan, buffer[PLAN].len);
+        return 0;
+    }
+    memcpy(plan, buffer[PLAN].buf, sizeof *plan);
+    if (!valid(plan)) return 0;
+    if (buffer[ENTRIES].len / 4 / plan->nx < plan->ny || buffer[SCALES].len / 4 < plan->entries || buffer[GOOD].len < plan->entries) {
+        PyErr_SetString(PyExc_ValueError, "the tables are too short for the plan");
+        return 0;
+    }
+    bank->entries = buffer[ENTRIES].buf;
+    bank->scales = buffer[SCALES].buf;
+    bank->good = buffer[GOOD].buf;
+    bank->response = buffer[RESPONSE].buf;
+    bank->response_bytes = buffer[RESPONSE].len;
+    return 1;
+}
+
+/* Whether words and room are long enough; 0 with an exception. */
+static int has_room(const Py_buffer *buffer, int64_t samples) {
+    if (buffer[WORDS].len < 4 * samples)
+        PyErr_Format(PyExc_ValueError, "%lld words do not fit into %zd bytes", (long long)samples, buffer[WORDS].len);
+    else if (buffer[ROOM].len < room_needed(samples))
+        PyErr_Format(PyExc_ValueError, "%lld samples need %zd bytes of room, not %zd", (long long)samples, room_needed(samples), buffer[ROOM].len);
+    else
+        return 1;
+    return 0;
+}
+
+static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
+    struct bank bank;
+    struct work work;
+    struct patch patches[MAX_FOCI];
+    double point[MAX_FOCI][3], asked[MAX_FOCI];
+    if (!take_bank(buffer, &bank)) return NULL;
+    const struct plan *plan = &bank.plan;
+    Py_ssize_t count = PySequence_Size(points);
+    if (count < 0) return NULL;
+    if (count < 1 || count > MAX_FOCI)
+        return PyErr_Format(PyExc_ValueError, "%zd points to compose, not 1 to %d", count, (int)MAX_FOCI);
+    for (Py_ssize_t i = 0; i < count; i++) {
+        if (!read_point(points, i, point[i])) return NULL;
+        asked[i] = point[i][2];
+    }
+    if (!has_room(buffer, plan->samples)) return NULL;
+    for (Py_ssize_t i = 0; i < count; i++) {
+        int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
+        if (cell == -2) return NULL;
+        if (cell >= 0) return PyLong_FromLongLong(cell);
+    }
+    lay_out(&work, plan, (int)count, buffer[ROOM].buf, buffer[WORDS].buf);
+    compose_points(&work, patches, asked);
+    return PyLong_FromLong(-1);
+}
+
+static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer buffer[BUFFERS];
+    PyObject *answer = NULL;
+    int taken = 0;
+    (void)module;
+    if (given != COMPOSE_ARGUMENTS) return PyErr_Format(PyExc_TypeError, "compose takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS, given);
+    while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
+    if (taken == BUFFERS) answer = compose_in(buffer, arguments[POINTS]);
+    while (taken--) PyBuffer_Release(buffer + taken);
+    return answer;
+}
+
+/* ---- words: places that stay still, numbers of null_twin.py ---- */
+
+enum {
+    MAX_NULLS = 4,
+    TIMES = 9, /* around T, a sixteenth of a block apart, at which a place is kept still */
+    SWEEPS = 4,
+    MARGIN_WEIGHT_SUM = 4095, /* of the points, and 15 times as much for the corrections: below 2^31 together */
+    CORRECTION_WEIGHT_SUM = 61440,
+    WEIGHT_BITS = 20,
+    STEPS_PER_BLOCK = 16,
+};
+static const double FLOOR = 0.25, RIDGE = 0.2, PI = 3.141592653589793;
+
+/* A place that shall stay still: its response between zeros, as it is met at other times; the factors of its equations. */
+struct still {
+    int16_t *response, *rest;
+    double lower[TIMES][TIMES], pivot[TIMES];
+    int solvable;
+};
+
+struct nulls {
+    int64_t values, rows, rest_rows, block_rows, blocks, step; /* rows of eight samples, and of the rest */
+    int32_t *sum, *strength;
+    int64_t *weight;
+    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over the samples of a row of the rest */
+    struct still place[MAX_NULLS];
+    double unit;
+    int64_t spent;
+};
+
+APART void add_shifted(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int samples) {
+    for (int sample = 0; sample < samples; sample++)
+        for (int i = 0; i < CHANNELS; i++)
+            sum[i] += (a[CHANNELS * sample + i] >> SKETCH_SHIFT) * (b[CHANNELS * sample + i] >> SKETCH_SHIFT);
+}
+
+/* Bits that deviate from idle, in the order of values. */
+static void take_bits(struct nulls *nulls, const uint32_t *words, uint32_t idle_word) {
+    int channel[CHANNELS];
+    for (int i = 0; i < CHANNELS; i++) channel[i] = i / 16 * 16 + i % 8 * 2 + i / 8 % 2;
+    memset(nulls->above, 0, (size_t)(nulls->rows * ROW) * sizeof *nulls->above);
+    for (int64_t sample = 0; sample < nulls->values / CHANNELS; sample++) {
+        uint32_t deviates = words[sample] ^ idle_word;
+        for (int i = 0; i < CHANNELS; i++) nulls->above[sample * CHANNELS + i] = (int16_t) - (int16_t)(deviates >> channel[i] & 1);
+    }
+}
+
+/* From the weighted sum of the points' responses: how much each bit may be weighed against, above zero where it deviates. */
+APART void set_margins(int32_t *restrict sum, const int16_t *restrict above) {
+    for (int i = 0; i < ROW; i++) {
+        int32_t size = sum[i] < 0 ? -sum[i] : sum[i];
+        sum[i] = above[i] ? size + 1 : -size;
+    }
+}
+
+static void count_bits(struct nulls *nulls) {
+    for (int64_t row = 0; row < nulls->rest_rows; row++) add_samples(nulls->count + row * CHANNELS, nulls->above + row * REST_SAMPLES * CHANNELS, REST_SAMPLES);
+}
+
+/* Inner product of the counts and a rest that is met this many rows later. */
+static int64_t rest_product(const struct nulls *nulls, const int16_t *rest, int64_t later) {
+    int64_t first = later > 0 ? later : 0, end = nulls->rest_rows + (later < 0 ? later : 0);
+    if (first >= end) return 0;
+    return -(int64_t)inner_product(nulls->count + first * CHANNELS, rest + (first - later) * CHANNELS, (int)((end - first) * CHANNELS));
+}
+
+/* Inner products of the response with itself at other times, and what solves the equations of corrections. */
+static void prepare_still(struct nulls *nulls, struct still *still) {
+    double products[TIMES];
+    for (int lag = 0; lag < TIMES; lag++) {
+        int64_t total = 0;
+        for (int64_t block = 0; block < nulls->blocks; block++) {
+            int32_t sum[CHANNELS] = {0};
+            int64_t at = block * nulls->block_rows * ROW, left = (nulls->values - at) / CHANNELS, most = nulls->block_rows * GROUP_SAMPLES;
+            add_shifted(sum, still->response + at, still->response + at - lag * nulls->step * CHANNELS, (int)(left < most ? left : most));
+            for (int i = 0; i < CHANNELS; i++) total += sum[i] * nulls->weight[block * CHANNELS + i];
+        }
+        products[lag] = (double)total;
+    }
+    still->solvable = products[0] > 0;
+    for (int i = 0; still->solvable && i < TIMES; i++)
+        for (int j = 0; j <= i; j++) {
+            double value = i == j ? products[0] * (1 + RIDGE) : products[i - j];
+            for (int k = 0; k < j; k++) value -= still->lower[i][k] * still->lower[j][k] * still->pivot[k];
+            if (j < i) {
+                still->lower[i][j] = value / still->pivot[j];
+                continue;
+            }
+            still->pivot[i] = value;
+            if (!(value > 0)) still->solvable = 0;
+        }
+}
+
+/* Weigh the bits against what they give at a place, and set them again. */
+static void correct(struct nulls *nulls, const struct still *still) {
+    double value[TIMES];
+    int16_t weight[TIMES + 1] = {0};
+    int64_t weights = 0;
+    count_bits(nulls);
+    for (int j = 0; j < TIMES; j++) {
+        int64_t later = (j - TIMES / 2) * nulls->step, rows = later >= 0 ? later / REST_SAMPLES : -((REST_SAMPLES - 1 - later) / REST_SAMPLES);
+        int64_t beyond = later - rows * REST_SAMPLES;
+        int64_t given = -(int64_t)inner_product(nulls->above, still->response - later * CHANNELS, (int)nulls->values) * REST_SAMPLES;
+        given += (REST_SAMPLES - beyond) * rest_product(nulls, still->rest, rows) + beyond * rest_product(nulls, still->rest, rows + 1);
+        value[j] = (double)given / REST_SAMPLES;
+    }
+    for (int i = 0; i < TIMES; i++)
+        for (int k = 0; k < i; k++) value[i] -= still->lower[i][k] * value[k];
+    for (int i = 0; i < TIMES; i++) value[i] /= still->pivot[i];
+    for (int i = TIMES - 1; i >= 0; i--)
+        for (int k = i + 1; k < TIMES; k++) value[i] -= still->lower[k][i] * value[k];
+    for (int j = 0; j < TIMES; j++) {
+        double scaled = value[j] * nulls->unit;
+        if (!(fabs(scaled) < INT16_MAX)) return;
+        weight[j] = (int16_t)-nearest(scaled);
+        weights += weight[j] < 0 ? -weight[j] : weight[j];
+    }
+    if (nulls->spent + weights > CORRECTION_WEIGHT_SUM) return;
+    nulls->spent += weights;
+    for (int64_t at = 0; at < nulls->rows * ROW; at += ROW) {
+        for (int j = 0; j < TIMES; j += 2) {
+            const int16_t *one = still->response + at - (j - TIMES / 2) * nulls->step * CHANNELS;
+            const int16_t *other = j + 1 < TIMES ? one - nulls->step * CHANNELS : one;
+            add_two(nulls->sum + at, one, other, weight[j], weight[j + 1]);
+        }
+        compare_nothing(nulls->above + at, nulls->sum + at);
+    }
+    memset(nulls->above + nulls->values, 0, (size_t)(nulls->rows * ROW - nulls->values) * sizeof *nulls->above);
+}
+
+static void keep_still(struct work *work, const struct patch *patches, const struct patch *places, int count, int64_t step) {
+    struct nulls nulls = {.values = work->values, .rows = work->rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
+    nulls.rest_rows = work->rests / CHANNELS;
+    int64_t padded = nulls.rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
+    int16_t weight[MAX_FOCI];
+    double share[MAX_FOCI], shares = 0;
+    uint8_t *room = (uint8_t *)work->strength; /* behind the responses */
+    nulls.weight = (int64_t *)room;
+    nulls.sum = (int32_t *)(nulls.weight + nulls.blocks * CHANNELS);
+    nulls.strength = nulls.sum + padded;
+    nulls.above = (int16_t *)(nulls.strength + nulls.blocks * CHANNELS);
+    nulls.count = nulls.above + padded;
+    int16_t *next = nulls.count + nulls.rest_rows * CHANNELS;
+    take_bits(&nulls, work->words, work->idle_word);
+    for (int i = 0; i < work->count; i++) {
+        int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
+        memset(work->response[i] + work->values, 0, (size_t)(padded - work->values) * sizeof(int16_t));
+        int64_t given = -(int64_t)inner_product(nulls.above, work->response[i], (int)work->values);
+        share[i] = norm ? 1 / (double)norm : 0;
+        shares += share[i];
+        if (given < 0) share[i] = -share[i];
+    }
+    if (shares == 0) return;
+    double share_unit = MARGIN_WEIGHT_SUM / shares;
+    for (int i = 0; i < work->count; i++) weight[i] = (int16_t)nearest(share[i] * share_unit);
+    memset(nulls.strength, 0, (size_t)(nulls.blocks * CHANNELS) * sizeof *nulls.strength);
+    for (int64_t row = 0; row < nulls.rows; row++) {
+        add_up(work->count, work->response, weight, row * ROW, nulls.sum + row * ROW);
+        add_strength(nulls.strength + row / nulls.block_rows * CHANNELS, nulls.sum + row * ROW, GROUP_SAMPLES);
+        set_margins(nulls.sum + row * ROW, nulls.above + row * ROW);
+    }
+    for (int64_t i = 0; i < nulls.blocks * CHANNELS; i++) total += nulls.strength[i];
+    if (total == 0) return;
+    double floor = (double)total * FLOOR / (double)(nulls.blocks * CHANNELS), scale = floor * (1 << WEIGHT_BITS);
+    for (int64_t i = 0; i < nulls.blocks * CHANNELS; i++) {
+        double strength = (double)nulls.strength[i];
+        nulls.weight[i] = (int64_t)nearest(scale / (strength > floor ? strength : floor));
+    }
+    nulls.unit = PI * scale / (double)(nulls.block_rows * GROUP_SAMPLES);
+    for (int i = 0; i < count; i++) {
+        struct still *still = nulls.place + i;
+        memset(next, 0, (size_t)(padded + 2 * reach) * sizeof *next);
+        still->response = next + reach;
+        still->rest = next + padded + 2 * reach;
+        next = still->rest + nulls.rest_rows * CHANNELS;
+        interpolate(work->idle_word, places + i, 0, nulls.values, still->response);
+        interpolate(work->idle_word, places + i, nulls.values, nulls.rest_rows * CHANNELS, still->rest);
+        prepare_still(&nulls, still);
+    }
+    for (int sweep = 0; sweep < SWEEPS; sweep++)
+        for (int i = 0; i < count; i++)
+            if (nulls.place[i].solvable) correct(&nulls, nulls.place + i);
+    for (int64_t row = 0; row < nulls.rows; row++) {
+        int64_t left = (nulls.values - row * ROW) / CHANNELS;
+        write_words(work, row * ROW, left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES, nulls.above + row * ROW);
+    }
+}
+
+static PyObject *null_places_in(Py_buffer *buffer, PyObject *points, PyObject *places) {
+    struct bank bank;
+    struct work work;
+    struct patch patches[MAX_FOCI + MAX_NULLS];
+    double point[MAX_FOCI + MAX_NULLS][3];
+    if (!take_bank(buffer, &bank)) return NULL;
+    const struct plan *plan = &bank.plan;
+    Py_ssize_t count = PySequence_Size(points), still = PySequence_Size(places);
+    if (count < 0 || still < 0) return NULL;
+    if (count < 1 || count > MAX_FOCI || still < 1 || still > MAX_NULLS)
+        return PyErr_Format(PyExc_ValueError, "%zd points, not 1 to %d, and %zd nulls, not 1 to %d", count, (int)MAX_FOCI, still,
+                            (int)MAX_NULLS);
+    for (Py_ssize_t i = 0; i < count + still; i++)
+        if (!read_point(i < count ? points : places, i < count ? i : i - count, point[i])) return NULL;
+    if (!has_room(buffer, plan->samples)) return NULL;
+    for (Py_ssize_t i = 0; i < count + still; i++) {
+        int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
+        if (cell == -2) return NULL;
+        if (cell >= 0) return PyLong_FromLongLong(cell);
+    }
+    lay_out(&work, plan, (int)count, buffer[ROOM].buf, buffer[WORDS].buf);
+    int64_t step = plan->block_samples / STEPS_PER_BLOCK;
+    keep_still(&work, patches, patches + count, (int)still, step ? step : 1);
+    return PyLong_FromLong(-1);
+}
+
+static PyObject *null_places(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer buffer[BUFFERS];
+    PyObject *answer = NULL;
+    int taken = 0;
+    (void)module;
+    if (given != COMPOSE_ARGUMENTS + 1)
+        return PyErr_Format(PyExc_TypeError, "null_places takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS + 1, given);
+    while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
+    if (taken == BUFFERS) answer = null_places_in(buffer, arguments[POINTS], arguments[POINTS + 1]);
+    while (taken--) PyBuffer_Release(buffer + taken);
+    return answer;
+}
+
+/* ---- frames ---- */
+
+enum {
+    // generated: frames
+    FRAME_SYNC = 0xA55A,
+    LOAD = 3, /* type of frame */
+    CHUNK_BYTES = 500, /* words of a LOAD frame that is not the last */
+    PADDED_BYTES = 20, /* shortest payload of a LOAD */
+    CHUNKS = 8,
+    SHORT_FRAME_BYTES = 36, /* of a status, too */
+    NUMBER_AT = 3, /* byte of the header */
+    FAULTS_AT = 6, /* byte of a status */
+    CRC_OF_INTACT = 0x2144DF1C, /* of any message with its own CRC behind it */
+    HEADER_BYTES = 8,
+    TYPE_AT = 2, /* byte of the header */
+    LENGTH_AT = 4,
+    ARGUMENT_AT = 6,
+    CRC_BYTES = 4,
+    // end of frames
+    FULL_FRAME_BYTES = HEADER_BYTES + CHUNK_BYTES + CRC_BYTES,
+    ABREAST = 4, /* frames whose CRCs are computed together: one waits for each of its lookups */
+};
+
+static uint32_t crc_table[8][256]; /* [n]: a byte, then n zero bytes */
+static uint32_t chunk_table[4][256]; /* [n]: byte n of a state, then as many zero bytes as a chunk has */
+static uint32_t number_change[256]; /* of a full frame's CRC, by number ^ number */
+
+static int machine_has_crc; /* an instruction for what is a table's work elsewhere */
+
+/* States are CRCs without the inversions before and after: linear in the bytes. */
+INLINE uint32_t crc_eight(uint32_t state, uint64_t bytes) {
+#ifdef __aarch64__
+    if (machine_has_crc) {
+        __asm__(".arch_extension crc\n\tcrc32x %w0, %w0, %x1" : "+r"(state) : "r"(bytes));
+        return state;
+    }
+#endif
+    bytes ^= state;
+    return crc_table[7][bytes & 255] ^ crc_table[6][bytes >> 8 & 255] ^ crc_table[5][bytes >> 16 & 255] ^ crc_table[4][bytes >> 24 & 255] ^
+           crc_table[3][bytes >> 32 & 255] ^ crc_table[2][bytes >> 40 & 255] ^ crc_table[1][bytes >> 48 & 255] ^ crc_table[0][bytes >> 56];
+}
+
+INLINE uint64_t get_eight(const uint8_t *from) {
+    uint64_t bytes;
+    memcpy(&bytes, from, sizeof bytes);
+    return bytes;
+}
+
+INLINE uint32_t get_u32(const uint8_t *from) {
+    uint32_t value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+INLINE void put_u32(uint8_t *to, uint32_t value) { memcpy(to, &value, sizeof value); }
+
+static uint32_t crc_state(uint32_t state, const uint8_t *bytes, Py_ssize_t length) {
+    for (; length >= 8; length -= 8, bytes += 8) state = crc_eight(state, get_eight(bytes));
+    for (; length > 0; length--, bytes++) state = state >> 8 ^ crc_table[0][(uint8_t)(state ^ *bytes)];
+    return state;
+}
+
+static uint32_t crc32(const uint8_t *bytes, Py_ssize_t length) { return ~crc_state(~0u, bytes, length); }
+
+static uint32_t crc_of_zeros(uint32_t state, Py_ssize_t length) {
+    for (; length >= 8; length -= 8) state = crc_eight(state, 0);
+    for (; length > 0; length--) state = state >> 8 ^ crc_table[0][(uint8_t)state];
+    return state;
+}
+
+INLINE uint32_t after_chunk(uint32_t state) {
+    return chunk_table[0][state & 255] ^ chunk_table[1][state >> 8 & 255] ^ chunk_table[2][state >> 16 & 255] ^ chunk_table[3][state >> 24];
+}
+
+static uint32_t change_of(uint8_t numbers, Py_ssize_t frame_bytes) {
+    return crc_of_zeros(crc_table[0][numbers], frame_bytes - CRC_BYTES - NUMBER_AT - 1);
+}
+
+static void fill_tables(void) {
+    machine_has_crc = MACHINE_HAS_CRC;
+    for (uint32_t byte = 0; byte < 256; byte++) {
+        uint32_t state = byte;
+        for (int bit = 0; bit < 8; bit++) state = state >> 1 ^ (0xEDB88320u & -(state & 1));
+        crc_table[0][byte] = state;
+    }
+    for (int n = 1; n < 8; n++)
+        for (int byte = 0; byte < 256; byte++)
+            crc_table[n][byte] = crc_table[n - 1][byte] >> 8 ^ crc_table[0][(uint8_t)crc_table[n - 1][byte]];
+    for (int n = 0; n < 4; n++)
+        for (uint32_t byte = 0; byte < 256; byte++) chunk_table[n][byte] = crc_of_zeros(byte << 8 * n, CHUNK_BYTES);
+    for (int numbers = 0; numbers < 256; numbers++) number_change[numbers] = change_of((uint8_t)numbers, FULL_FRAME_BYTES);
+}
+
+/* Full frames, and bytes of the shorter one behind them: with header, payload and CRC. */
+struct loads {
+    Py_ssize_t full, rest;
+};
+
+static Py_ssize_t frames_bytes(struct loads loads) { return loads.full * FULL_FRAME_BYTES + loads.rest; }
+
+static int loads_of_words(Py_ssize_t words_bytes, struct loads *loads) {
+    if (words_bytes < 4 || words_bytes > CHUNKS * CHUNK_BYTES || words_bytes % 4) {
+        PyErr_Format(PyExc_ValueError, "a waveform has 4 to %d bytes, a multiple of 4, not %zd", (int)(CHUNKS * CHUNK_BYTES), words_bytes);
+        return 0;
+    }
+    Py_ssize_t rest = words_bytes % CHUNK_BYTES;
+    loads->full = words_bytes / CHUNK_BYTES;
+    loads->rest = rest ? HEADER_BYTES + (rest < PADDED_BYTES ? PADDED_BYTES : rest) + CRC_BYTES : 0;
+    return 1;
+}
+
+static int loads_of_frames(Py_ssize_t total, struct loads *loads) {
+    Py_ssize_t full = total / FULL_FRAME_BYTES, rest = total % FULL_FRAME_BYTES;
+    if (!total || full + !!rest > CHUNKS || (rest && (rest < HEADER_BYTES + PADDED_BYTES + CRC_BYTES || rest % 4))) {
+        PyErr_Format(PyExc_ValueError, "%zd bytes are not the LOAD frames of a waveform", total);
+        return 0;
+    }
+    *loads = (struct loads){full, rest};
+    return 1;
+}
+
+static int fits(const Py_buffer *out, Py_ssize_t total) {
+    if (out->len >= total) return 1;
+    PyErr_Format(PyExc_ValueError, "%zd bytes of frames do not fit into %zd", total, out->len);
+    return 0;
+}
+
+INLINE uint64_t load_header(uint8_t number, Py_ssize_t frame_bytes, Py_ssize_t chunk) {
+    uint64_t payload_bytes = (uint64_t)(frame_bytes - HEADER_BYTES - CRC_BYTES);
+    return FRAME_SYNC | LOAD << 8 * TYPE_AT | (uint64_t)number << 8 * NUMBER_AT | payload_bytes << 8 * LENGTH_AT |
+           (uint64_t)chunk << 8 * ARGUMENT_AT;
+}
+
+INLINE void put_header(uint8_t *frame, uint64_t header) { memcpy(frame, &header, sizeof header); }
+
+/* States of full frames that lie back to back. */
+static void crc_of_full_frames(const uint8_t *frames, Py_ssize_t count, uint32_t *state) {
+    enum { COVERED = FULL_FRAME_BYTES - CRC_BYTES, EIGHTS = COVERED / 8 * 8 };
+    for (; count >= ABREAST; count -= ABREAST, frames += ABREAST * FULL_FRAME_BYTES, state += ABREAST) {
+        uint32_t a = ~0u, b = ~0u, c = ~0u, d = ~0u;
+        const uint8_t *bytes = frames;
+        for (int at = 0; at < EIGHTS; at += 8, bytes += 8) {
+            a = crc_eight(a, get_eight(bytes));
+            b = crc_eight(b, get_eight(bytes + FULL_FRAME_BYTES));
+            c = crc_eight(c, get_eight(bytes + 2 * FULL_FRAME_BYTES));
+            d = crc_eight(d, get_eight(bytes + 3 * FULL_FRAME_BYTES));
+        }
+        state[0] = crc_state(a, bytes, COVERED - EIGHTS);
+        state[1] = crc_state(b, bytes + FULL_FRAME_BYTES, COVERED - EIGHTS);
+        state[2] = crc_state(c, bytes + 2 * FULL_FRAME_BYTES, COVERED - EIGHTS);
+        state[3] = crc_state(d, bytes + 3 * FULL_FRAME_BYTES, COVERED - EIGHTS);
+    }
+    for (; count; count--, frames += FULL_FRAME_BYTES, state++) *state = crc_state(~0u, frames, COVERED);
+}
+
+/* State of all words, from those of the full frames that have them: what the header and the words before leave behind is added at
+   the end of a frame's words. */
+static uint32_t crc_of_words(const uint8_t *frame, Py_ssize_t count, const uint32_t *state) {
+    uint32_t all = ~0u;
+    for (; count; count--, frame += FULL_FRAME_BYTES, state++) all = *state ^ after_chunk(all ^ crc_eight(~0u, get_eight(frame)));
+    return all;
+}
+
+/* Pack words of a length that was checked; returns their CRC. */
+static uint32_t pack_chunks(uint8_t *out, uint8_t sequence, const uint8_t *words, Py_ssize_t words_bytes, struct loads loads) {
+    uint32_t state[CHUNKS], all;
+    Py_ssize_t chunk;
+    uint8_t *frame = out;
+    for (chunk = 0; chunk < loads.full; chunk++, frame += FULL_FRAME_BYTES) {
+        put_header(frame, load_header((uint8_t)(sequence + chunk), FULL_FRAME_BYTES, chunk));
+        memcpy(frame + HEADER_BYTES, words + chunk * CHUNK_BYTES, CHUNK_BYTES);
+    }
+    crc_of_full_frames(out, loads.full, state);
+    all = crc_of_words(out, loads.full, state);
+    for (chunk = 0, frame = out; chunk < loads.full; chunk++, frame += FULL_FRAME_BYTES)
+        put_u32(frame + FULL_FRAME_BYTES - CRC_BYTES, ~state[chunk]);
+    if (loads.rest) {
+        Py_ssize_t rest = words_bytes - loads.full * CHUNK_BYTES, covered = loads.rest - CRC_BYTES;
+        put_header(frame, load_header((uint8_t)(sequence + chunk), loads.rest, chunk));
+        memcpy(frame + HEADER_BYTES, words + loads.full * CHUNK_BYTES, (size_t)rest);
+        memset(frame + HEADER_BYTES + rest, 0, (size_t)(covered - HEADER_BYTES - rest));
+        put_u32(frame + covered, crc32(frame, covered));
+        all = crc_state(all, frame + HEADER_BYTES, rest);
+    }
+    return ~all;
+}
+
+static void renumber(uint8_t *out, uint8_t sequence, const uint8_t *ready, struct loads loads) {
+    memcpy(out, ready, (size_t)frames_bytes(loads));
+    for (Py_ssize_t chunk = 0; chunk < loads.full + !!loads.rest; chunk++, out += FULL_FRAME_BYTES) {
+        Py_ssize_t size = chunk < loads.full ? FULL_FRAME_BYTES : loads.rest;
+        uint8_t number = (uint8_t)(sequence + chunk), numbers = (uint8_t)(number ^ chunk);
+        uint8_t *crc = out + size - CRC_BYTES;
+        put_header(out, load_header(number, size, chunk));
+        put_u32(crc, get_u32(crc) ^ (size == FULL_FRAME_BYTES ? number_change[numbers] : change_of(numbers, size)));
+    }
+}
+
+/* Take the words out of frames; the chunk of one that is damaged, or -1. */
+static Py_ssize_t unpack_chunks(uint8_t *words, Py_ssize_t words_bytes, const uint8_t *frames, struct loads loads, uint32_t *crc) {
+    uint32_t state[CHUNKS], all;
+    const uint8_t *frame = frames;
+    crc_of_full_frames(frames, loads.full, state);
+    all = crc_of_words(frames, loads.full, state);
+    for (Py_ssize_t chunk = 0; chunk < loads.full + !!loads.rest; chunk++, frame += FULL_FRAME_BYTES) {
+        int full = chunk < loads.full;
+        Py_ssize_t frame_bytes = full ? FULL_FRAME_BYTES : loads.rest, covered = frame_bytes - CRC_BYTES;
+        Py_ssize_t size = full ? CHUNK_BYTES : words_bytes - chunk * CHUNK_BYTES;
+        uint32_t found = full ? ~state[chunk] : crc32(frame, covered);
+        if (get_eight(frame) != load_header((uint8_t)chunk, frame_bytes, chunk) || get_u32(frame + covered) != found) return chunk;
+        for (Py_ssize_t at = HEADER_BYTES + size; at < covered; at++)
+            if (frame[at]) return chunk;
+        memcpy(words + chunk * CHUNK_BYTES, frame + HEADER_BYTES, (size_t)size);
+        if (!full) all = crc_state(all, frame + HEADER_BYTES, size);
+    }
+    *crc = ~all;
+    return -1;
+}
+
+/* ---- frames: from Python ---- */
+
+/* Buffers to write and to read, or an exception. */
+static int take_two(PyObject *written, PyObject *read, Py_buffer *to, Py_buffer *from) {
+    if (PyObject_GetBuffer(written, to, PyBUF_WRITABLE)) return 0;
+    if (!PyObject_GetBuffer(read, from, PyBUF_SIMPLE)) return 1;
+    PyBuffer_Release(to);
+    return 0;
+}
+
+static PyObject *pack_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer out, words;
+    struct loads loads;
+    PyObject *answer = NULL;
+    (void)module;
+    if (given != 3) return PyErr_Format(PyExc_TypeError, "pack_loads takes 3 arguments, not %zd", given);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[1]);
+    if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
+    if (!take_two(arguments[0], arguments[2], &out, &words)) return NULL;
+    if (loads_of_words(words.len, &loads) && fits(&out, frames_bytes(loads)))
+        answer = PyLong_FromUnsignedLong(pack_chunks(out.buf, (uint8_t)sequence, words.buf, words.len, loads));
+    PyBuffer_Release(&out);
+    PyBuffer_Release(&words);
+    return answer;
+}
+
+static PyObject *renumber_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer out, ready;
+    struct loads loads;
+    (void)module;
+    if (given != 3) return PyErr_Format(PyExc_TypeError, "renumber_loads takes 3 arguments, not %zd", given);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[1]);
+    if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
+    if (!take_two(arguments[0], arguments[2], &out, &ready)) return NULL;
+    int good = loads_of_frames(ready.len, &loads) && fits(&out, ready.len);
+    if (good) renumber(out.buf, (uint8_t)sequence, ready.buf, loads);
+    PyBuffer_Release(&out);
+    PyBuffer_Release(&ready);
+    if (!good) return NULL;
+    Py_RETURN_NONE;
+}
+
+static PyObject *unpack_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer words, ready;
+    struct loads loads;
+    PyObject *answer = NULL;
+    (void)module;
+    if (given != 2) return PyErr_Format(PyExc_TypeError, "unpack_loads takes 2 arguments, not %zd", given);
+    if (!take_two(arguments[0], arguments[1], &words, &ready)) return NULL;
+    if (loads_of_words(words.len, &loads)) {
+        if (ready.len != frames_bytes(loads)) {
+            PyErr_Format(PyExc_ValueError, "%zd bytes are not the frames of %zd bytes of words", ready.len, words.len);
+        } else {
+            uint32_t crc;
+            Py_ssize_t damaged = unpack_chunks(words.buf, words.len, ready.buf, loads, &crc);
+            if (damaged >= 0)
+                PyErr_Format(PyExc_ValueError, "frame %zd is damaged", damaged);
+            else
+                answer = PyLong_FromUnsignedLong(crc);
+        }
+    }
+    PyBuffer_Release(&words);
+    PyBuffer_Release(&ready);
+    return answer;
+}
+
+static PyObject *seal_short_frames(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    (void)module;
+    if (given != 4) return PyErr_Format(PyExc_TypeError, "seal_short_frames takes 4 arguments, not %zd", given);
+    Py_ssize_t start = PyLong_AsSsize_t(arguments[1]);
+    if (start == -1 && PyErr_Occurred()) return NULL;
+    Py_ssize_t count = PyLong_AsSsize_t(arguments[2]);
+    if (count == -1 && PyErr_Occurred()) return NULL;
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[3]);
+    if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
+    Py_buffer out;
+    if (PyObject_GetBuffer(arguments[0], &out, PyBUF_WRITABLE)) return NULL;
+    if (start < 0 || count < 0 || start > out.len || count > (out.len - start) / SHORT_FRAME_BYTES) {
+        PyErr_Format(PyExc_ValueError, "%zd frames from byte %zd on do not fit into %zd bytes", count, start, out.len);
+        PyBuffer_Release(&out);
+        return NULL;
+    }
+    uint8_t *frame = (uint8_t *)out.buf + start;
+    for (Py_ssize_t number = 0; number < count; number++, frame += SHORT_FRAME_BYTES) {
+        frame[NUMBER_AT] = (uint8_t)(sequence + (unsigned long)number);
+        put_u32(frame + SHORT_FRAME_BYTES - CRC_BYTES, crc32(frame, SHORT_FRAME_BYTES - CRC_BYTES));
+    }
+    PyBuffer_Release(&out);
+    Py_RETURN_NONE;
+}
+
+static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize_t given) {
+    (void)module;
+    if (given != 5) return PyErr_Format(PyExc_TypeError, "statuses_good takes 5 arguments, not %zd", given);
+    Py_ssize_t start = PyLong_AsSsize_t(args[1]);
+    Py_ssize_t count = PyLong_AsSsize_t(args[2]);
+    unsigned long head = PyLong_AsUnsignedLongMask(args[3]);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(args[4]);
+    if (PyErr_Occurred()) return NULL;
+    Py_buffer answers;
+    if (PyObject_GetBuffer(args[0], &answers, PyBUF_SIMPLE)) return NULL;
+    if (start < 0 || count < 0 || start > answers.len || count > (answers.len - start) / SHORT_FRAME_BYTES) {
+        PyErr_Format(PyExc_ValueError, "%zd statuses from byte %zd on are not within %zd bytes", count, start, answers.len);
+        PyBuffer_Release(&answers);
+        return NULL;
+    }
+    const uint8_t *status = (const uint8_t *)answers.buf + start;
+    int good = 1;
+    for (Py_ssize_t number = 0; good && number < count; number++, status += SHORT_FRAME_BYTES) {
+        uint32_t first = status[0] | status[1] << 8 | status[2] << 16 | (uint32_t)status[3] << 24;
+        good = first == ((uint32_t)head | (uint32_t)(uint8_t)(sequence + number) << 24) && !(status[FAULTS_AT] | status[FAULTS_AT + 1]) &&
+               crc32(status, SHORT_FRAME_BYTES) == CRC_OF_INTACT;
+    }
+    PyBuffer_Release(&answers);
+    return PyBool_FromLong(good);
+}
+
+static PyMethodDef methods[] = {
+    {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
+    {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, plan, entries, scales, good, response, points)"},
+    {"null_places", (PyCFunction)(void (*)(void))null_places, METH_FASTCALL, "null_places(words, room, plan, entries, scales, good, response, points, nulls)"},
+    {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
+    {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},
+    {"unpack_loads", (PyCFunction)(void (*)(void))unpack_loads, METH_FASTCALL, "unpack_loads(words, ready)"},
+    {"seal_short_frames", (PyCFunction)(void (*)(void))seal_short_frames, METH_FASTCALL, "seal_short_frames(out, start, count, sequence)"},
+    {NULL, NULL, 0, NULL},
+};
+
+static struct PyModuleDef module = {PyModuleDef_HEAD_INIT, .m_name = "controller.device.kernel._kernel", .m_size = -1, .m_methods = methods};
+
+PyMODINIT_FUNC PyInit__kernel(void) {
+    fill_tables();
+    return PyModule_Create(&module);
+}

@@ -1,0 +1,243 @@
+"""Drive words that leave some places still, in NumPy: the specification of the compiled kernel, as `words_twin` is.
+
+Words for some points are given, composed or not. What they do at a null near T is linear in the bits, and the response that
+is met a sample later is the same one, a sample on: nothing but the bank's responses is needed. Nine times are looked at, a
+sixteenth of a block (6 us) apart, so within 25 us of T.
+
+A bit may be changed the sooner, the less the points get from it: its margin is the sum of the points' responses, each divided by
+the sum of its absolute values and with the sign of what the words give it, in whole multiples, above zero where the bit deviates
+from idle. The responses at nulls are weighed against that: `margin += sum(weight * response later)`, and a bit deviates where the
+margin is above zero.
+
+How much a weight moves the displacements follows from the density of margins at zero, which is next to the inverse of their mean
+size in the same block of samples and the same channel. So the weights are the solution of nine equations, whose matrix is taken
+to depend on the distance of two times only, with a fifth more on its diagonal, as it is known roughly. Four sweeps over the
+places, each measured again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.kernel.polarity_twin import SKETCH_SHIFT
+from controller.device.kernel.words_twin import (
+    CHANNELS,
+    MAX_FOCI,
+    REST_SAMPLES,
+    STRENGTH_SHIFT,
+    Patch,
+    Point,
+    Readable,
+    Writable,
+    _checked_words,
+    _Responses,
+)
+
+Numbers = NDArray[Any]
+
+MAX_NULLS: Final = 4
+TIMES: Final = 9  # around T
+STEPS_PER_BLOCK: Final = 16
+SWEEPS: Final = 4
+MARGIN_WEIGHT_SUM: Final = 4095  # of the points, and 15 times as much for all corrections: below 2^31 together
+CORRECTION_WEIGHT_SUM: Final = 61440
+LARGEST_WEIGHT: Final = 32767
+WEIGHT_BITS: Final = 20
+FLOOR: Final = 0.25  # of the mean size of all margins: smaller ones count as this
+RIDGE: Final = 0.2
+PI: Final = 3.141592653589793
+
+
+def null_places(
+    words: Writable,
+    room: Writable,
+    plan: Readable,
+    entries: Readable,
+    scales: Readable,
+    good: Readable,
+    response: Readable,
+    points: Sequence[Point],
+    nulls: Sequence[Point],
+) -> int:
+    """Change drive words so that some places stay still near T.
+
+    Parameters
+    ----------
+    words : writable buffer
+        Drive words for `points`; changed in place.
+    room, plan, entries, scales, good, response
+        As `compose` takes them.
+    points : sequence of (x_m, y_m, amplitude)
+        What the words were made for; amplitudes are not used.
+    nulls : sequence of (x_m, y_m, amplitude)
+        1 to `MAX_NULLS` nulls; amplitudes are not used.
+
+    Returns
+    -------
+    int
+        -1: done. Otherwise a cell that is needed, which has no response or one that may not be used; nothing was changed.
+
+    Raises
+    ------
+    ValueError
+        If there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers too
+        short for them.
+    """
+    bank = _Responses(plan, entries, scales, good, response)
+    if not (1 <= len(points) <= MAX_FOCI and 1 <= len(nulls) <= MAX_NULLS):
+        raise ValueError(f"{len(points)} points, not 1 to {MAX_FOCI}, and {len(nulls)} nulls, not 1 to {MAX_NULLS}")
+    filled, patches = _checked_words(bank, words, room, [*points, *nulls]), []
+    for x_m, y_m, _ in (*points, *nulls):
+        patch, cell = bank.patch(x_m, y_m)
+        if cell >= 0:
+            return cell
+        patches.append(patch)
+    _Nulls(bank, filled, patches, len(points)).keep_still()
+    return -1
+
+
+class _Met:
+    """A response between zeros, (sample, 32) flat in whole float64, as it is met at other times: 2^53 is far above every sum."""
+
+    def __init__(self, response: Numbers, reach: int) -> None:
+        self._size, self._reach = response.size, reach
+        self._padded = np.zeros(response.size + 2 * reach * CHANNELS)
+        self._padded[reach * CHANNELS : reach * CHANNELS + response.size] = response.reshape(-1)
+
+    def later(self, by: int) -> Numbers:
+        """The response as it is met this many samples, or rows, later."""
+        start = (self._reach - by) * CHANNELS
+        return self._padded[start : start + self._size]
+
+
+class _Nulls:
+    """The bits of drive words, their margins, and the places to be kept still."""
+
+    def __init__(self, bank: _Responses, words: memoryview, patches: list[Patch], points: int) -> None:
+        self._samples, self._rows = bank.samples, -(-bank.samples // REST_SAMPLES)
+        self._block, self._blocks = bank.block_samples, -(-bank.samples // bank.block_samples)
+        self._step = max(bank.block_samples // STEPS_PER_BLOCK, 1)
+        self._idle_word = bank.idle_word
+        idle = np.array([bank.idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
+        self._turned = 1 - 2 * idle
+        self._words = np.frombuffer(words, "<u4", bank.samples)
+        as_bytes = (self._words ^ np.uint32(bank.idle_word)).view(np.uint8).reshape(-1, 4)
+        self._padded_bits = np.zeros((self._rows * REST_SAMPLES, CHANNELS))
+        self._bits = self._padded_bits.reshape(-1)[: bank.samples * CHANNELS]  # where they deviate from idle
+        self._bits[:] = np.unpackbits(as_bytes, axis=1, bitorder="little").reshape(-1)
+        levels = np.frombuffer(bank.response, np.int8)
+        both = [self._interpolated(levels, bank.stride, patch) for patch in patches]
+        self._points, self._still = [in_band for in_band, _ in both[:points]], both[points:]
+        self._spent = 0
+
+    def _interpolated(self, levels: Numbers, stride: int, patch: Patch) -> tuple[Numbers, Numbers]:
+        """Response of a place in the band, (sample, 32), and its rest, (row, 32), negated in channels that idle high."""
+        values = (self._samples + self._rows) * CHANNELS
+        short = np.zeros(values, np.int16)
+        for entry, share in patch:
+            short += np.multiply(levels[entry * stride : entry * stride + values], share, dtype=np.int16)
+        short = short.reshape(-1, CHANNELS) * self._turned
+        return short[: self._samples], short[self._samples :]
+
+    def keep_still(self) -> None:
+        """Change the words."""
+        shares, responses, total = [], [in_band.astype(np.float64).reshape(-1) for in_band in self._points], 0.0
+        for response in responses:
+            norm = float(np.abs(response).sum())
+            share = 1 / norm if norm else 0.0
+            total += share
+            shares.append(-share if _product(self._bits, response) < 0 else share)
+        if total == 0:
+            return
+        unit = MARGIN_WEIGHT_SUM / total
+        margin = np.zeros(self._samples * CHANNELS)
+        for share, response in zip(shares, responses, strict=True):
+            margin += round(share * unit) * response
+        size = np.abs(margin)
+        strength = self._by_block(np.floor(size / (1 << STRENGTH_SHIFT)))
+        if not strength.any():
+            return
+        self._margin = np.where(self._bits > 0, size + 1, -size)
+        floor = float(strength.sum()) * FLOOR / float(self._blocks * CHANNELS)
+        scale = floor * (1 << WEIGHT_BITS)
+        self._weight = np.rint(scale / np.maximum(strength, floor)).astype(np.int64)
+        self._unit = PI * scale / float(self._block)
+        places = []
+        for in_band, rest in self._still:
+            factors = self._prepared(_Met(in_band >> SKETCH_SHIFT, TIMES * self._step))
+            if factors is not None:
+                places.append((_Met(in_band, TIMES * self._step), _Met(rest, TIMES * self._step), *factors))
+        for _ in range(SWEEPS):
+            for place in places:
+                self._correct(*place)
+        bits = self._bits.reshape(-1, CHANNELS).astype(np.uint8)
+        self._words[:] = np.packbits(bits, axis=1, bitorder="little").view("<u4")[:, 0] ^ np.uint32(self._idle_word)
+
+    def _by_block(self, values: Numbers) -> Numbers:
+        """Sums over the samples of each block: (block, 32)."""
+        padded = np.zeros((self._blocks * self._block, CHANNELS))
+        padded[: self._samples] = values.reshape(-1, CHANNELS)
+        sums: Numbers = padded.reshape(self._blocks, self._block, CHANNELS).sum(axis=1)
+        return sums
+
+    def _prepared(self, coarse: _Met) -> tuple[list[list[float]], list[float]] | None:
+        """Factors (lower, pivots) of the equations of corrections; None if there is nothing to correct with."""
+        products = []
+        for lag in range(TIMES):
+            sums = self._by_block(coarse.later(0) * coarse.later(lag * self._step)).astype(np.int64)
+            products.append(float(int((sums * self._weight).sum())))
+        if not products[0] > 0:
+            return None
+        lower = [[0.0] * TIMES for _ in range(TIMES)]
+        pivots: list[float] = []
+        for i in range(TIMES):
+            for j in range(i + 1):
+                value = products[0] * (1 + RIDGE) if i == j else products[i - j]
+                for k in range(j):
+                    value -= lower[i][k] * lower[j][k] * pivots[k]
+                if j < i:
+                    lower[i][j] = value / pivots[j]
+                    continue
+                if not value > 0:
+                    return None
+                pivots.append(value)
+        return lower, pivots
+
+    def _correct(self, in_band: _Met, rest: _Met, lower: list[list[float]], pivots: list[float]) -> None:
+        """Weigh the bits against what they give at a place, and set them again."""
+        counts = self._padded_bits.reshape(self._rows, REST_SAMPLES, CHANNELS).sum(axis=1).reshape(-1)
+        times = [(j - TIMES // 2) * self._step for j in range(TIMES)]
+        value = []
+        for later in times:
+            rows, beyond = divmod(later, REST_SAMPLES)
+            given = REST_SAMPLES * _product(self._bits, in_band.later(later))
+            given += (REST_SAMPLES - beyond) * _product(counts, rest.later(rows)) + beyond * _product(counts, rest.later(rows + 1))
+            value.append(given / REST_SAMPLES)
+        for i in range(TIMES):
+            for k in range(i):
+                value[i] -= lower[i][k] * value[k]
+        for i in range(TIMES):
+            value[i] /= pivots[i]
+        for i in range(TIMES - 1, -1, -1):
+            for k in range(i + 1, TIMES):
+                value[i] -= lower[k][i] * value[k]
+        scaled = [one * self._unit for one in value]
+        if not all(abs(one) < LARGEST_WEIGHT for one in scaled):
+            return
+        weights = [-round(one) for one in scaled]
+        spent = self._spent + sum(map(abs, weights))
+        if spent > CORRECTION_WEIGHT_SUM:
+            return
+        self._spent = spent
+        for weight, later in zip(weights, times, strict=True):
+            self._margin += weight * in_band.later(later)
+        np.greater(self._margin, 0, out=self._bits)
+
+
+def _product(left: Numbers, right: Numbers) -> float:
+    """Inner product of whole numbers, exact in any order; BLAS would start threads for it."""
+    return float((left * right).sum())

@@ -1,0 +1,115 @@
+"""Polarities of several points that are composed together, and their weights at full amplitude; a part of `words_twin`.
+
+Both are found from a sketch: every second sample of the responses, and for inner products every fourth.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+Numbers = NDArray[Any]
+
+POINT_WEIGHT_SUM: Final = 32767  # of the points
+SKETCH_STEP: Final = 2  # of all samples, one of this many is in the sketch from which polarities and weights are found
+SKETCH_SHIFT: Final = 4  # bits that responses lose there, so that 256 products add up to less than 2^31
+PRODUCT_BITS: Final = 30  # of the largest inner product of two responses
+BALANCING_ROUNDS: Final = 2
+MAX_CORRECTION: Final = 2.0  # of a weight in a round
+ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
+RATIO_SLOPE: Final = 30.0  # by which ratio amplitudes may differ, for each correlation below: 4 at 0.4, 3.1 mm
+
+
+class Sketch:
+    """Every second sample of the points' responses; inner products of responses are those of every fourth."""
+
+    def __init__(self, in_band: Numbers) -> None:
+        count = len(in_band)
+        self._rows = (in_band[:, ::SKETCH_STEP] >> SKETCH_SHIFT).reshape(count, -1)
+        coarse = (in_band[:, :: 2 * SKETCH_STEP] >> SKETCH_SHIFT).reshape(count, -1)
+        self._gram: Numbers = np.array([[(one * other).sum() for other in coarse] for one in coarse])
+
+    def polarised(self, asked: list[float], norms: list[float]) -> tuple[list[float], list[float]]:
+        """What can be asked for, and the norms, with the signs of the points for which the energy of the sum is largest."""
+        count, products = len(norms), []
+        for i in range(count):
+            for j in range(i):
+                products.append((i, j, float(self._gram[i, j]) / norms[i] / norms[j]))
+        largest = max(abs(product) for _, _, product in products)
+        if largest == 0:
+            return asked, norms
+        signs = _signs(count, products, (1 << PRODUCT_BITS) / largest)
+        if min(asked) != max(asked):
+            asked = _reconciled(asked, signs, self._correlations())
+        return asked, [norm * sign for norm, sign in zip(norms, signs, strict=True)]
+
+    def balanced(self, norms: list[float]) -> list[float]:
+        """Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had."""
+        weights = [1.0 if math.isfinite(norm) else 0.0 for norm in norms]
+        moving = product(weights, weights) or 1.0
+        for _ in range(BALANCING_ROUNDS):
+            bits = sum(weight * row for weight, row in zip(whole_weights(weights, norms)[0], self._rows, strict=True)) > 0
+            shares = [int(np.sum(row, where=bits)) / norm for row, norm in zip(self._rows, norms, strict=True)]
+            mean = product(shares, [1.0] * len(norms)) / moving
+            for index, share in enumerate(shares):
+                correction = mean / share if share > 0 else MAX_CORRECTION
+                weights[index] *= min(max(correction, 1 / MAX_CORRECTION), MAX_CORRECTION)
+        return weights
+
+    def _correlations(self) -> list[tuple[int, int, float]]:
+        """Of the responses of each two points."""
+        found, sizes = [], [float(size) for size in self._gram.diagonal()]
+        for i in range(len(sizes)):
+            for j in range(i):
+                if sizes[i] > 0 and sizes[j] > 0:
+                    found.append((i, j, float(self._gram[i, j]) / math.sqrt(sizes[i] * sizes[j])))
+        return found
+
+
+def _signs(count: int, products: list[tuple[int, int, float]], unit: float) -> list[int]:
+    """Polarities for which the energy of the sum is largest, by the inner products of the responses."""
+    gram = np.zeros((count, count), np.int64)
+    for i, j, product in products:
+        gram[i, j] = gram[j, i] = round(product * unit)
+    choices = np.arange(1 << (count - 1))  # the first point is positive
+    signs = 1 - 2 * (choices[:, None] << 1 >> np.arange(count) & 1)
+    best = int(np.argmax(((signs @ gram) * signs).sum(axis=1)))
+    turned = 1 if 2 * best.bit_count() > count else 0
+    return [1 - 2 * (best << 1 >> i & 1 ^ turned) for i in range(count)]
+
+
+def _reconciled(asked: list[float], signs: list[int], alike: list[tuple[int, int, float]]) -> list[float]:
+    """Amplitudes that points can have beside each other: those that move together get the least that one of them asks for."""
+    asked = list(asked)
+    for _ in range(len(asked)):
+        before = list(asked)
+        for i, j, correlation in alike:
+            together = correlation * signs[i] * signs[j]
+            if together > 0:
+                room = 1 + (ONE_PLACE - together) * RATIO_SLOPE if together < ONE_PLACE else 1.0
+                asked[i] = min(asked[i], asked[j] * room)
+                asked[j] = min(asked[j], asked[i] * room)
+        if asked == before:
+            break
+    return asked
+
+
+def whole_weights(weights: list[float], divisors: list[float]) -> tuple[list[int], float]:
+    """Whole numbers next to the weights over the divisors, times the unit that is returned with them."""
+    shares, total = [], 0.0
+    for weight, divisor in zip(weights, divisors, strict=True):
+        shares.append(weight / divisor)
+        total += abs(weight / divisor)
+    unit = POINT_WEIGHT_SUM / total if 0 < total < math.inf else 0.0
+    return [round(share * unit) if unit else 0 for share in shares], unit
+
+
+def product(left: list[float], right: list[float]) -> float:
+    """Inner product, term by term: `sum` of floats is compensated from Python 3.12 on."""
+    total = 0.0
+    for one, other in zip(left, right, strict=True):
+        total += one * other
+    return total

@@ -1,0 +1,109 @@
+"""What commands may ask of the loop, done: the `PanelControl` behind the application socket."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from controller.device.loop.context import LoopContext
+from controller.device.loop.layers import Layers
+from controller.device.loop.outputs import Outputs
+from controller.device.loop.playing.host_timing import HostTiming
+from controller.device.loop.scene_source import SceneChange
+from controller.device.loop.scheduler import Scheduler
+from controller.device.scene.layers import Placement
+from controller.device.scene.scene import Scene
+from controller.errors import ConfigError, FaultError
+
+
+class LoopControl:
+    """`PanelControl` of one loop.
+
+    Parameters
+    ----------
+    layers : Layers
+        Of clients, over the scene.
+    change : SceneChange or None
+        None: scenes cannot be changed.
+    """
+
+    def __init__(
+        self,
+        context: LoopContext,
+        outputs: Outputs,
+        scheduler: Scheduler,
+        timing: HostTiming,
+        layers: Layers,
+        change: SceneChange | None,
+    ) -> None:
+        self._layers = layers
+        self._outputs = outputs
+        self._scheduler = scheduler
+        self._clock_estimate = context.clock_estimate
+        self._counters = context.counters
+        self._change = change
+        self._timing = timing
+
+    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+        """Play an effect; see `PanelControl.play`.
+
+        Raises
+        ------
+        FaultError
+            While the outputs are off, with the cause.
+        ConfigError
+            If the effect or the finger is unknown.
+        """
+        if not self._outputs.wanted:
+            raise FaultError("the outputs are off: the panel is disarmed; a client that may operate it has to arm it")
+        if self._outputs.idle:
+            self._outputs.wake()
+        if not self._outputs.on and not self._outputs.waking:
+            raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
+        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
+
+    def switch(self, *, on: bool, by: str = "a client") -> None:
+        """Arm or disarm the outputs; see `PanelControl.switch`."""
+        self._outputs.switch(on=on, by=by)
+
+    def load_scene(self, ticket: int, name: str) -> None:
+        """Prepare another scene; see `PanelControl.load_scene`.
+
+        Raises
+        ------
+        ConfigError
+            If this loop cannot change its scene.
+        """
+        if self._change is None:
+            raise ConfigError("this panel cannot change its scene: it was started without the helper that prepares scenes")
+        self._change.begin(name, ticket)
+
+    def put_layer(self, ticket: int, owner: int, line: bytes, placement: Placement | None, now_s: float) -> None:
+        """Replace a client's layer; see `PanelControl.put_layer`."""
+        self._layers.put(ticket, owner, line, placement, now_s)
+
+    def move_layer(self, owner: int, placement: Placement) -> None:
+        """Move a client's layer; see `PanelControl.move_layer`."""
+        self._layers.move(owner, placement)
+
+    def drop_layer(self, owner: int, now_s: float) -> None:
+        """Remove the layer of a client that has gone."""
+        self._layers.drop(owner, now_s)
+
+    def figures(self) -> dict[str, Any]:
+        """Counters and latencies, ready for JSON; without histograms, which would take 12 ms of the loop's time."""
+        outputs = "ramping" if self._outputs.ramping else self._outputs.cause or ("on" if self._outputs.on else "off")
+        return self._counters.export(histograms=False) | {
+            "outputs": outputs,
+            "outputs_on": self._outputs.may_be_on,
+            "waiting": len(self._scheduler.due),
+            "schedule": self._timing.figures(),
+            "latency_histograms": self._counters.coarse_latency(),
+        }
+
+    def scene(self) -> tuple[str, Scene]:
+        """Name of the scene in force, and the scene; see `PanelControl.scene`."""
+        return "" if self._change is None else self._change.name, self._layers.scene
+
+    def effects(self) -> tuple[str, ...]:
+        """Names of the effects that `play` accepts."""
+        return tuple(self._scheduler.scene.effects)

@@ -1,0 +1,367 @@
+"""The event loop: touch reports and commands in, emissions out, in one thread that blocks only in its selector.
+
+Each turn reads at most one touch report and a bounded number of commands, lets the scheduler collect what is due, and has
+the dispatcher hand it to the FPGA. The longest blocking call without a fault is one message on the wire
+(`HostTiming.upload`).
+"""
+
+from __future__ import annotations
+
+import selectors
+import signal
+import time
+from collections.abc import Callable
+
+from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
+from controller.device.loop.commands import CommandSource
+from controller.device.loop.context import LoopContext, Watch
+from controller.device.loop.control import LoopControl
+from controller.device.loop.dispatcher import Dispatcher
+from controller.device.loop.fixed_emitters import ROUNDING_S
+from controller.device.loop.layers import Layers
+from controller.device.loop.outputs import Outputs
+from controller.device.loop.playing.playback import Playback
+from controller.device.loop.playing.records import Turn
+from controller.device.loop.runtime import Wakeup, handled_signals, no_garbage_collection
+from controller.device.loop.scene_source import SceneChange
+from controller.device.loop.scheduler import Scheduler
+from controller.device.loop.trace_ring import LATE_S
+from controller.device.loop.watched_files import NotingSelector, WatchedFiles
+from controller.errors import ControllerError, FaultError, LinkError
+
+NOBODY = Watch()
+
+
+class EventLoop:
+    """Runs one panel until its source ends or a signal comes.
+
+    Parameters
+    ----------
+    commands : CommandSource, optional
+        Where commands come from.
+    change : SceneChange, optional
+        Prepares another scene, for SIGHUP and for commands; None: the scene cannot be changed.
+    idle_after_s : float
+        The outputs are switched off after so long without a touch or command.
+
+    Attributes
+    ----------
+    control : LoopControl
+        What commands may ask of this loop.
+    """
+
+    def __init__(
+        self,
+        context: LoopContext,
+        scheduler: Scheduler,
+        playback: Playback,
+        dispatcher: Dispatcher,
+        *,
+        commands: CommandSource | None = None,
+        change: SceneChange | None = None,
+        watch: Watch = NOBODY,
+        idle_after_s: float = NEVER,
+    ) -> None:
+        self._clock = context.clock
+        self._session = context.session
+        self._source = context.source
+        self._silence = context.silence
+        self._clock_estimate = context.clock_estimate
+        self._counters = context.counters
+        self._trace = context.trace
+        self._scheduler = scheduler
+        self._playback = playback
+        self._timing = playback.timing
+        self._dispatcher = dispatcher
+        self._commands = commands
+        self._change = change
+        self._no_command = False
+        self._progress = watch.progress
+        self._emission_started = watch.emission_started
+        self._scene_changed = watch.scene_changed
+        self._spare = watch.spare
+        self._outputs = Outputs(context)
+        self._layers = Layers(scheduler, context.layers, commands)
+        self.control = LoopControl(context, self._outputs, scheduler, playback.timing, self._layers, change)
+        self._wakeup: Wakeup | None = None
+        self._reload = False
+        self._stopped = False
+        self._slept_until_s = NEVER  # NEVER too if the loop did not sleep before this turn
+        self._idle_after_s = idle_after_s
+        self._held = False  # the outputs have just come on for what waits
+        self._active_s = -NEVER  # when something was last touched or played
+
+    @property
+    def outputs(self) -> Outputs:
+        """Outputs of the FPGA."""
+        return self._outputs
+
+    @property
+    def repeating(self) -> bool:
+        """Whether the FPGA repeats an emission by itself."""
+        return self._playback.occupancy.repeating
+
+    @property
+    def reloading(self) -> bool:
+        """Whether another scene is being prepared."""
+        return self._change is not None and self._change.fileno() is not None
+
+    @property
+    def stretch(self) -> Callable[[float], None]:
+        """To be called with the factor by which emissions last longer than the bank says."""
+        return self._playback.occupancy.set_time_scale
+
+    def pause_repetition(self, now_s: float) -> None:
+        """End the repetition by the FPGA, if there is one, for as long as a setting of it takes: it goes on in its pulse."""
+        self._dispatcher.pause_repetition(now_s)
+
+    def stop(self) -> None:
+        """Have `run` switch the outputs off and return after this turn."""
+        self._stopped = True
+
+    def reload(self) -> None:
+        """Have the scene read again in the next turn."""
+        self._reload = True
+
+    def run(self, ready: Callable[[], None] = lambda: None) -> None:
+        """Arm, play until the source ends or `stop` is called, disarm.
+
+        However this returns or raises, the outputs are off then: a status of the FPGA has said so, or, where none arrives, the
+        FPGA's heartbeat timeout has passed.
+
+        Parameters
+        ----------
+        ready : callable
+            Called once the outputs are on for the first time.
+
+        Raises
+        ------
+        FaultError
+            If the FPGA has switched off for a reason that the host may not clear by itself.
+        IncompatibleFpga
+            If it is another FPGA, or does not take the board's settings.
+        """
+        handlers = {signal.SIGINT: self.stop, signal.SIGTERM: self.stop, signal.SIGUSR1: self._explain}
+        if self._change is not None:
+            handlers[signal.SIGHUP] = self.reload
+        with NotingSelector() as selector, handled_signals(handlers, selector) as self._wakeup, no_garbage_collection():
+            files = WatchedFiles(selector)
+            try:
+                next_s: float | None = self._clock.now_s()
+                while next_s is not None and not self._stopped:
+                    self._watch(files)
+                    selector.ready = None
+                    self._slept_until_s = NEVER
+                    if self._clock.now_s() < next_s:
+                        self._clock.wait(selector, next_s)
+                        self._slept_until_s = next_s
+                    self._silence.known, self._no_command = files.silent("touch"), files.silent("commands")
+                    try:
+                        if self._outputs.unwanted:
+                            self._abandon()
+                            self._outputs.disarm()
+                        waited = self._outputs.waking
+                        if self._outputs.advance(self._clock.now_s()):
+                            self._active_s = self._clock.now_s()
+                            if waited:
+                                self._held = True
+                            else:
+                                self._scheduler.reset(self._fpga_now_s())  # FPGA time may have started again
+                            ready()
+                            ready = _nothing
+                        next_s = self._turn()
+                    except (LinkError, FaultError) as error:
+                        self._recover(error)
+                        next_s = self._clock.now_s()
+                        if self._progress is not None:  # the next turn may arm already
+                            self._progress(next_s)
+            finally:
+                self._switch_off()
+
+    def _explain(self) -> None:
+        """Have the trace written."""
+        self._trace.asked("it was asked for (SIGUSR1)")
+        if self._wakeup is not None:
+            self._wakeup.clear()
+
+    def _fpga_now_s(self) -> FpgaTime:
+        return self._clock_estimate.fpga_s(self._clock.now_s())
+
+    def _recover(self, error: ControllerError) -> None:
+        """Recover from an error of the link or the FPGA: the outputs are off."""
+        if self._outputs.on:
+            self._trace.asked(str(error))
+        self._abandon()
+        self._outputs.failed(error, self._clock.now_s())
+
+    def _abandon(self) -> None:
+        """Forget what was due, accepted or playing: none of it is resumed."""
+        self._playback.reset()
+        self._scheduler.reset(self._fpga_now_s())
+        now_s = self._clock.now_s()
+        self._source.emitted(now_s, now_s)  # what sounded has ended
+
+    def _watch(self, files: WatchedFiles) -> None:
+        """Wake for the present files of the touch panel, of commands and of the scene that is prepared."""
+        files.watch("touch", self._source.fileno())
+        if self._commands is not None:
+            files.watch("commands", self._commands.fileno())
+        if self._change is not None:
+            files.watch("change", self._change.fileno())
+        files.watch("layers", self._layers.fileno())
+
+    def _switch_off(self) -> None:
+        """Disarm, and wait until the outputs are off: with heartbeats while the FPGA answers, without any if it does not.
+
+        Raises
+        ------
+        ControllerError
+            If the FPGA reports a fault that the host must not clear; the outputs are off then, too.
+        """
+        outputs, clock = self._outputs, self._clock
+        with selectors.DefaultSelector() as nothing:  # neither touches nor signals end this
+            try:
+                outputs.disarm()
+                while not outputs.ramped_down(clock.now_s()):
+                    clock.wait(nothing, outputs.next_s())
+            except (LinkError, FaultError) as error:
+                try:
+                    outputs.failed(error, clock.now_s())
+                finally:
+                    while outputs.may_be_on:
+                        clock.wait(nothing, outputs.off_by_s)
+
+    def _turn(self) -> float | None:
+        """Do what is due now; host time of the next turn, or None when all of a replay is played."""
+        started_ns = time.perf_counter_ns()
+        now_s = self._clock.now_s()
+        if self._progress is not None:
+            self._progress(now_s)
+        if not self._outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp cause ghost touches, too
+            self._source.emitted(now_s, self._session.ramp_end_s)
+        report_ns, finger = self._read(now_s)
+        if self._commands is not None and not (self._no_command and self._commands.next_time_s() > now_s):
+            self._commands.serve(now_s, self.control)
+        if self._change is not None:
+            self._change_scene(now_s)
+        if self._layers.pending:
+            self._layers.turn(now_s)
+        fpga_s = now_s + self._clock_estimate.offset_s
+        if self._idle_after_s != NEVER and self._begins_idle(now_s, touched=report_ns >= 0):
+            return now_s  # that the outputs ramp is informed at once
+        if self._outputs.waking:  # what is due is played once the outputs are on
+            read_s = self._source.next_time_s()
+            next_s = min(self._outputs.next_s(), NEVER if read_s is None else read_s)
+            return next_s if self._commands is None else min(next_s, self._commands.next_time_s())
+        self._held = self._held and bool(self._scheduler.due)  # what waited for the outputs is played first: trains begin with it
+        if not self._held:
+            self._scheduler.advance(fpga_s + ROUNDING_S, self._timing.lead_s)
+        due = len(self._scheduler.due)
+        starts = self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), on=self._outputs.on)
+        self._trace.turn(now_s, self._clock.now_s(), report_ns, due, started=starts)
+        if due and now_s - self._slept_until_s > LATE_S:
+            self._trace.asked(f"the loop woke {(now_s - self._slept_until_s) * 1e3:.1f} ms late, and something was due")
+        if starts:
+            self._outputs.emission_started()
+            if self._emission_started is not None:
+                self._emission_started()
+        then_s = self._next_s(now_s)
+        for spare in self._spare:
+            if spare.due_s <= now_s and then_s is not None:
+                spare.use(self._clock.now_s(), then_s)
+                break
+        return then_s
+
+    def _begins_idle(self, now_s: float, *, touched: bool) -> bool:
+        """Switch the outputs off when nothing has been touched for long; whether that was done now."""
+        outputs, scheduler = self._outputs, self._scheduler
+        if touched or not outputs.on or scheduler.active or self._playback.accepted is not None or not scheduler.scene.may_idle:
+            self._active_s = now_s
+            if outputs.idle and (not outputs.wanted or not scheduler.scene.may_idle):
+                outputs.wake()
+        elif now_s - self._active_s >= self._idle_after_s and now_s >= self._playback.occupancy.free_s:
+            self._abandon()
+            outputs.begin_idle()
+            return True
+        return False
+
+    def _read(self, now_s: float) -> tuple[int, int | None]:
+        """Read at most one touch report: its age in ns, -1 without one, and the finger that it moved."""
+        samples = self._source.read(now_s)
+        if not samples:
+            return -1, None
+        if self._outputs.idle:
+            self._outputs.wake()
+        finger, offset_s = None, self._clock_estimate.offset_s
+        for sample in samples:
+            self._scheduler.touch(sample, sample.time_s + offset_s)
+            if sample.contact:
+                finger = sample.finger
+        if self._commands is not None:
+            self._commands.touches(samples)
+        return round((now_s - samples[0].time_s) * 1e9), finger
+
+    def _change_scene(self, now_s: float) -> None:
+        """Have a scene prepared if a signal asked for it; take over one that is prepared."""
+        change = self._change
+        assert change is not None
+        if self._reload:
+            self._reload = False
+            if self._wakeup is not None:
+                self._wakeup.clear()
+            change.begin(None, 0)
+        prepared = change.take()
+        if prepared is None:
+            return
+        if prepared.scene is not None:
+            if prepared.selection is not None:
+                self._playback.sender.change_bank(prepared.selection)
+            self._scheduler.change_scene(self._layers.over(prepared.scene), self._clock_estimate.fpga_s(now_s))
+            self._playback.sender.pin([(emitter.x_m, emitter.y_m, emitter.amplitude) for emitter in prepared.scene.emitters])
+            self._counters.scenes_loaded += 1
+            if self._commands is not None:
+                self._commands.scene_changed()
+        else:
+            self._counters.scenes_refused += 1
+            self._counters.scene_refused = prepared.reason
+        if not prepared.ticket:
+            self._counters.reloads += 1
+            self._counters.reload_refused = prepared.reason
+        if self._scene_changed is not None:
+            self._scene_changed(prepared)
+        if prepared.ticket and self._commands is not None:
+            self._commands.loaded(prepared.ticket, prepared.reason)
+        if (
+            prepared.scene is not None and self._playback.occupancy.repeating
+        ):  # the fixed emitters of the scene before; last, as the link may fail
+            self._playback.stop()
+            self._source.emitted(now_s, now_s)
+
+    def _next_s(self, now_s: float) -> float | None:
+        """Host time of the next turn; None at the end of a replay."""
+        outputs, playback, dispatcher = self._outputs, self._playback, self._dispatcher
+        if outputs.unwanted:
+            return now_s
+        read_s = self._source.next_time_s()
+        times = [] if read_s is None else [read_s]
+        if playback.accepted is not None:
+            times.append(playback.accepted.start_s)
+        handover_s = dispatcher.handover_s(now_s) if outputs.on else None
+        if handover_s is not None:
+            if handover_s <= max(now_s, self._session.wire_free_s()):  # before anything else is read
+                return min(handover_s, outputs.next_s())
+            times.append(handover_s)
+        collect_s = FPGA_NEVER if self._held else self._scheduler.collect_s(self._timing.lead_s)
+        if collect_s != FPGA_NEVER:
+            times.append(self._clock_estimate.host_s(collect_s))
+        if not times and self._source.fileno() is None and self._commands is None:
+            free_s = playback.occupancy.free_s  # end of a replay: the last emission sounds to its end
+            return free_s if now_s < free_s else None
+        times += [dispatcher.next_s(now_s, on=outputs.on), outputs.next_s()]
+        if self._commands is not None:
+            times.append(self._commands.next_time_s())
+        return min(times)
+
+
+def _nothing() -> None:
+    """In place of `ready`, once that was called."""

@@ -1,0 +1,1 @@
+"""From a batch of emissions to an accepted play."""

@@ -1,0 +1,78 @@
+"""What the event loop needs of its process: signals that wake its selector, and no garbage collection while it runs."""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import selectors
+import signal
+import socket
+from collections.abc import Callable, Iterator, Mapping
+
+FREE_TUPLES, TUPLE_LENGTHS = 2000, 20  # CPython keeps this many freed tuples of each length below, 5 MB in all
+
+
+class Wakeup:
+    """The socket that each signal makes readable.
+
+    Parameters
+    ----------
+    woken : socket
+        Non-blocking.
+    """
+
+    def __init__(self, woken: socket.socket) -> None:
+        self._woken = woken
+
+    def clear(self) -> None:
+        """Read what the signals wrote; until then the socket stays readable."""
+        with contextlib.suppress(BlockingIOError):
+            self._woken.recv(64)
+
+
+@contextlib.contextmanager
+def handled_signals(handlers: Mapping[signal.Signals, Callable[[], None]], selector: selectors.BaseSelector) -> Iterator[Wakeup]:
+    """Signals call their handlers and wake the selector; on exit the handlers and the wakeup file of before are set again.
+
+    Parameters
+    ----------
+    handlers : mapping
+        Called without arguments, by signal number.
+    selector : BaseSelector
+        The wakeup socket is registered here for reading.
+    """
+    woken, wakes = socket.socketpair()
+    woken.setblocking(False)
+    wakes.setblocking(False)
+    selector.register(woken, selectors.EVENT_READ)
+    old_fd = signal.set_wakeup_fd(wakes.fileno(), warn_on_full_buffer=False)
+    old = {number: signal.signal(number, _without_arguments(handler)) for number, handler in handlers.items()}
+    try:
+        yield Wakeup(woken)
+    finally:
+        for number, handler in old.items():
+            signal.signal(number, handler)
+        signal.set_wakeup_fd(old_fd)
+        selector.unregister(woken)
+        woken.close()
+        wakes.close()
+
+
+def _without_arguments(handler: Callable[[], None]) -> Callable[..., None]:
+    return lambda *_: handler()
+
+
+@contextlib.contextmanager
+def no_garbage_collection() -> Iterator[None]:
+    """Switch the cyclic garbage collector off, and fill the interpreter's store of free tuples, so that it does not grow.
+
+    The loop makes no reference cycles. On exit the collector is on again.
+    """
+    gc.collect()
+    gc.disable()
+    for length in range(1, TUPLE_LENGTHS):
+        _ = [tuple([None] * length) for _ in range(FREE_TUPLES)]
+    try:
+        yield
+    finally:
+        gc.enable()

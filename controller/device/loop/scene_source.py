@@ -1,0 +1,54 @@
+"""Interface between the event loop and what prepares another scene for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from controller.device.scene.scene import Scene
+from controller.device.waveforms.selection import Selection
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedScene:
+    """A scene that was prepared, or why it was refused.
+
+    Attributes
+    ----------
+    ticket : int
+        Of the command that asked for it; 0: SIGHUP.
+    scene : Scene or None
+        None: refused.
+    selection : Selection or None
+        Of another bank, if that was replaced.
+    reason : str
+        Why it was refused; empty if it was not.
+    """
+
+    ticket: int
+    scene: Scene | None
+    selection: Selection | None = None
+    reason: str = ""
+
+
+class SceneChange(Protocol):
+    """Prepares another scene in another process."""
+
+    @property
+    def name(self) -> str:
+        """Name of the scene in force."""
+
+    def begin(self, name: str | None, ticket: int) -> None:
+        """Begin to prepare the scene of this name; None: the present one, read again.
+
+        Raises
+        ------
+        ControllerError
+            If it cannot begin.
+        """
+
+    def fileno(self) -> int | None:
+        """File that becomes readable when it is done; None while nothing is being prepared."""
+
+    def take(self) -> PreparedScene | None:
+        """Take what was prepared; None while it is not done."""

@@ -1,0 +1,126 @@
+"""A process beside the loop, started without waiting for it, and the socket to it; nothing here blocks.
+
+It is started before the loop gets real-time priority: starting a program waits until the new process was scheduled, which can take
+long for one of ordinary priority.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import resource
+import signal
+import socket
+import sys
+from pathlib import Path
+
+CHUNK_BYTES = 1 << 16  # read in one turn of the loop
+MOST_FILES = 1 << 20  # file descriptors to close in the helper if their number is unlimited
+PROGRAM = (
+    "import sys; sys.path.insert(0, {!r});"
+    " from controller.device.service.scenes.scene_helper_process import main; main(sys.argv[1], float(sys.argv[2]))"
+)
+
+
+class HelperProcess:
+    """One helper at a time; another one can be started in its place.
+
+    Parameters
+    ----------
+    what : str
+        What it prepares: a word that `scene_helper_process` knows.
+    limit_s : float
+        Time limit of one preparation, in s.
+
+    Attributes
+    ----------
+    pid : int
+        Process id of the last one started; 0: there was none.
+    """
+
+    def __init__(self, what: str, limit_s: float) -> None:
+        self.pid = 0
+        self.socket: socket.socket | None = None
+        self._arguments = (what, repr(limit_s))
+        self._cpus = os.sched_getaffinity(0)
+        self._gone: list[int] = []  # killed processes that were not waited for yet
+
+    def fileno(self) -> int | None:
+        """File that is readable when it answers or ends; None: there is no helper."""
+        return None if self.socket is None else self.socket.fileno()
+
+    def start(self) -> None:
+        """Start a helper; on failure there is none. fork does not wait for the new process; vfork and posix_spawn do."""
+        ours, theirs = socket.socketpair()
+        folder = str(Path(__file__).resolve().parents[4])
+        command = [sys.executable, "-I", "-c", PROGRAM.format(folder), *self._arguments]
+        files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+        files = MOST_FILES if files == resource.RLIM_INFINITY else files
+        pid = _fork()
+        if pid < 0:  # no memory, or too many processes
+            ours.close()
+            theirs.close()
+            return
+        if pid == 0:
+            try:
+                os.dup2(theirs.fileno(), 0)
+                os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+                os.closerange(3, files)
+                os.sched_setaffinity(0, self._cpus)  # the loop may have its own core by now
+                os.execve(command[0], command, _environment())
+            finally:
+                os._exit(127)
+        theirs.close()
+        ours.setblocking(False)
+        self.pid, self.socket = pid, ours
+
+    def end(self) -> None:
+        """Kill the helper, without waiting for its end."""
+        if self.socket is not None:
+            self.socket.close()
+            self.socket = None
+            os.kill(self.pid, signal.SIGKILL)
+            self._gone.append(self.pid)
+        self._gone = [pid for pid in self._gone if os.waitpid(pid, os.WNOHANG) == (0, 0)]
+
+    def close(self) -> None:
+        """End the helper, and wait until it has ended."""
+        self.end()
+        for pid in self._gone:
+            os.waitpid(pid, 0)
+        self._gone.clear()
+
+    def send(self, message: bytes) -> bool:
+        """Send a whole message; False: there is no helper, or it takes no more."""
+        try:
+            return self.socket is not None and self.socket.send(message, socket.MSG_NOSIGNAL) == len(message)
+        except OSError:
+            return False
+
+    def receive(self) -> bytes | None:
+        """What it has sent, at most a chunk; None: nothing yet; empty: it has ended."""
+        if self.socket is None:
+            return b""
+        try:
+            return self.socket.recv(CHUNK_BYTES)
+        except BlockingIOError:
+            return None
+        except OSError:
+            return b""
+
+
+def _fork() -> int:
+    """Fork before an exec; below 0 on failure. _Fork does not run fork handlers; those of OpenBLAS would free its memory."""
+    plain = getattr(ctypes.PyDLL(None), "_Fork", None)  # glibc 2.34
+    if plain is not None:
+        return int(plain())
+    try:
+        return os.fork()
+    except OSError:
+        return -1
+
+
+def _environment() -> dict[str, str]:
+    """Environment of the helper: without the service manager's variables, with OpenBLAS limited to one thread."""
+    notify = {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}
+    return {name: value for name, value in os.environ.items() if name not in notify} | {"OPENBLAS_NUM_THREADS": "1"}

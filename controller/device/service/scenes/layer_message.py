@@ -1,0 +1,206 @@
+"""Messages between the event loop and the process that prepares layers, framed as those about scenes (`scene_message`).
+
+What many regions have in common is sent once, as a style: 200 regions with their effects have 12 kB, and the loop takes them over
+in less than half a millisecond.
+"""
+
+from __future__ import annotations
+
+from itertools import chain
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+from msgspec import Meta, Raw, Struct
+
+from controller import __version__
+from controller.device.board.board import Board
+from controller.device.loop.layer_source import AcceptedLayer
+from controller.device.scene.layer_tables import REFUSED_MOST
+from controller.device.scene.layers import Placement, RefusedRegion
+from controller.device.scene.scene import Region, SpatialIndex
+from controller.device.scene.scene_file import Shape
+from controller.device.scene.spacings import Spacing
+from controller.device.scene.trains import Train
+from controller.device.service.scenes.scene_message import (
+    MOST_BYTES,
+    REASON_CHARACTERS,
+    MessageError,
+    board_of,
+    checked,
+    encoder,
+    framed,
+    one_line,
+    require_own,
+)
+from controller.errors import ConfigError
+
+Trains = tuple[Train, ...]
+Count = Annotated[int, Meta(ge=0)]
+
+
+class LayerSetup(Struct, frozen=True):
+    """What every layer is checked against: a board, its bank, and the cells of that which were checked (a byte each)."""
+
+    software: str
+    board: Board
+    bank: str
+    checked: bytes
+
+
+class LayerRequest(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
+    """Prepare a layer: a client's line, and where the layer will lie."""
+
+    line: bytes
+    placement: Placement
+
+
+class _Setup(Struct, frozen=True, forbid_unknown_fields=True):
+    software: str
+    board: Raw
+    bank: str
+    checked: bytes
+
+
+class _Style(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
+    press: Trains
+    release: Trains
+    enter: Trains
+    leave: Trains
+    spacings: tuple[Spacing, ...]
+    alternate: bool
+    nulled: bool
+
+
+class _Place(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
+    name: str
+    shape: Shape
+    style: Count
+
+
+class _Reply(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    reason: Annotated[str, Meta(max_length=REASON_CHARACTERS)] = ""
+    styles: tuple[_Style, ...] = ()
+    places: tuple[_Place, ...] = ()
+    index: SpatialIndex | None = None
+    off_plate: Count = 0
+    refused: Annotated[tuple[RefusedRegion, ...], Meta(max_length=REFUSED_MOST)] = ()
+    refused_count: Count = 0
+
+
+_setups = msgspec.msgpack.Decoder(_Setup)
+_requests = msgspec.msgpack.Decoder(LayerRequest)
+_replies = msgspec.msgpack.Decoder(_Reply)
+
+
+def pack_setup(board: Board, bank: Path, checked_cells: bytes) -> bytes:
+    """First message of the loop."""
+    return framed(encoder.encode(LayerSetup(__version__, board, str(bank), checked_cells)))
+
+
+def unpack_setup(message: bytes) -> LayerSetup:
+    """The loop's first message.
+
+    Raises
+    ------
+    MessageError
+        If it does not fit.
+    """
+    try:
+        setup = _setups.decode(checked(message))
+        require_own(setup.software)
+        return LayerSetup(setup.software, board_of(setup.board), setup.bank, setup.checked)
+    except (msgspec.MsgspecError, ConfigError) as error:
+        raise MessageError(f"the message does not fit: {error}") from error
+
+
+def pack_request(line: bytes, placement: Placement) -> bytes:
+    """Message that requests a layer."""
+    return framed(encoder.encode(LayerRequest(line, placement)))
+
+
+def unpack_request(message: bytes) -> LayerRequest:
+    """The request in a message.
+
+    Raises
+    ------
+    MessageError
+        If it does not fit.
+    """
+    try:
+        return _requests.decode(checked(message))
+    except msgspec.MsgspecError as error:
+        raise MessageError(f"the message does not fit: {error}") from error
+
+
+def pack_layer(regions: tuple[Region, ...], index: SpatialIndex, off_plate: int, refused: tuple[RefusedRegion, ...]) -> bytes:
+    """Message with a layer; of what was refused the first `REFUSED_MOST`.
+
+    Raises
+    ------
+    MessageError
+        If it is too large.
+    """
+    numbers: dict[tuple[int, ...], int] = {}  # of styles, by what they are made of, which regions share
+    styles: list[_Style] = []
+    places = []
+    for region in regions:
+        style = region.press, region.release, region.enter, region.leave, region.spacings
+        number = numbers.setdefault((*map(id, style), region.alternate, region.nulled), len(styles))
+        if number == len(styles):
+            styles.append(_Style(*style, region.alternate, region.nulled))
+        places.append(_Place(region.name, region.shape, number))
+    reply = _Reply(
+        styles=tuple(styles),
+        places=tuple(places),
+        index=index,
+        off_plate=off_plate,
+        refused=refused[:REFUSED_MOST],
+        refused_count=len(refused),
+    )
+    data = encoder.encode(reply)
+    if len(data) > MOST_BYTES:
+        raise MessageError(f"the regions are too large: {len(data):,} bytes with all their effects, of {MOST_BYTES:,}")
+    return framed(data)
+
+
+def pack_refusal(reason: str) -> bytes:
+    """Message that refuses a layer as a whole; `reason` is shortened to one line."""
+    return framed(encoder.encode(_Reply(reason=one_line(reason))))
+
+
+def unpack_layer(message: bytes) -> AcceptedLayer | str:
+    """The layer in a message, or why it was refused.
+
+    Raises
+    ------
+    MessageError
+        If the message does not fit.
+    """
+    try:
+        reply = _replies.decode(checked(message))
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        raise MessageError(one_line(f"the message does not fit: {error}")) from error
+    if reply.index is None:
+        return reply.reason or "no reason given"
+    styles, places, index = reply.styles, reply.places, reply.index
+    if max([place.style for place in places], default=-1) >= len(styles):
+        raise MessageError("the message does not fit: a region has a style that it does not have")
+    if max(chain.from_iterable(index.candidates), default=-1) >= len(places):
+        raise MessageError("the message does not fit: its spatial index names a region that it does not have")
+    regions = tuple([_region(place, styles[place.style]) for place in places])
+    return AcceptedLayer(regions, index.lookup(regions), reply.off_plate, reply.refused, reply.refused_count)
+
+
+def _region(place: _Place, style: _Style) -> Region:
+    return Region(
+        place.name,
+        place.shape,
+        style.press,
+        style.release,
+        style.enter,
+        style.leave,
+        style.spacings,
+        alternate=style.alternate,
+        nulled=style.nulled,
+    )

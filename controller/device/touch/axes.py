@@ -1,0 +1,103 @@
+"""Map from a touch panel's axes to the plate."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+from controller.device.board.touch_panels import TouchPanel
+from controller.device.touch.source import TouchedPlate
+
+OFF_M: Final = 2e-3  # beyond the plate's edge: the map of a calibrated panel is not better than that
+
+
+@dataclass(frozen=True, slots=True)
+class AxisRange:
+    """Smallest and largest value of one axis, as the device declares it."""
+
+    minimum: int
+    maximum: int
+
+
+class Axes:
+    """Both axes of one panel on one board.
+
+    A raw value is normalised to 0..1 by the range of its axis; the board's affine map (`touch.x_mm_from_axes`,
+    `touch.y_mm_from_axes`: per unit of x, per unit of y, at their minimum) gives the position on the plate. Axes may be
+    mirrored or swapped, and may reach beyond the glass.
+
+    Parameters
+    ----------
+    board : TouchedPlate
+        Gives the plate and the map.
+    x, y : AxisRange
+        Ranges of the device's axes. An axis without extent (guessed from one single tap) reads as its middle.
+
+    Attributes
+    ----------
+    from_axes : tuple of 6 float
+        The map: metres along x per raw unit of x, of y, at raw (0, 0); the same along y.
+    plate_m : (float, float)
+        Length and width of the plate.
+    settings : TouchPanel
+        The board's [touch].
+    unit_m : (float, float)
+        Metres on the plate per raw unit of x, and of y; 0 of an axis without extent.
+    size_m_per_unit : float
+        Metres per raw unit of a contact's size, the mean of both axes.
+    """
+
+    __slots__ = ("from_axes", "plate_m", "settings", "size_m_per_unit", "unit_m", "x", "y")
+
+    def __init__(self, board: TouchedPlate, x: AxisRange, y: AxisRange) -> None:
+        self.x = x
+        self.y = y
+        self.settings: TouchPanel = board.touch
+        self.plate_m = (board.plate.length_m, board.plate.width_m)
+        self.from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
+        x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self.from_axes
+        # The kernel gives a contact's size in units of its position, which may differ between the axes
+        self.unit_m = (math.hypot(x_by_x, y_by_x), math.hypot(x_by_y, y_by_y))
+        self.size_m_per_unit = sum(self.unit_m) / 2
+
+    def clamp(self, x: int, y: int) -> tuple[int, int]:
+        """Raw position (`x`, `y`) clamped to both ranges."""
+        return _clamped(x, self.x), _clamped(y, self.y)
+
+    def position_m(self, x: int, y: int) -> tuple[float, float]:
+        """Position on the plate of a raw position.
+
+        Parameters
+        ----------
+        x, y : int
+            Inside the ranges.
+
+        Returns
+        -------
+        (x_m, y_m)
+            Clamped to the plate.
+        """
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self.from_axes
+        length_m, width_m = self.plate_m
+        x_m = x_by_x * x + x_by_y * y + x_at_0
+        y_m = y_by_x * x + y_by_y * y + y_at_0
+        return (
+            0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
+            0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m,
+        )
+
+
+def _clamped(value: int, axis: AxisRange) -> int:
+    return min(max(value, axis.minimum), axis.maximum)
+
+
+def _per_raw(mm_from_axes: tuple[float, float, float], x: AxisRange, y: AxisRange) -> tuple[float, float, float]:
+    """Metres per raw unit of x, of y, and at raw (0, 0)."""
+    at_minimum = mm_from_axes[2]
+    per_raw = []
+    for mm, axis in zip(mm_from_axes, (x, y), strict=False):
+        extent = axis.maximum - axis.minimum
+        per_raw.append(mm / extent if extent else 0.0)
+        at_minimum += -per_raw[-1] * axis.minimum if extent else mm / 2
+    return per_raw[0] * 1e-3, per_raw[1] * 1e-3, at_minimum * 1e-3

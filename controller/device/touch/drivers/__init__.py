@@ -1,0 +1,1 @@
+"""What the drivers of touch panels share: readers of event devices and chips, their lines, the process that a panel may run in."""

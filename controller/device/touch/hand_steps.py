@@ -1,0 +1,78 @@
+"""How far a hand moves a finger from one report of its panel to the next."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Final
+
+from controller.device.touch.associate import Contact
+
+SPEED_CHANGE: Final = 0.6  # m/s between two steps; libinput takes 7 mm more in 12 ms than in the 12 ms before for a jump
+HAND_SPEED: Final = 2.0  # m/s of a first step; very fast strokes, 20 cm in 0.2 s, reach 1.9 (minimum jerk: Flash, Hogan 1985)
+NOISE_M: Final = 2e-3  # of a position; the coarsest panel recorded has steps of 1.8 mm
+
+
+def reaches(contact: Contact, x_m: float, y_m: float, time_s: float, number: int, before_s: float, period_s: float) -> bool:
+    """Whether a hand may have moved the finger of a contact from its last place to this one.
+
+    Parameters
+    ----------
+    contact : Contact
+        With a finger.
+    x_m, y_m, time_s : float
+        What is reported.
+    number : int
+        Of this report.
+    before_s : float
+        Time of the report before.
+    period_s : float
+        Report period of the panel.
+    """
+    off_x_m, off_y_m = x_m - contact.x_m, y_m - contact.y_m
+    if contact.held:
+        last, step_s = contact.held - 1, moving_s(time_s - contact.held_s, period_s, lost=2)
+    else:
+        last, step_s = number - 1, moving_s(time_s - before_s, period_s)
+    if contact.stepped != last:  # it rested
+        return within(off_x_m, off_y_m, SPEED_CHANGE, step_s)
+    if contact.step_vx != contact.step_vx:  # it has begun: NaN
+        return within(off_x_m, off_y_m, HAND_SPEED, step_s)
+    return within(off_x_m - contact.step_vx * step_s, off_y_m - contact.step_vy * step_s, SPEED_CHANGE, step_s)
+
+
+def goes_on(contact: Contact, x_m: float, y_m: float, time_s: float, before_s: float, period_s: float) -> bool:
+    """Whether a place confirms the one that was held back: near it, or as far beyond it as that was from the last one.
+
+    Parameters
+    ----------
+    contact, x_m, y_m, time_s, before_s, period_s
+        As for `reaches`.
+    """
+    step_s = moving_s(time_s - before_s, period_s)
+    off_x_m, off_y_m = x_m - contact.held_x_m, y_m - contact.held_y_m
+    if within(off_x_m, off_y_m, HAND_SPEED, step_s):
+        return True
+    share = step_s / moving_s(before_s - contact.held_s, period_s, lost=2)
+    off_x_m -= (contact.held_x_m - contact.x_m) * share
+    off_y_m -= (contact.held_y_m - contact.y_m) * share
+    return within(off_x_m, off_y_m, SPEED_CHANGE, step_s)
+
+
+def moving_s(since_s: float, period_s: float, *, lost: int = 1) -> float:
+    """Time in which a finger may have moved.
+
+    Parameters
+    ----------
+    since_s : float
+        Since the report in which it was last found. Reports may be read late: it has had one period at least.
+    period_s : float
+        Of the panel.
+    lost : int
+        Reports that may be missing in between; before that it rested.
+    """
+    return min(max(since_s, period_s), (1 + lost) * period_s)
+
+
+def within(off_x_m: float, off_y_m: float, speed: float, time_s: float) -> bool:
+    """Whether an offset is one of the panel's noise, or of a `speed` in m/s for so long. False for NaN."""
+    return hypot(off_x_m, off_y_m) <= NOISE_M + speed * time_s

@@ -1,0 +1,283 @@
+"""Touch controllers Goodix GT911 and compatible (data sheet and programming guide rev. 09).
+
+The kernel's goodix.c drives the chips of `PRODUCTS` with the same register map; the GT1x series has another one.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Final, Literal
+
+from controller.device.board.touch_panels import I2cTouch
+from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ReportedContact, describe
+from controller.device.touch.drivers.i2c_bus import REFUSED_ERRNOS, I2cBus, Transfer, write_message
+from controller.device.touch.event_reader import DeviceDescription
+from controller.errors import TouchError
+
+if TYPE_CHECKING:
+    from controller.device.touch.drivers.i2c_reader import I2cReader
+    from controller.device.touch.drivers.panel_lines import PanelLines
+
+# Registers have 16-bit addresses, high byte first; values low byte first.
+CONFIG: Final = b"\x80\x47"  # version, largest x, largest y (2 bytes each), contacts, module switch 1; refresh rate last
+CONFIG_BYTES: Final = 16
+SHORTEST_SCAN_MS: Final = 5  # to which bits 3:0 of the refresh rate are added
+PRODUCT_ID: Final = b"\x81\x40"  # 4 ASCII characters, zeros behind them; then the firmware's version, 2 bytes
+PRODUCT_BYTES: Final = 6
+PRODUCTS: Final = ("911", "9110", "9111", "912", "9147", "927", "9271", "928", "967")
+STATUS: Final = b"\x81\x4e"  # bit 7: a report is ready, bits 3:0: its contacts, which follow
+READY: Final = 0x80
+POINT_BYTES: Final = 8  # number, x, y, size (2 bytes each), reserved
+SHORT_POINTS: Final = 2  # read at once; the rest only when there are more contacts
+RISING_INTERRUPT: Final = (0, 3)  # of module switch 1, bits 1:0; 1 and 2: falling edge, low level
+
+HIGH_ADDRESS, LOW_ADDRESS = 0x14, 0x5D  # selected by the level of the interrupt line at the end of the reset
+
+RESET_S: Final = 0.011  # T2: more than 10 ms
+ADDRESS_S: Final = 0.0005  # T3: more than 100 us
+SELECTED_S: Final = 0.01  # T4: more than 5 ms
+SYNC_S: Final = 0.05  # T5: the interrupt line held low
+BOOT_S: Final = 0.05
+
+
+class Gt911Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="gt911"):
+    """Goodix GT911 and related chips (`gt911.PRODUCTS`).
+
+    Attributes
+    ----------
+    address
+        Address on the bus; the interrupt line selects it at reset.
+    """
+
+    address: Literal[0x14, 0x5D] = 0x5D
+
+
+def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[ReportedContact] | None:
+    """Decode a report.
+
+    Parameters
+    ----------
+    report : bytes
+        Registers from `STATUS` on, as far as read.
+    warnings : Counter of str
+        Counts `ghost_points`.
+    in_part : bool
+        Decode what was read of a report with more contacts.
+
+    Returns
+    -------
+    list of ReportedContact, or None
+        None if the report has more contacts than were read, unless `in_part`.
+
+    Raises
+    ------
+    ValueError
+        If the report has more than `MAX_CONTACTS` contacts.
+    """
+    count = report[0] & 0x0F
+    if count > MAX_CONTACTS:
+        raise ValueError(f"{count} contacts")
+    if len(report) < 1 + count * POINT_BYTES:
+        if not in_part:
+            return None
+        count = (len(report) - 1) // POINT_BYTES
+    contacts = []
+    for start in range(1, 1 + count * POINT_BYTES, POINT_BYTES):
+        number = report[start] & 0x0F
+        x = report[start + 1] | report[start + 2] << 8
+        y = report[start + 3] | report[start + 4] << 8
+        if x == 0 and y == 0:
+            warnings["ghost_points"] += 1
+        elif number < MAX_CONTACTS:
+            contacts.append(ReportedContact(number, x, y, report[start + 5] | report[start + 6] << 8))
+    return contacts
+
+
+def product_of(identity: bytes, bus: str) -> str:
+    """Product number of a chip.
+
+    Parameters
+    ----------
+    identity : bytes
+        Registers from `PRODUCT_ID` on.
+    bus : str
+        In the message.
+
+    Raises
+    ------
+    TouchError
+        If it is not one of `PRODUCTS`.
+    """
+    name = identity[:4].rstrip(b"\0")
+    if name.decode("ascii", "replace") in PRODUCTS:
+        return name.decode("ascii")
+    if not name.strip(b"\xff"):
+        raise TouchError(
+            f"the touch panel on {bus} answers with 0x{identity[0]:02X} only: is it powered and out of reset, and is the bus free?"
+        )
+    if not (name.isalnum() and name.isascii()):
+        raise TouchError(
+            f"the device that answers as touch panel on {bus} is no Goodix chip (product {name!r}): is the address another chip's?"
+        )
+    raise TouchError(
+        f"the touch panel on {bus} is a Goodix {name.decode('ascii')!r}, which this driver does not support: "
+        f'it supports {", ".join(PRODUCTS)}; with a kernel driver it can be used as kind = "linux_input"'
+    )
+
+
+class Gt911:
+    """GT911 or compatible; a `Chip`.
+
+    It has to answer the registers of its report; the others are used where it has them.
+
+    Parameters
+    ----------
+    settings : Gt911Touch
+        Address, and extents if they overrule the chip's.
+    warnings : Counter of str
+        Counts `ghost_points` and `points_refused`.
+    """
+
+    def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:
+        self.name = "Goodix touch panel"
+        self.rising = False
+        self.scan_s = SHORTEST_SCAN_MS * 1e-3
+        self.marks_reports = True
+        self._settings = settings
+        self._warnings = warnings
+        self._use(settings.address)
+
+    @property
+    def description(self) -> DeviceDescription:
+        """Description of the chip as it was started last."""
+        return self._description
+
+    def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
+        """Reset the chip to its address if `lines` has a reset line, identify it on `bus`; see `Chip.start`."""
+        if lines.has_reset:
+            yield from self._reset(lines)
+        product = self._find(bus, (self._address,) if lines.has_reset and lines.has_interrupt else (self._address, self._other))
+        config = bus.ask(self._address, CONFIG, CONFIG_BYTES)
+        refused = [register.hex().upper() for register, answer in ((PRODUCT_ID, product), (CONFIG, config)) if answer is None]
+        remark = ""
+        if refused:
+            registers = ", ".join(f"0x{register}" for register in refused)
+            remark = f"the touch panel on {self._settings.bus} refuses registers {registers}: it is used without them"
+        name = f"GT{product_of(product, self._settings.bus)}" if product else "Goodix of unknown product"
+        self._description = self._described(name, config, int.from_bytes(product[4:6], "little") if product else 0, remark)
+        if config:
+            self.rising = config[6] & 0x03 in RISING_INTERRUPT
+            self.scan_s = (SHORTEST_SCAN_MS + (config[15] & 0x0F)) * 1e-3
+        bus.send(self._clear)
+
+    def fetch(self, bus: I2cBus) -> Sequence[ReportedContact] | None:
+        """Read the report that is ready from `bus` and clear it, which lets the chip make the next; see `Chip.fetch`."""
+        bus.fetch(self._short)
+        if not self._short.data[0] & READY:
+            return None
+        try:
+            contacts = contacts_of(self._short.data, self._warnings)
+            if contacts is None:
+                contacts = self._rest(bus)
+        finally:
+            bus.send(self._clear)
+        return contacts
+
+    def _rest(self, bus: I2cBus) -> list[ReportedContact] | None:
+        """All contacts of a report with more than `SHORT_POINTS`; those read already, if the chip refuses the others."""
+        longer = self._longer[(self._short.data[0] & 0x0F) - SHORT_POINTS - 1]
+        try:
+            bus.fetch(longer)
+        except OSError as error:
+            if error.errno not in REFUSED_ERRNOS:
+                raise
+            self._warnings["points_refused"] += 1
+            return contacts_of(self._short.data, self._warnings, in_part=True)
+        return contacts_of(longer.data, self._warnings, in_part=True)
+
+    @property
+    def _other(self) -> int:
+        return LOW_ADDRESS if self._address == HIGH_ADDRESS else HIGH_ADDRESS
+
+    def _reset(self, lines: PanelLines) -> Iterator[float]:
+        """Reset the chip; the level of its interrupt line, if there is one, selects its address."""
+        self._use(self._settings.address)
+        lines.drive_reset(high=False)
+        if lines.has_interrupt:
+            lines.drive_interrupt(high=False)
+        yield RESET_S
+        if lines.has_interrupt:
+            lines.drive_interrupt(high=self._address == HIGH_ADDRESS)
+        yield ADDRESS_S
+        lines.drive_reset(high=True)
+        yield SELECTED_S
+        if lines.has_interrupt:
+            lines.drive_interrupt(high=False)
+        yield SYNC_S
+        lines.release_interrupt()
+        yield BOOT_S
+
+    def _use(self, address: int) -> None:
+        self._address = address
+        counts = range(SHORT_POINTS, MAX_CONTACTS + 1)
+        self._short, *self._longer = [Transfer(address, STATUS, 1 + count * POINT_BYTES) for count in counts]
+        self._clear = write_message(address, STATUS + b"\x00")
+
+    def _find(self, bus: I2cBus, addresses: Sequence[int]) -> bytes | None:
+        """Product of the chip, at the first of `addresses` that has one; None if there is a chip that refuses to tell it.
+
+        Without an interrupt line to select it, the address is the one of the level at power-up.
+
+        Raises
+        ------
+        OSError
+            If no chip answers.
+        TouchError
+            If what answers is no report.
+        """
+        for address in addresses:
+            product = bus.ask(address, PRODUCT_ID, PRODUCT_BYTES)
+            if product is not None:
+                self._use(address)
+                return product
+        silent: OSError | None = None
+        for address in addresses:
+            try:
+                contacts = bus.read(address, STATUS, 1)[0] & 0x0F
+            except OSError as error:
+                if error.errno not in REFUSED_ERRNOS:
+                    raise
+                silent = error
+                continue
+            if contacts > MAX_CONTACTS:
+                raise TouchError(
+                    f"the device that answers as touch panel on {self._settings.bus} is no Goodix chip: it reports "
+                    f"{contacts} contacts; is the address another chip's?"
+                )
+            self._use(address)
+            return None
+        assert silent is not None
+        raise silent
+
+    def _described(self, name: str, config: bytes | None, firmware: int, remark: str) -> DeviceDescription:
+        width = self._settings.width or (int.from_bytes(config[1:3], "little") if config else 0)
+        height = self._settings.height or (int.from_bytes(config[3:5], "little") if config else 0)
+        if not width or not height:
+            lack = "has no configuration" if config else f"refuses the registers of its configuration, from 0x{CONFIG.hex()} on"
+            raise TouchError(f"the {name} on {self._settings.bus} {lack}: give width and height in board.toml")
+        return describe(name, firmware, width, height, sized=True, remark=remark)
+
+
+def open_panel(settings: Gt911Touch) -> I2cReader:
+    """Start the panel of a board with these `settings`.
+
+    Raises
+    ------
+    TouchError
+        If bus, lines or chip are absent.
+    """
+    warnings: Counter[str] = Counter()
+    from controller.device.touch.drivers.i2c_reader import I2cReader
+
+    return I2cReader(settings, Gt911(settings, warnings), warnings)

@@ -1,0 +1,353 @@
+"""Which contacts of a panel are fingers, and where: the one stage between the decoder and the tracker that believes less.
+
+A position that a panel reports is a claim. Each is counted (`Counts.points`), and is exactly one of these:
+
+- More than `EDGE_M` outside the axes, or in a rectangle of `touch.no_finger_mm`: no finger. A contact that begins
+  there waits until it is reported elsewhere. A finger that is reported there keeps its last place for one report, and is released
+  by the next.
+- A step that no hand makes from one report to the next (`hand_steps.py`): held back until the next report. If that
+  lies within reach of the last place, the position was an outlier; if it lies near the new one, or goes on at that speed, it is
+  believed. A contact that begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means
+  what it said.
+- A contact beyond the ten that are played.
+- Believed: it becomes a touch sample. Positions up to `EDGE_M` outside the axes are clamped to them.
+
+A palm, by tool or by size, stays one until it is lifted, and its positions are no claims. A panel that repeats its reports while
+it is touched, and falls silent, has no finger (`Plausibility.overdue`).
+
+Times are measured in the panel's own report period (`reports.PanelHabits`).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from math import inf, nan
+from typing import Final
+
+from controller.device.touch.associate import IMPLIED, Contact
+from controller.device.touch.axes import OFF_M, Axes
+from controller.device.touch.hand_steps import goes_on, moving_s, reaches
+from controller.device.touch.reports import PanelHabits, ReportRate
+from controller.device.touch.source import Counts, TouchSample, touch_sample
+
+EDGE_M: Final = 5e-3  # half a fingertip: one that is centred farther outside does not touch the panel's outermost electrodes
+CONFIRMING_PERIODS: Final = 1.5  # without a report in this time, a position held back is where the finger rests
+
+KINDS: Final = ("far_outside", "no_finger", "too_fast", "more_than_played", "fallen_silent")  # of `reports.WARNINGS`
+
+
+def figures(counts: Counts, warnings: Mapping[str, int]) -> dict[str, int]:
+    """Figures of the stage, for JSON.
+
+    Parameters
+    ----------
+    counts : Counts
+        Of the source.
+    warnings : mapping of str to int
+        Of the source, by kind.
+
+    Returns
+    -------
+    dict
+        `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step
+        that no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are
+        fingers.
+    """
+    found = {"points": counts.points, "believed": counts.believed, "held": counts.held, "confirmed": counts.confirmed}
+    return found | {kind: warnings.get(kind, 0) for kind in KINDS}
+
+
+class Plausibility:
+    """Contacts of one device to touch samples.
+
+    Parameters
+    ----------
+    axes : Axes
+        Of the device; they give the board's [touch], too.
+    max_played : int
+        Fingers that are played at once; a further one is refused until it is lifted.
+    tells_all : bool
+        Whether each report lists all contacts (protocol A): then it repeats itself while the panel is touched.
+    warnings : Counter of str
+        Of the decoder.
+    after : Plausibility, optional
+        That of the device before a reconnection, whose finger numbers are continued.
+
+    Attributes
+    ----------
+    due_s : float
+        When to call `overdue` unless there is a report before; inf: never.
+    touched : bool
+        Whether the last report had a contact down, and all fingers have their places.
+    """
+
+    def __init__(
+        self,
+        axes: Axes,
+        max_played: int,
+        *,
+        tells_all: bool,
+        counts: Counts,
+        warnings: Counter[str],
+        after: Plausibility | None = None,
+    ) -> None:
+        self.due_s = inf
+        self.touched = False
+        self._next_finger: int = after._next_finger if after else 0
+        self._counts = counts
+        self._warnings = warnings
+        self._axes = axes
+        self._limits: tuple[float, float, float, float] = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
+        self._from_axes, self._plate_m = axes.from_axes, axes.plate_m
+        x_unit_m, y_unit_m = axes.unit_m
+        x_edge, y_edge = EDGE_M / x_unit_m if x_unit_m else inf, EDGE_M / y_unit_m if y_unit_m else inf
+        self._far = (axes.x.minimum - x_edge, axes.x.maximum + x_edge, axes.y.minimum - y_edge, axes.y.maximum + y_edge)
+        self._no_finger_m = axes.settings.no_finger_m
+        self._size_m = axes.size_m_per_unit
+        self._max_size_m = axes.settings.max_size_m
+        self._max_played = max_played
+        self._played = 0
+        self._habits: PanelHabits = PanelHabits(after._habits.rate if after else ReportRate(), tells_all=tells_all)
+        self._number = 0  # of the last report
+        self._confirm_s = inf  # when a position held back is confirmed by silence
+
+    def report(
+        self, contacts: Iterable[Contact], replaced: list[Contact], time_s: float, *, hovering: bool
+    ) -> tuple[TouchSample, ...]:
+        """Take a report.
+
+        Parameters
+        ----------
+        contacts : iterable of Contact
+            All that the device has, down or not.
+        replaced : list of Contact
+            Those that another one has replaced; it is emptied.
+        time_s : float
+            Of the report.
+        hovering : bool
+            Whether no contact touches the panel.
+
+        Returns
+        -------
+        tuple of TouchSample
+            Fingers released, then fingers moved or begun.
+        """
+        samples: list[TouchSample] = []
+        changed: list[Contact] = []
+        if replaced:
+            for contact in replaced:
+                samples.append(self.released(contact, time_s))
+            replaced.clear()
+        counts = self._counts
+        down, moved = 0, False
+        for contact in contacts:
+            if not self._touches(contact, time_s, samples, hovering=hovering):
+                continue
+            down += 1
+            if not contact.palm and (contact.moved or contact.finger is None or contact.held):
+                moved = moved or contact.moved
+                changed.append(contact)
+        self._number += 1
+        self._confirm_s = inf
+        if down:
+            counts.reports += 1
+            counts.max_fingers = max(counts.max_fingers, down)
+        habits = self._habits
+        habits.arrived(down, time_s, moved=moved)
+        for contact in changed:  # after all releases, which make room for new fingers
+            self._place(contact, time_s, samples)
+        self.touched = down > 0 and self._confirm_s == inf
+        self.due_s = min(habits.silent_s, self._confirm_s)
+        return tuple(samples)
+
+    def _touches(self, contact: Contact, time_s: float, samples: list[TouchSample], *, hovering: bool) -> bool:
+        """Whether a contact is down; one that is not, or is a palm, has no finger any more."""
+        identity = contact.identity
+        if (identity < 0 and identity != IMPLIED) or hovering or contact.hovers:
+            if contact.finger is not None:
+                samples.append(self.released(contact, time_s))
+            contact.refused = contact.palm = contact.silent = False
+            return False
+        if contact.silent:
+            if not contact.moved:
+                return False
+            contact.silent = False
+            self._habits.rests = True
+        if not contact.counted and identity >= 0:
+            contact.counted = True
+            self._counts.contacts += 1
+        if not contact.palm and (contact.tool_palm or contact.size * self._size_m > self._max_size_m):
+            contact.palm = True
+            self._counts.palms += 1
+        if contact.palm:
+            if contact.finger is not None:
+                contact.size_m = inf
+                samples.append(self.released(contact, time_s))
+            contact.refused = False
+        return True
+
+    def overdue(self, contacts: Iterable[Contact], time_s: float) -> tuple[TouchSample, ...]:
+        """Decide, as there was no report by `due_s`: a panel that repeats its reports has no finger, any other has fingers at rest.
+
+        Parameters
+        ----------
+        contacts : iterable of Contact
+            As in `report`.
+        time_s : float
+            Of the samples.
+
+        Returns
+        -------
+        tuple of TouchSample
+            Fingers released, or confirmed where they were held back.
+        """
+        samples: list[TouchSample] = []
+        habits = self._habits
+        silent = time_s >= habits.silent_s
+        for contact in contacts:
+            if contact.finger is None:
+                continue
+            if silent:
+                samples.append(self.released(contact, time_s))
+                contact.silent = True
+            elif contact.held and contact.held_x_m == contact.held_x_m:
+                self._counts.confirmed += 1
+                self._believe(contact, contact.held_x_m, contact.held_y_m, time_s, samples)
+            elif contact.held:
+                samples.append(self.released(contact, time_s))
+        if silent:
+            self._warnings["fallen_silent"] += len(samples)
+            habits.fell_silent = True
+            habits.forget()
+        self._confirm_s = inf
+        self.due_s = habits.silent_s
+        return tuple(samples)
+
+    def released(self, contact: Contact, time_s: float) -> TouchSample:
+        """Release the finger of a `contact`; a position held back is left out.
+
+        Returns
+        -------
+        TouchSample
+            With its last place.
+        """
+        finger = contact.finger
+        assert finger is not None
+        contact.finger = None
+        contact.moved = False
+        self._played -= 1
+        if contact.held:
+            self._leave_out(contact)
+        return TouchSample(finger, contact.x_m, contact.y_m, time_s, False, contact.size_m)
+
+    def forget(self) -> None:
+        """Wait for nothing: every finger has been released."""
+        self._habits.forget()
+        self._confirm_s = self.due_s = inf
+
+    def _place(self, contact: Contact, time_s: float, samples: list[TouchSample]) -> None:
+        """Append the sample of a contact that has moved, begun or been held back, if it is believed."""
+        x, y = contact.x, contact.y
+        if x is None or y is None or contact.refused:
+            return
+        counts = self._counts
+        counts.points += 1
+        contact.moved = False
+        place = self._position_m(x, y)
+        if contact.finger is None:
+            if place is not None:
+                self._begin(contact, place, time_s, samples)
+            return
+        if place is None:
+            if contact.held:
+                samples.append(self.released(contact, time_s))
+            else:
+                self._hold(contact, nan, nan, time_s)
+            return
+        x_m, y_m = place
+        before_s, period_s = self._habits.before_s, self._habits.rate.period_s
+        if reaches(contact, x_m, y_m, time_s, self._number, before_s, period_s):
+            if contact.held:
+                step_s = moving_s(time_s - contact.held_s, period_s, lost=2)
+                self._leave_out(contact)
+            else:
+                step_s = moving_s(time_s - before_s, period_s)
+        elif contact.held and goes_on(contact, x_m, y_m, time_s, before_s, period_s):
+            counts.confirmed += 1
+            step_s = moving_s(time_s - before_s, period_s)
+            contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
+        else:
+            if contact.held:
+                self._leave_out(contact, more=True)
+            counts.held += 1
+            self._hold(contact, x_m, y_m, time_s)
+            return
+        counts.believed += 1
+        contact.step_vx, contact.step_vy = (x_m - contact.x_m) / step_s, (y_m - contact.y_m) / step_s
+        self._believe(contact, x_m, y_m, time_s, samples)
+
+    def _position_m(self, x: int, y: int) -> tuple[float, float] | None:
+        """Place on the plate of a raw position; None, which is counted, if it is no place of a finger."""
+        x_low, x_high, y_low, y_high = self._limits
+        if not (x_low <= x <= x_high and y_low <= y <= y_high):
+            x_low, x_high, y_low, y_high = self._far
+            if not (x_low <= x <= x_high and y_low <= y <= y_high):
+                self._warnings["far_outside"] += 1
+                return None
+            self._warnings["outside_axes"] += 1
+            x, y = self._axes.clamp(x, y)
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes  # as `Axes.position_m`, without its call for each report
+        length_m, width_m = self._plate_m
+        x_m = x_by_x * x + x_by_y * y + x_at_0
+        y_m = y_by_x * x + y_by_y * y + y_at_0
+        if not (0.0 <= x_m <= length_m and 0.0 <= y_m <= width_m):
+            self._counts.off_plate += not (-OFF_M <= x_m <= length_m + OFF_M and -OFF_M <= y_m <= width_m + OFF_M)
+            x_m = 0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m
+            y_m = 0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m
+        if self._no_finger_m:
+            for left_m, low_m, right_m, high_m in self._no_finger_m:
+                if left_m <= x_m <= right_m and low_m <= y_m <= high_m:
+                    self._warnings["no_finger"] += 1
+                    return None
+        return x_m, y_m
+
+    def _begin(self, contact: Contact, place: tuple[float, float], time_s: float, samples: list[TouchSample]) -> None:
+        """Begin a finger where a contact is, unless as many as are played are down."""
+        if self._played == self._max_played:
+            self._warnings["more_than_played"] += 1
+            contact.refused = True
+            return
+        contact.finger = self._next_finger
+        self._next_finger += 1
+        self._played += 1
+        self._counts.believed += 1
+        contact.step_vx = contact.step_vy = nan
+        x_m, y_m = place
+        self._believe(contact, x_m, y_m, time_s, samples)
+
+    def _believe(self, contact: Contact, x_m: float, y_m: float, time_s: float, samples: list[TouchSample]) -> None:
+        """Append a sample of a finger at this place."""
+        contact.held = 0
+        contact.stepped = self._number
+        contact.x_m = x_m
+        contact.y_m = y_m
+        contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0
+        finger = contact.finger
+        assert finger is not None
+        samples.append(touch_sample((finger, x_m, y_m, time_s, True, size_m)))
+
+    def _hold(self, contact: Contact, x_m: float, y_m: float, time_s: float) -> None:
+        """Hold a position back until the next report; NaN: it is no place of a finger."""
+        if not contact.held:
+            contact.held = self._number
+            contact.held_s = self._habits.before_s
+        contact.held_x_m, contact.held_y_m = x_m, y_m
+        self._confirm_s = time_s + CONFIRMING_PERIODS * self._habits.rate.period_s
+
+    def _leave_out(self, contact: Contact, *, more: bool = False) -> None:
+        """Leave out the position of a contact that was held back; `more`: another one is held back in its place."""
+        if contact.held_x_m == contact.held_x_m:
+            self._warnings["too_fast"] += 1
+        if not more:
+            contact.held = 0

@@ -1,0 +1,1 @@
+"""Recordings of touch panels, read, replayed and written."""

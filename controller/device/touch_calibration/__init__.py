@@ -1,0 +1,1 @@
+"""What is measured with a finger on the panel: axes, latency, ghosts."""

@@ -1,0 +1,199 @@
+"""Lag of a panel's reports, from strokes of a finger and a mouse that move together.
+
+The reports alone do not show the lag: reports that are all late by the same time are the same strokes later. Therefore a mouse
+is held to the finger, and both slide over the glass to and fro. With the mouse's counts M(t), the reported position is
+A M(t - lag) + b: A (rotation and scale) is common to the recording, b is separate for each second, since the mouse turns and
+slips a little. The lag is the least-squares fit, second by second; the spread of the seconds gives its error. A lag differs from
+an offset b only where the speed changes: hence the strokes to and fro.
+
+The mouse itself is taken to be late by half of its report period, with an error of at most as much.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.board.board import Board
+from controller.device.touch.recordings.recording import Recording
+from controller.device.touch.recordings.replay import RecordingSource
+from controller.device.touch_calibration.event_capture import EV_REL, REL_X, REL_Y
+from controller.errors import CalibrationError
+
+MIN_TURNS: Final = 12
+MIN_STROKE_M: Final = 10e-3  # a shorter stroke is a tremor
+WINDOW_S: Final = 1.0
+MIN_WINDOWS: Final = 6
+MIN_PATH_M: Final = 40e-3  # of the finger's path in a window that is used
+MIN_REPORTS: Final = 20  # in such a window
+LAGS_S: Final = np.arange(-20e-3, 151e-3, 1e-3)
+MAX_RESIDUAL_M: Final = 1.5e-3  # rms: above, finger and mouse did not move together
+MAX_ERROR_S: Final = 2e-3
+MAX_MOUSE_PERIOD_S: Final = 10e-3  # the lag is uncertain by half of it
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class LagFigures:
+    """Result of a measurement.
+
+    Attributes
+    ----------
+    lag_ms : float
+        Lag of the panel's positions, for board.toml.
+    error_ms : float
+        Random error at 95 % confidence, from the spread of the windows.
+    mouse_ms : float
+        Report period of the mouse; half of it is added in `lag_ms`, which may be wrong by as much.
+    turns, windows : int
+        Turns of the strokes; seconds that were used.
+    residual_mm : float
+        Rms distance of the finger from its position by the mouse.
+    """
+
+    lag_ms: float
+    error_ms: float
+    mouse_ms: float
+    turns: int
+    windows: int
+    residual_mm: float
+
+
+def lag_figures(recording: Recording, board: Board) -> LagFigures:
+    """Evaluate a recording of one finger and a mouse that moved together.
+
+    Parameters
+    ----------
+    recording : Recording
+        Of the panel, with the mouse's EV_REL among its events.
+    board : Board
+        Gives the map from the panel's axes to the plate.
+
+    Raises
+    ------
+    CalibrationError
+        If there are too few strokes, several fingers, no mouse or a slow one, or finger and mouse did not move together.
+    """
+    mouse = _mouse(recording)
+    at_s, positions_m = _finger(recording, board)
+    turns = _turns(positions_m)
+    if turns < MIN_TURNS:
+        raise CalibrationError(f"only {turns} turns: slide to and fro, by 5 cm or more, at least {MIN_TURNS} times")
+    windows = _windows(at_s, positions_m)
+    if len(windows) < MIN_WINDOWS:
+        raise CalibrationError(f"only {len(windows)} s of strokes fast enough: slide 5 cm to and fro about twice a second")
+    coarse_s = LAGS_S[int(np.argmin([_fit(at_s, positions_m, windows, mouse, lag_s)[0] for lag_s in LAGS_S]))]
+    if coarse_s in (LAGS_S[0], LAGS_S[-1]):
+        raise CalibrationError("finger and mouse did not move together: hold them together, and do it again")
+    residual_m, map_of = _fit(at_s, positions_m, windows, mouse, float(coarse_s))
+    if residual_m > MAX_RESIDUAL_M:
+        raise CalibrationError(
+            f"finger and mouse did not move together, they are {residual_m * 1e3:.1f} mm apart: hold them together, and do it again"
+        )
+    lags_s = np.array([_lag_of(at_s[window], positions_m[window], mouse, map_of, float(coarse_s)) for window in windows])
+    error_s = 1.96 * 1.2533 * 1.4826 * float(np.median(np.abs(lags_s - np.median(lags_s)))) / np.sqrt(len(lags_s))
+    if error_s > MAX_ERROR_S:
+        raise CalibrationError(f"the strokes disagree by {error_s * 1e3:.1f} ms: hold finger and mouse together, and do it again")
+    period_s = _period_s(mouse[0])
+    lag_s = float(np.median(lags_s)) + period_s / 2
+    if lag_s < -(error_s + period_s / 2):
+        raise CalibrationError(f"the panel would be {-lag_s * 1e3:.1f} ms ahead of the mouse: take another mouse")
+    return LagFigures(max(lag_s, 0.0) * 1e3, error_s * 1e3, period_s * 1e3, turns, len(windows), residual_m * 1e3)
+
+
+def _mouse(recording: Recording) -> tuple[Array, Array]:
+    """Times of the mouse's reports in s, (n,), and its accumulated counts, (n, 2)."""
+    steps: dict[float, list[int]] = {}
+    for kind, code, value, time_s in recording.events:
+        if kind == EV_REL and code in (REL_X, REL_Y):
+            steps.setdefault(time_s, [0, 0])[code] += value
+    if len(steps) < MIN_REPORTS:
+        raise CalibrationError(
+            f"{recording.name} has no mouse in it: make one with calibrate-touch --lag --reference DEVICE --out FILE"
+        )
+    at_s: Array = np.array(list(steps))
+    if (period_s := _period_s(at_s)) > MAX_MOUSE_PERIOD_S:
+        raise CalibrationError(f"the mouse reports every {period_s * 1e3:.0f} ms: take one that reports at least every 8 ms")
+    return at_s, np.cumsum(np.array(list(steps.values()), np.float64), axis=0)
+
+
+def _period_s(at_s: Array) -> float:
+    return float(np.median(np.diff(at_s)))
+
+
+def _finger(recording: Recording, board: Board) -> tuple[Array, Array]:
+    """Times in s, (n,), and positions in m, (n, 2), of the finger."""
+    source = RecordingSource(recording, recording.axes(board), 0.0)
+    reports: list[tuple[float, float, float]] = []
+    while (next_s := source.next_time_s()) is not None:
+        for sample in source.read(next_s):
+            if sample.contact:
+                reports.append((sample.time_s, sample.x_m, sample.y_m))
+    if source.counts.max_fingers > 1:
+        raise CalibrationError("several fingers on the panel: slide one finger alone, and keep the hand off the glass")
+    if len(reports) < MIN_REPORTS:
+        raise CalibrationError("no finger slid over the panel")
+    table = np.array(reports)
+    return table[:, 0], table[:, 1:]
+
+
+def _turns(positions_m: Array) -> int:
+    """Turns of the finger along its principal direction."""
+    _, _, axes = np.linalg.svd(positions_m - positions_m.mean(axis=0), full_matrices=False)
+    along = (positions_m @ axes[0]).tolist()
+    turns, going, farthest = 0, 0, along[0]
+    for at in along:
+        if going == 0:
+            going = (at - farthest > MIN_STROKE_M) - (farthest - at > MIN_STROKE_M)
+            farthest = at if going else farthest
+        elif (at - farthest) * going > 0:
+            farthest = at
+        elif (farthest - at) * going > MIN_STROKE_M:
+            turns, going, farthest = turns + 1, -going, at
+    return turns
+
+
+def _windows(at_s: Array, positions_m: Array) -> list[NDArray[np.intp]]:
+    """Indices of the reports of each second in which the finger moved far enough."""
+    numbers = ((at_s - at_s[0]) // WINDOW_S).astype(int)
+    found = []
+    for number in range(int(numbers[-1]) + 1):
+        window = np.flatnonzero(numbers == number)
+        steps_m = np.hypot(*np.diff(positions_m[window], axis=0).T) if len(window) > 1 else np.zeros(0)
+        if len(window) >= MIN_REPORTS and steps_m.sum() >= MIN_PATH_M and _turns(positions_m[window]):
+            found.append(window)
+    return found
+
+
+def _counts(mouse: tuple[Array, Array], at_s: Array) -> Array:
+    """The mouse's counts at times `at_s`, (n, 2), linear between its reports."""
+    times_s, counts = mouse
+    return np.stack([np.interp(at_s, times_s, counts[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def _fit(
+    at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse: tuple[Array, Array], lag_s: float
+) -> tuple[float, Array]:
+    """Rms residual in m, and the (2, 2) map from counts to m that fits all windows best, each about its own mean."""
+    counts = _counts(mouse, at_s - lag_s)
+    here = np.concatenate([counts[window] - counts[window].mean(axis=0) for window in windows])
+    there = np.concatenate([positions_m[window] - positions_m[window].mean(axis=0) for window in windows])
+    map_of = np.linalg.lstsq(here, there, rcond=None)[0]
+    return float(np.sqrt(np.mean(np.sum((here @ map_of - there) ** 2, axis=1)))), map_of
+
+
+def _lag_of(at_s: Array, positions_m: Array, mouse: tuple[Array, Array], map_of: Array, near_s: float) -> float:
+    """Least-squares lag of one window within 15 ms of `near_s`, refined by a parabola through the minimum."""
+    lags_s = near_s + np.arange(-15e-3, 15.05e-3, 0.5e-3)
+    errors = []
+    for lag_s in lags_s:
+        off = _counts(mouse, at_s - lag_s) @ map_of - positions_m
+        errors.append(float(np.sum((off - off.mean(axis=0)) ** 2)))
+    best = min(max(int(np.argmin(errors)), 1), len(errors) - 2)
+    before, at, after = errors[best - 1 : best + 2]
+    bend = before - 2 * at + after
+    return float(lags_s[best]) + (0.25e-3 * (before - after) / bend if bend > 0 else 0.0)

@@ -1,0 +1,1 @@
+"""How a release's files reach a device: over HTTP or from a stick."""

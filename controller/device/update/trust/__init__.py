@@ -1,0 +1,1 @@
+"""Which releases a device may take: signed metadata, its age, the clock."""

@@ -1,0 +1,134 @@
+"""What a repository offers this device, and why it is not taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from controller.device.board.records import as_record
+from controller.device.update.installed import manifest_of
+from controller.device.update.layout import WORDS_BYTES_MAX, Layout
+from controller.device.update.manifest import (
+    FALL_BACK_INTERFACE,
+    MANIFEST_BYTES_MAX,
+    Channel,
+    Manifest,
+    read_manifest,
+    read_object,
+    this_platform,
+)
+from controller.device.update.trust.trust import DeviceUpdater
+from controller.errors import ConfigError, UpdateError
+from controller.regular_file import read_regular
+
+CHANNEL_BYTES_MAX: Final = 64_000
+COUNTER: Final = "counter"  # file below `download`: counter of the newest release that was fetched
+
+
+@dataclass(frozen=True, slots=True)
+class Offer:
+    """What a channel offers.
+
+    Attributes
+    ----------
+    manifest : Manifest, optional
+        None if there is nothing for this platform.
+    data : bytes
+        The manifest as it was signed.
+    installed : Manifest, optional
+        The release in use.
+    refused : str
+        Why it is not taken; empty if it may be.
+    """
+
+    channel: str
+    platform: str
+    manifest: Manifest | None
+    data: bytes
+    installed: Manifest | None
+    refused: str
+
+    @property
+    def is_new(self) -> bool:
+        """Whether there is something to fetch and install."""
+        return not self.refused and self.manifest is not None and self.manifest != self.installed
+
+
+def offered(repository: DeviceUpdater, layout: Layout, channel: str, where: str) -> Offer:
+    """What a channel of a repository offers this device now.
+
+    Parameters
+    ----------
+    where : str
+        What the repository is called in errors.
+
+    Raises
+    ------
+    UpdateError
+        If the repository is wrong, not merely of no use to this device.
+    DownloadError, RepositoryError
+    """
+    platform, installed = this_platform(), manifest_of(layout.current)
+    releases = _channel(repository.read(Channel.target(channel), CHANNEL_BYTES_MAX), f"{where}: {Channel.target(channel)}").releases
+    path = releases.get(platform)
+    if path is None:
+        others = ", ".join(sorted(releases)) or "nothing at all"
+        reason = f"{where}: channel {channel} has no release for {platform}, but for {others}"
+        return Offer(channel, platform, None, b"", installed, reason)
+    data = repository.read(path, MANIFEST_BYTES_MAX)
+    manifest = read_manifest(data, f"{where}: {path}")
+    if manifest.target != path:
+        raise UpdateError(f"{where}: {path} is the manifest of {manifest.target}: refused; the repository has to be made again")
+    return Offer(channel, platform, manifest, data, installed, _reason(manifest, installed, layout, where))
+
+
+def _reason(manifest: Manifest, installed: Manifest | None, layout: Layout, where: str) -> str:
+    """Why a release is not taken; empty if it may be."""
+    release, seen = f"{where}: release {manifest.version}", largest_counter(layout, installed)
+    if manifest == installed:
+        return ""
+    if manifest.counter < seen:
+        return (
+            f"{release} has counter {manifest.counter}, this device has had {seen}: no way back but `haptic-panel update rollback`"
+        )
+    if manifest.version in failed_releases(layout):
+        return f"{release} has failed on this device: a later one is needed"
+    if installed is not None and manifest.minimum_counter > installed.counter:
+        return f"{release} needs a release of counter {manifest.minimum_counter} or more before it: install that first"
+    if manifest.fall_back > FALL_BACK_INTERFACE:
+        return f"{release} needs a newer Debian package haptic-panel (fall-back {manifest.fall_back}): install that first"
+    return ""
+
+
+def failed_releases(layout: Layout) -> frozenset[str]:
+    """Versions that were tried and did not serve.
+
+    Raises
+    ------
+    UpdateError
+        If they cannot be read: what is not known to be untried is not fetched.
+    """
+    file = layout.state / "failed"
+    try:
+        lines = read_regular(file, WORDS_BYTES_MAX).decode("ascii", "replace").splitlines()
+    except FileNotFoundError:
+        return frozenset()
+    except OSError as error:
+        raise UpdateError(f"{file}: cannot be read ({error.strerror}), so that no release is taken: look at its owner") from error
+    return frozenset(line.split()[0] for line in lines if line.strip())
+
+
+def largest_counter(layout: Layout, installed: Manifest | None) -> int:
+    """Counter of the newest release that this device has had, whatever became of metadata and releases."""
+    try:
+        text = read_regular(layout.download / COUNTER, WORDS_BYTES_MAX).decode("ascii").strip()
+    except (OSError, UnicodeDecodeError):
+        text = ""
+    return max(int(text) if text.isdecimal() and len(text) <= 16 else 0, installed.counter if installed else 0)
+
+
+def _channel(data: bytes, origin: str) -> Channel:
+    try:
+        return as_record(f"{origin}: ", read_object(data, origin), Channel)
+    except ConfigError as error:
+        raise UpdateError(f"{origin}: is no channel: {error}") from error

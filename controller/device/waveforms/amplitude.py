@@ -1,0 +1,24 @@
+"""The steps to which amplitudes are rounded, so that equal waveforms have equal keys."""
+
+from __future__ import annotations
+
+import math
+
+from controller.device.board.devices import MIN_AMPLITUDE
+
+STEPS_PER_HALF = 16  # a step is 4.4 %: rounding to one is at most 2.2 % off
+LAST_STEP = round(-STEPS_PER_HALF * math.log2(MIN_AMPLITUDE))
+AMPLITUDES = tuple(2 ** (-step / STEPS_PER_HALF) for step in range(LAST_STEP + 1))
+
+
+def amplitude_step(amplitude: float) -> int:
+    """Nearest step of an amplitude: 0 is full, `LAST_STEP` is `MIN_AMPLITUDE` and everything below.
+
+    Raises
+    ------
+    ValueError
+        If it is not above 0 and at most 1.
+    """
+    if not 0 < amplitude <= 1:
+        raise ValueError(f"amplitude {amplitude} is not above 0 and at most 1")
+    return min(round(-STEPS_PER_HALF * math.log2(amplitude)), LAST_STEP)

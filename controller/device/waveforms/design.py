@@ -1,0 +1,62 @@
+"""What every method of finding drive words takes and gives.
+
+The bank's entries, the composition on the device, and the methods of `waveform_design` all stand behind `DesignMethod`; bank
+builder and benchmark take any of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.kernel import Point
+
+Place = tuple[float, float]  # x_m, y_m
+
+
+@dataclass(frozen=True, slots=True)
+class WaveformDesign:
+    """Drive words, and what the method that made them expects of them.
+
+    Attributes
+    ----------
+    words : (sample,) uint32 array
+        Drive words, first played first.
+    displacement_m : (point,) float array
+        At each point at T, from rest at the idle word; negative where the point is kicked downwards.
+    nulls_m : (null,) float array
+        Largest absolute displacement at each null near T.
+    """
+
+    words: NDArray[np.uint32]
+    displacement_m: NDArray[np.floating[Any]]
+    nulls_m: NDArray[np.floating[Any]]
+
+
+class DesignMethod(Protocol):
+    """A method of finding drive words."""
+
+    @property
+    def name(self) -> str:
+        """One to four words for tables and legends."""
+
+    def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
+        """Find drive words for one emission.
+
+        Parameters
+        ----------
+        points : sequence of (x_m, y_m, amplitude)
+            Foci; amplitudes above 0 to 1, each a share of what the point would get if all points were composed at full amplitude.
+        nulls : sequence of (x_m, y_m)
+            Places that shall stay still near T.
+
+        Raises
+        ------
+        ValueError
+            If there is no point, if numbers are not finite or beyond their range, or if the method cannot do what is asked:
+            nulls, or less than full amplitude.
+        """

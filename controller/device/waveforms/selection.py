@@ -1,0 +1,201 @@
+"""Selects the waveform for a set of points: an entry of the bank as it is, or responses composed.
+
+A single point near a cell's centre at full amplitude plays the bank's entry without any arithmetic. Farther off, at a lower
+amplitude, and for several points at once, responses are interpolated, summed and signed. Points are first rounded to a lattice
+and amplitudes to steps, so that a finger at rest asks for the same waveform again and finds it resident in the FPGA.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Sequence
+from math import floor
+from typing import Final
+
+from controller.device.bank.grid import TO_WHOLE
+from controller.device.bank.reader import Bank
+from controller.device.fpga.frames import ReadyFrames, Waveform
+from controller.device.kernel import MAX_NULLS
+from controller.device.waveforms.amplitude import AMPLITUDES, amplitude_step
+from controller.device.waveforms.composition import Composer, Point
+from controller.errors import BankError
+
+# On the paper's plate; on others they go with the length of its waves (`Bank.wave_scale`)
+LATTICE_M: Final = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
+REUSE_RADIUS_M: Final = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less amplitude (README.md)
+
+LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
+Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice
+NULL: Final = -1  # in place of a step of amplitude: a place that is kept still
+NULL_APART_M: Final = 5e-3  # a place nearer to a focus than this cannot be kept still, at least not for a bearable loss
+
+
+class Selection:
+    """Keys and drive words for points on the plate.
+
+    Parameters
+    ----------
+    bank : Bank
+        The open bank.
+    snap_m : float
+        A single point of full amplitude at most this far from a cell's centre plays that cell.
+    idle_word : int
+        Level of each channel at rest: bit q is channel q.
+    ready : bool
+        False: what the bank has composed beforehand is composed all the same.
+
+    Attributes
+    ----------
+    lattice_m : float
+        Distance of the points to which places are rounded.
+    reuse_m : float
+        A waveform for a place this near serves as well.
+    """
+
+    def __init__(self, bank: Bank, snap_m: float, idle_word: int, *, ready: bool = True) -> None:
+        self._bank = bank
+        self.lattice_m = LATTICE_M * bank.wave_scale
+        self._null_apart_m = NULL_APART_M * bank.wave_scale
+        self.reuse_m = REUSE_RADIUS_M * bank.wave_scale
+        self._compositions = bank.drive.compositions if ready else {}
+        self._snap_m = snap_m
+        self._idle_word = idle_word
+        self._composer: Composer | None = None
+
+    @property
+    def composes(self) -> bool:
+        """Whether anything was composed so far; the bank's response section is mapped then."""
+        return self._composer is not None
+
+    def prepare(self) -> None:
+        """Take the memory for composing, and map the responses, before playing begins.
+
+        Raises
+        ------
+        BankError
+            If the bank's first entry is damaged.
+        """
+        if not self._bank.composes:
+            return
+        if self._composer is None:
+            self._composer = Composer(self._bank, self._idle_word)
+        cells = self._bank.cells.nonzero()[0]
+        if cells.size:
+            x_m, y_m = self._bank.grid.points()[cells[0]].tolist()
+            self._composer.compose([(x_m, y_m, 1.0), (x_m, y_m, 0.5)])
+
+    def key(self, points: Sequence[Point]) -> Key:
+        """Name of the waveform for these points (x_m, y_m, amplitude); equal keys have equal words.
+
+        Raises
+        ------
+        ValueError
+            If an amplitude is not above 0 and at most 1, or a place is NaN.
+        OverflowError
+            If a place is infinite.
+        """
+        if len(points) == 1:
+            x_m, y_m, amplitude = points[0]
+            step = 0 if amplitude == 1 else amplitude_step(amplitude)
+            if step == 0:
+                cell, distance_m = self._bank.grid.nearest(x_m, y_m)
+                if distance_m <= self._snap_m:
+                    return cell
+            lattice_m = self.lattice_m
+            return ((floor(x_m / lattice_m + TO_WHOLE - TO_WHOLE), floor(y_m / lattice_m + TO_WHOLE - TO_WHOLE), step),)
+        return lattice_key(points, self.lattice_m)
+
+    def null_key(self, points: Sequence[Point], places: Sequence[tuple[float, float]]) -> Key:
+        """Name of the waveform for points that leaves other places (x_m, y_m) still, at most four: those nearest to a point.
+
+        Places within 5 mm of a point (on the paper's plate) are left as they are.
+
+        Raises
+        ------
+        ValueError
+            If an amplitude is not above 0 and at most 1.
+        """
+        apart = []
+        for x_m, y_m in places:
+            distance_m = min([math.hypot(x_m - to_x_m, y_m - to_y_m) for to_x_m, to_y_m, _ in points])
+            if distance_m >= self._null_apart_m:
+                apart.append((distance_m, x_m, y_m))
+        if not apart:
+            return self.key(points)
+        apart.sort()
+        still = lattice_key([(x_m, y_m, 1.0) for _, x_m, y_m in apart[:MAX_NULLS]], self.lattice_m)
+        return (*lattice_key(points, self.lattice_m), *[(x, y, NULL) for x, y, _ in still])
+
+    def waveform(self, key: Key) -> Waveform:
+        """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
+
+        With frames comes the CRC-32 with which they were built, so that the FPGA finds whatever changed since. Points that the bank
+        has composed beforehand are taken from there; if that is damaged, they are composed here.
+
+        Raises
+        ------
+        BankError
+            If an entry it needs is damaged or not in the bank, or the file was changed in place.
+        """
+        if isinstance(key, int):
+            return ReadyFrames(*self._bank.drive.frames(key))
+        if key in self._compositions:
+            with contextlib.suppress(BankError):
+                return ReadyFrames(*self._bank.drive.composed(key))
+        if self._composer is None:  # maps the response section: only scenes that need it pay for it
+            self._composer = Composer(self._bank, self._idle_word)
+        lattice_m = self.lattice_m
+        points = [(x * lattice_m, y * lattice_m, AMPLITUDES[step]) for x, y, step in key if step != NULL]
+        words = self._composer.compose(points)
+        if len(points) < len(key):
+            self._composer.keep_still(points, [(x * lattice_m, y * lattice_m, 1.0) for x, y, step in key if step == NULL])
+        self._bank.file.require_unchanged()
+        return words
+
+    def recheck(self, key: Key) -> None:
+        """Check the entry of a key again, of which the FPGA refused a frame or the words for a wrong CRC.
+
+        Raises
+        ------
+        BankError
+            If they are wrong in the bank.
+        """
+        if isinstance(key, int):
+            self._bank.drive.recheck(key)
+        else:
+            self._bank.drive.recheck_composed(key)
+
+    def reusable(self, key: Key, resident: Key) -> bool:
+        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within `reuse_m`.
+
+        Parameters
+        ----------
+        key : Key
+            The waveform that is to be played.
+        resident : Key
+            The one that the FPGA holds.
+        """
+        wanted, there = self.single_focus(key), self.single_focus(resident)
+        if wanted is None or there is None or wanted[2] != there[2]:
+            return False
+        return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= self.reuse_m
+
+    def single_focus(self, key: Key) -> tuple[float, float, int] | None:
+        """Place (x_m, y_m) and amplitude step of a key of a single point; None for a key of several."""
+        if isinstance(key, int):
+            return (*self._bank.grid.place(key), 0)
+        if len(key) != 1:
+            return None
+        x, y, step = key[0]
+        return x * self.lattice_m, y * self.lattice_m, step
+
+
+def lattice_key(points: Sequence[Point], lattice_m: float) -> tuple[LatticePoint, ...]:
+    """Points (x_m, y_m, amplitude) on a lattice of `lattice_m`, in ascending order."""
+    lattice = []
+    for x_m, y_m, amplitude in points:
+        step = 0 if amplitude == 1 else amplitude_step(amplitude)
+        lattice.append((floor(x_m / lattice_m + TO_WHOLE - TO_WHOLE), floor(y_m / lattice_m + TO_WHOLE - TO_WHOLE), step))
+    lattice.sort()
+    return tuple(lattice)

@@ -1,0 +1,1 @@
+"""What any computer may do for a panel: models, banks, calibration, gateware, releases, figures."""

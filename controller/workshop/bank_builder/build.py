@@ -1,0 +1,237 @@
+"""Builds a board's bank: responses of the cells in blocks, packed, quantised and written as they come."""
+
+from __future__ import annotations
+
+import hashlib
+import resource
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from controller.device.bank.file_format import Header, creator
+from controller.device.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
+from controller.device.bank.writer import BankWriter
+from controller.device.board.board import Board
+from controller.device.board.paths import make_folder
+from controller.errors import ConfigError
+from controller.workshop.bank_builder.interpolation_error import interpolation_error
+from controller.workshop.bank_builder.methods.plain import SignOfSum
+from controller.workshop.bank_builder.methods.prediction import FocusPrediction
+from controller.workshop.bank_builder.optimised import Task, Words, kept_path, optimised_words, remove_kept
+from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.physics.responses.response_source import ResponseSource
+
+INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
+WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
+CELLS_COMPARED = 32  # at most, of an optimised bank: 10 ms each
+CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
+
+
+@dataclass(frozen=True)
+class BuildReport:
+    """Result and cost of a build.
+
+    Attributes
+    ----------
+    bytes : int
+        Size of the file.
+    cells : int
+        Entries written.
+    modes : int or None
+        In every response; None: the responses do not come from modes.
+    responses : str
+        Where they come from, `Provenance.in_words`.
+    seconds : float
+        Of the whole build, by the clock.
+    model_seconds, response_seconds : float
+        Processor time of the plate model (none of another source) and of the responses.
+    response_gflops : float or None
+        Additions and multiplications that the responses need, in 10^9 for a second of `response_seconds`; None: no model's.
+    peak_memory_mb : float
+        In MB of 10^6 bytes.
+    worst_edge_rate_hz : float
+        Edges per second of the busiest channel of all entries.
+    interpolation_error : dict
+        `InterpolationError.summary`: what fingers between cells lose.
+    optimised : dict or None
+        What entries were optimised for, and what became of their amplitude; None: they are plain.
+    optimise_seconds : float
+        By the clock.
+    """
+
+    path: str
+    bytes: int
+    cells: int
+    modes: int | None
+    responses: str
+    seconds: float
+    model_seconds: float
+    response_seconds: float
+    response_gflops: float | None
+    peak_memory_mb: float
+    worst_edge_rate_hz: float
+    interpolation_error: dict[str, Any]
+    optimised: dict[str, Any] | None
+    optimise_seconds: float
+
+
+def build_bank(request: BankRequest) -> BuildReport:
+    """Build a bank and put it in place of the one at `request.path`, if any.
+
+    Raises
+    ------
+    ConfigError
+        If the pitch leaves no cell, no cell is wanted, an entry would switch a channel more often than the board allows,
+        the build does not fit into `memory_mb`, the source is not of this board, or entries from it are to be optimised.
+    BankError
+        If the folder or disk does not take the file; an old bank is untouched.
+    """
+    started = time.perf_counter()
+    plan = BankPlan.of(request)
+    path, aim, source = request.path, request.aim, plan.source
+    make_folder(path.parent)
+    with (
+        threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
+        BankWriter(path, plan.header, plan.wanted, overwrite=request.overwrite) as writer,  # before the work: it may be refused
+    ):
+        entries = _Entries(plan.board, plan.header, writer)
+        before = time.process_time()
+        if plan.model:
+            plan.model.entry_kernel()
+        model_seconds = time.process_time() - before
+        before = time.perf_counter()
+        optimised = _optimised(request, plan) if aim else None
+        optimise_seconds = time.perf_counter() - before
+        response_seconds = _write_cells(plan, entries, optimised, path.name, progress=request.progress)
+        for key, words in plan.composed:
+            entries.add_composition(key, words)
+        results = plan.header.parameters
+        results["content_sha256"] = entries.content.hexdigest()
+        if optimised is not None:
+            results["amplitude_of_plain"] = _amplitude_of_plain(plan.board, source, plan.points_m, optimised)
+        results["interpolation_error"] = interpolation_error(plan.board, source, plan.header.grid, plan.wanted).summary()
+    remove_kept(path)
+    return BuildReport(
+        path=str(path),
+        bytes=plan.header.file_bytes,
+        cells=len(plan.numbers),
+        modes=plan.model.modes if plan.model else None,
+        responses=source.provenance.in_words(),
+        seconds=time.perf_counter() - started,
+        model_seconds=model_seconds,
+        response_seconds=response_seconds,
+        response_gflops=plan.flops() / response_seconds / 1e9 if plan.model else None,
+        peak_memory_mb=peak_memory_mb(),
+        worst_edge_rate_hz=entries.worst_edge_rate_hz,
+        interpolation_error=results["interpolation_error"],
+        optimised={"aim": aim.name, "amplitude_of_plain": results["amplitude_of_plain"]} if aim else None,
+        optimise_seconds=optimise_seconds if aim else 0.0,
+    )
+
+
+def _optimised(request: BankRequest, plan: BankPlan) -> Words:
+    """Optimised drive words of all cells; what an interrupted build has kept of them is not computed again."""
+    assert request.aim
+    kept = kept_path(request.path, inputs_sha256(plan.board, {key: plan.header.parameters[key] for key in WORDS_DEPEND_ON}))
+    points_m = tuple((x_m, y_m) for x_m, y_m in plan.points_m.tolist())
+    whole = Task(plan.board, request.highest_mode_hz, request.aim, points_m, creator())
+    return optimised_words(whole, plan.numbers, kept, request.workers, progress=request.progress)
+
+
+def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, name: str, *, progress: bool) -> float:
+    """Compute and write the entries of all cells; processor time of their responses, in s."""
+    header, seconds = plan.header, 0.0
+    room = np.empty((max(map(len, plan.blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
+    with tqdm(total=len(plan.numbers), unit="cell", desc=f"bank {name}", disable=None if progress else True) as bar:
+        for block in plan.blocks:
+            before = time.process_time()
+            responses = plan.source.entry_responses(plan.points_m[block.start : block.stop], out=room[: len(block)])
+            seconds += time.process_time() - before
+            for index, response in zip(block, responses, strict=True):
+                plain = drive_words(response[: header.samples], plan.board.idle_word)
+                entries.add_cell(int(plan.numbers[index]), plain if optimised is None else optimised[index], response)
+            bar.update(len(block))
+    if not entries.moves:
+        raise ConfigError(
+            f"board {plan.board.name!r}: no channel moves any of the {len(plan.numbers)} cells: a bank of nothing is not written"
+        )
+    return seconds
+
+
+class _Entries:
+    """Writes waveforms, and keeps what the header says of them.
+
+    Attributes
+    ----------
+    content
+        Hash of all that was written.
+    moves : bool
+        Whether any channel moves any cell.
+    """
+
+    def __init__(self, board: Board, header: Header, writer: BankWriter) -> None:
+        self._board, self._results, self._writer = board, header.parameters, writer
+        self.content = hashlib.sha256()
+        self.worst_edge_rate_hz = 0.0
+        self.moves = False
+
+    def add_cell(self, cell: int, words: NDArray[np.uint32], response: NDArray[np.float32]) -> None:
+        self._count_edges(words, f"cell {cell}")
+        levels, scale_m_per_v = quantise(response)
+        self._writer.add(cell, words, levels, scale_m_per_v)
+        self.moves = self.moves or scale_m_per_v > 0
+        for part in (words, levels, np.float32(scale_m_per_v)):
+            self.content.update(part.data)
+
+    def add_composition(self, key: Sequence[tuple[int, int, int]], words: NDArray[np.uint32]) -> None:
+        self._count_edges(words, f"{len(key)} spots")
+        self._writer.add_composition(key, words)
+        self.content.update(words.data)
+
+    def _count_edges(self, words: NDArray[np.uint32], name: str) -> None:
+        """Note the edges of the busiest channel, and of all; refused above the board's limit."""
+        board, results = self._board, self._results
+        idle = np.array([board.idle_word], np.uint32)
+        counts = edges(np.concatenate([idle, words, idle]))
+        own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
+        rate_hz = float(own_edges.max()) / board.waveform.duration_s
+        if rate_hz > board.limits.max_edge_rate_hz:
+            raise ConfigError(
+                f"board {board.name!r}: limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is less than the {rate_hz:g}"
+                f" edges per second of channel {int(own_edges.argmax())} in the waveform of {name}: raise it if the driver"
+                f" allows it"
+            )
+        results["channel_edges"] = max(results["channel_edges"], int(counts.max()))
+        results["all_edges"] = max(results["all_edges"], int(counts.sum()))
+        self.worst_edge_rate_hz = max(self.worst_edge_rate_hz, rate_hz)
+
+
+def _amplitude_of_plain(board: Board, source: ResponseSource, points_m: NDArray[np.float64], words: Words) -> dict[str, Any]:
+    """Amplitudes of optimised entries over those of plain ones, by all modes, at cells evenly spaced among those of the bank."""
+    some = np.unique(np.linspace(0, len(points_m) - 1, CELLS_COMPARED).round().astype(int))
+    plain, prediction = SignOfSum(board, source), FocusPrediction(board, source)
+    shares = [
+        float(
+            prediction.at_focus(words[index], points_m[index])[0] / (plain.design([(*points_m[index], 1.0)]).displacement_m[0] or 1)
+        )
+        for index in some.tolist()
+    ]
+    found = {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
+    return {"cells": len(some), **found}
+
+
+def peak_memory_mb() -> float:
+    """Largest resident memory of this process so far, in MB of 10^6 bytes."""
+    try:
+        status = Path("/proc/self/status").read_text(encoding="ascii")  # ru_maxrss also counts what exec replaced
+        return float(status.partition("VmHWM:")[2].split()[0]) * 1024e-6
+    except (OSError, IndexError):
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024e-6

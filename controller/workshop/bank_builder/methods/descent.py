@@ -1,0 +1,340 @@
+"""Drive words of one focus for more contrast or less sound: relaxed, rounded in time order, improved bit by bit.
+
+What is maximised is, each term relative to the sign of the band-limited response of the same point (the plain waveform):
+
+    a amplitude - contrast * (mean square field outside the focus) - silence * (energy below 16 kHz) - calm * (edges)
+
+Amplitude and field are those of all modes, so frequencies outside the band help too, as far as silence lets them. `a` is found for
+each cell so that the amplitude becomes the plain one's: an entry that kicks harder than what is composed beside it would be felt.
+
+1. Relaxation: accelerated projected gradient steps on levels between 0 and 1 (Beck and Teboulle, FISTA, with restarts).
+2. Rounding: sample by sample in time order, channel by channel; what one bit's rounding costs, the next ones make up for.
+3. Descent: in the same order, at each sample the bits that gain most are flipped, until none gains.
+
+All products are exact (`exact.py`), so a point's words do not depend on the machine or on what is computed with it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from controller.device.bank.packing import channel_bits, drive_words
+from controller.device.board.board import Board
+from controller.device.board.panel import CHANNELS
+from controller.device.kernel import Point
+from controller.device.waveforms.design import Place, WaveformDesign
+from controller.workshop.bank_builder.methods.audible_form import AudibleForm
+from controller.workshop.bank_builder.methods.exact import rounded
+from controller.workshop.bank_builder.methods.field_form import FieldForm
+from controller.workshop.bank_builder.methods.prediction import Prediction
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+
+Floats = NDArray[np.float64]
+
+LEVELS = 64  # to which relaxed levels are rounded before they become bits
+STEPS_BEFORE_WEIGHING = 5  # relaxation steps between two corrections of the weight of the amplitude
+SAMPLES_AT_ONCE = 20  # after which the audible spectrum is brought up to date
+FLIPS_PER_SAMPLE = 3  # of one cell in one pass of the descent
+LEAST_SHARE, MOST_SHARE = 0.8, 1.25  # of the plain amplitude; what is beyond was no good start (points that hardly move)
+CALMER = 4.0  # an entry that switches too often is improved again, edges costing this many times as much
+CALMING_PASSES = 4
+CELLS_AT_ONCE = 32  # at most, and as many as fit into
+WORKING_BYTES = 120e6  # of levels, gradients and modal forces
+
+
+@dataclasses.dataclass(frozen=True)
+class Aim:
+    """What a waveform is optimised for.
+
+    Attributes
+    ----------
+    contrast, silence, calm : float
+        Costs of the mean square field outside the focus (0: it is left alone, which saves most of the time), of the energy below
+        16 kHz and of the edges of all channels, each relative to that of the plain waveform, where the plain waveform's
+        amplitude is worth about `amplitude`.
+    amplitude : float
+        Worth of the amplitude that the relaxation begins with.
+    steps : int
+        Of the relaxation.
+    passes : int
+        Of the descent.
+    """
+
+    name: str
+    contrast: float
+    silence: float
+    calm: float
+    amplitude: float
+    steps: int
+    passes: int = 1
+
+
+AIMS = {
+    aim.name: aim
+    for aim in (
+        Aim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
+        Aim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
+        Aim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
+    )
+}
+
+
+@dataclasses.dataclass(eq=False)
+class _Cells:
+    """Points that are optimised together; every array has them along its axis `cell`.
+
+    Attributes
+    ----------
+    plain : (sample, cell, 32) array
+        Bits of the plain waveform.
+    shapes : (cell, mode) array
+    worth : (cell,) array
+        Of the amplitude; changes during the relaxation.
+    amplitude, field, sound, edge : (cell,) array
+        Worth 1 of amplitude, in the unit of `FieldForm`; cost of a unit of the mean square field, of audible energy, of an edge.
+    """
+
+    plain: Floats
+    shapes: Floats
+    places: list[Any]
+    worth: Floats
+    amplitude: Floats
+    field: Floats
+    sound: Floats
+    edge: Floats
+
+
+class Descent:
+    """Optimised waveforms for single points at full amplitude.
+
+    Parameters
+    ----------
+    model : ResponseModel
+        Of this board.
+    """
+
+    def __init__(self, board: Board, model: ResponseModel, aim: Aim) -> None:
+        self.name = f"descent: {aim.name}"
+        self._aim, self._model = aim, model
+        self._idle_word = board.idle_word
+        self._idle: Floats = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+        self._most_edges = math.floor(board.limits.max_edge_rate_hz * board.waveform.duration_s)
+        self._field = FieldForm(board, model)
+        self._audible = AudibleForm(board, model, SAMPLES_AT_ONCE)
+        self._late = np.ascontiguousarray(self._audible.lags[:0:-1]).reshape(-1, CHANNELS)  # longest lag first
+        self._prediction = Prediction(board, model)
+        cell_bytes = 8.0 * CHANNELS * (3 * model.modes + 8 * model.samples)
+        self._at_once = max(1, min(CELLS_AT_ONCE, int(WORKING_BYTES / cell_bytes)))
+
+    def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
+        """As `DesignMethod.design`, for one point at full amplitude."""
+        if len(points) != 1 or points[0][2] != 1 or nulls:
+            raise ValueError(f"{self.name} serves one point at full amplitude and has no nulls")
+        if not all(map(math.isfinite, points[0])):
+            raise ValueError("a point that is not finite")
+        place_m = np.array([points[0][:2]])
+        words = self.entries(place_m)[0]
+        return WaveformDesign(words, self._prediction.at_focus(words, place_m), np.zeros(0))
+
+    def entries(self, points_m: ArrayLike) -> NDArray[np.uint32]:
+        """Drive words of each of `points_m`, (point, 2), alone: (point, sample).
+
+        Where nothing can be gained (a point that does not move), the amplitude would be another, or edges would be more than the
+        board's `limits.max_edge_rate_hz` allows, it is the plain waveform.
+        """
+        points = np.asarray(points_m, np.float64).reshape(-1, 2)
+        found = np.empty((len(points), self._model.samples), np.uint32)
+        for first in range(0, len(points), self._at_once):
+            found[first : first + self._at_once] = self._some(points[first : first + self._at_once])
+        return found
+
+    def _some(self, points_m: Floats) -> NDArray[np.uint32]:
+        responses = self._model.drive_order_responses(points_m, dtype=np.float64)
+        words = np.stack([drive_words(response, self._idle_word) for response in responses])
+        del responses
+        cells, good = self._cells(points_m, words)
+        if good.size:
+            levels = self._relaxed(cells)
+            for _ in range(self._aim.passes + 1):  # the first rounds what is between 0 and 1
+                self._pass(cells, levels)
+            for _ in range(CALMING_PASSES):
+                busy = self._own_edges(levels).max(axis=1) > self._most_edges
+                if not busy.any():
+                    break
+                cells.edge[busy] = np.maximum(cells.edge[busy], self._least_edge_cost(cells)[busy]) * CALMER
+                self._pass(cells, levels)
+            share = _dot(cells.shapes, self._field.modal(levels)) / cells.amplitude
+            fit = (self._own_edges(levels).max(axis=1) <= self._most_edges) & (share >= LEAST_SHARE) & (share <= MOST_SHARE)
+            bits = levels.transpose(1, 0, 2)[fit].astype(np.uint8)
+            packed = np.packbits(bits, axis=2, bitorder="little").view("<u4")[:, :, 0]
+            words[good[fit]] = packed
+        return words
+
+    def _cells(self, points_m: Floats, words: NDArray[np.uint32]) -> tuple[_Cells, NDArray[np.intp]]:
+        """State of the points at which there is something to optimise, and which they are."""
+        plain = np.stack([channel_bits(row) for row in words], axis=1).astype(np.float64)
+        shapes = self._field.shapes(points_m)
+        places = [self._field.surroundings(point) for point in points_m]
+        modal = self._field.modal(plain)
+        amplitude = _dot(shapes, modal)
+        outside = self._field.mean_square(modal, places)
+        sound = self._audible.energy(plain - self._idle)
+        good = np.flatnonzero((amplitude > 0) & (outside > 0) & (sound > 0))
+        edges = self._edges(plain).sum(axis=1)
+        aim = self._aim
+        return _Cells(
+            plain=np.ascontiguousarray(plain[:, good]),
+            shapes=shapes[good],
+            places=[places[index] for index in good],
+            worth=np.full(good.size, aim.amplitude),
+            amplitude=amplitude[good],
+            field=aim.contrast / outside[good],
+            sound=aim.silence / sound[good],
+            edge=aim.calm / np.maximum(edges[good], 1),
+        ), good
+
+    def _relaxed(self, cells: _Cells) -> Floats:
+        """Levels from 0 to 1 in steps of 1 / `LEVELS`, (sample, cell, 32)."""
+        share = np.array([place.share for place in cells.places])
+        curvature = cells.field * share / 2  # of half the squared modes
+        rate = 1 / (curvature * self._field.largest + 2 * cells.sound * self._audible.largest)
+        aimed = cells.amplitude
+        levels, ahead = cells.plain, cells.plain
+        pull = None if self._aim.contrast else self._field.gradient(cells.shapes)
+        momentum = np.ones(len(aimed))
+        for step in range(1, self._aim.steps + 1):
+            ahead = np.rint(ahead * 1024) / 1024
+            if pull is None:
+                modal = self._field.modal(ahead)
+                near, _ = self._field.near(modal, cells.places)
+                wanted = (cells.worth / aimed)[:, None] * cells.shapes - curvature[:, None] * (modal - near)
+                slope = self._field.gradient(wanted)
+            else:
+                slope = pull * (cells.worth / aimed)[:, None]
+            forces = self._audible.forces(self._audible.spectrum(ahead - self._idle))
+            slope -= (2 * cells.sound)[:, None] * self._audible.gradient(forces, 0, len(slope))
+            slope *= rate[:, None]
+            slope += ahead
+            stepped = np.clip(slope, 0, 1, out=slope)
+            change = np.rint((stepped - levels) * 1024)
+            restart = np.sum(np.rint((ahead - stepped) * 1024) * change, axis=(0, 2)) > 0
+            following = (1 + np.sqrt(1 + 4 * momentum**2)) / 2
+            push = np.where(restart, 0.0, (momentum - 1) / following)
+            ahead = stepped + push[:, None] * (stepped - levels)
+            levels, momentum = stepped, np.where(restart, 1.0, following)
+            if step % STEPS_BEFORE_WEIGHING == 0 and step < self._aim.steps:
+                reached = _dot(cells.shapes, self._field.modal(np.rint(levels * 1024) / 1024))
+                short = np.where(reached > 0, aimed / np.maximum(reached, aimed / 2), 2.0)
+                cells.worth *= np.square(np.square(short))  # a power of four by itself need not be the same on all machines
+        result: Floats = np.rint(levels * LEVELS) / LEVELS
+        return result
+
+    def _pass(self, cells: _Cells, levels: Floats) -> None:
+        """One pass over all samples in time order: levels between 0 and 1 are rounded, then bits are flipped that gain by it.
+
+        Everything is divided by the cost of half a squared mode, so that the field's part of the gain of a change d of a bit is
+        d moves * (target - modal) - d^2 moves^2 / 2. What counts as the focus enters as it is at the beginning: its mean square
+        is convex, so that its tangent is below it, and what gains by the tangent gains at least as much. Without a cost of the
+        field, only the amplitude is left of its part.
+        """
+        if self._aim.contrast:
+            scale = cells.field * np.array([place.share for place in cells.places]) / 2
+            modal = self._field.modal(levels)
+            near, _ = self._field.near(modal, cells.places)
+            left = np.rint((cells.worth / cells.amplitude / scale)[:, None] * cells.shapes + near - modal)
+        else:
+            scale = cells.worth / cells.amplitude
+            left = cells.shapes.copy()
+        sound, edge = (2 * cells.sound / scale)[:, None], (cells.edge / scale)[:, None]
+        forces = self._audible.forces(self._audible.spectrum(levels - self._idle))
+        own_curvature = sound[:, :, None] * self._audible.lags[0]
+        before = np.broadcast_to(self._idle, levels[0].shape)
+        samples, count = levels.shape[:2]
+        for first in range(0, samples, SAMPLES_AT_ONCE):
+            some = min(SAMPLES_AT_ONCE, samples - first)
+            heard = self._audible.gradient(forces, first, some)
+            changes = np.zeros((count, some, CHANNELS))
+            for ahead in range(some):
+                sample = first + ahead
+                moves = self._field.moves(sample)
+                loud = heard[ahead]
+                if ahead:
+                    loud = loud + changes[:, :ahead].reshape(count, -1) @ self._late[-ahead * CHANNELS :]
+                after = levels[sample + 1] if sample + 1 < samples else self._idle
+                slope = left @ moves - sound * loud
+                slope -= edge * (2 - 2 * (before + after))  # edges of a 1 here, less those of a 0
+                change = changes[:, ahead]
+                curvature = self._field.curvature[sample] + own_curvature if self._aim.contrast else own_curvature
+                _settle(levels[sample], slope, curvature, change)
+                if self._aim.contrast and change.any():
+                    left -= change @ moves.T
+                before = levels[sample]
+            if changes.any():
+                forces += self._audible.forces(self._audible.spectrum(np.ascontiguousarray(changes.transpose(1, 0, 2)), first))
+
+    def _edges(self, bits: Floats) -> Floats:
+        """Edges of each channel with those from and to the idle word, (cell, 32), of (sample, cell, 32) bits."""
+        ends = np.abs(bits[0] - self._idle) + np.abs(bits[-1] - self._idle)
+        found: Floats = self._own_edges(bits) + ends
+        return found
+
+    @staticmethod
+    def _own_edges(bits: Floats) -> Floats:
+        """Edges of each channel within an emission, (cell, 32), of (sample, cell, 32) bits."""
+        found: Floats = np.abs(np.diff(bits, axis=0)).sum(axis=0)
+        return found
+
+    def _least_edge_cost(self, cells: _Cells) -> Floats:
+        """Where edges cost nothing by the aim, a hundredth of what the amplitude is worth for all of them."""
+        found: Floats = cells.worth / 100 / np.maximum(self._edges(cells.plain).sum(axis=1), 1)
+        return found
+
+
+def _settle(levels: Floats, slope: Floats, curvature: Floats, change: Floats) -> None:
+    """Choose the bits of one sample: round levels between 0 and 1, then flip the bits that gain most.
+
+    Parameters
+    ----------
+    levels : (cell, 32) array
+        From 0 to 1; becomes 0 or 1.
+    slope : (cell, 32) array
+        Derivative of the gain by each level; overwritten.
+    curvature : (cell, 32, 32) array
+        Of the loss.
+    change : (cell, 32) array
+        Receives the change of the levels.
+    """
+    half = np.diagonal(curvature, axis1=1, axis2=2) / 2
+    between = (levels > 0) & (levels < 1)
+    for channel in np.flatnonzero(between.any(axis=0)).tolist():
+        level = levels[:, channel]
+        up = slope[:, channel] > (1 - 2 * level) * half[:, channel]  # the gain of 1 - level over that of -level
+        by = np.where(between[:, channel], up - level, 0.0)
+        change[:, channel] = by
+        slope -= by[:, None] * curvature[:, channel]
+    levels += change
+    sense = 1 - 2 * levels
+    for _ in range(FLIPS_PER_SAMPLE):
+        gain = sense * slope - half
+        best = gain.argmax(axis=1)
+        cells = np.flatnonzero(gain[np.arange(len(gain)), best] > 0)
+        if not cells.size:
+            break
+        channels = best[cells]
+        by = sense[cells, channels]
+        change[cells, channels] += by
+        levels[cells, channels] += by
+        sense[cells, channels] = -by
+        slope[cells] -= by[:, None] * curvature[cells, channels]
+
+
+def _dot(shapes: Floats, modal: Floats) -> Floats:
+    """Sum of products of each row: (cell,)."""
+    found: Floats = np.sum(shapes * rounded(modal, 28, 1), axis=1)
+    return found

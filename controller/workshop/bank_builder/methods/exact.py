@@ -1,0 +1,34 @@
+"""Numbers rounded so that products and sums of them are exact: results do not depend on the order in which a machine adds.
+
+A matrix product in float64 whose factors have few enough bits makes no rounding error, whichever linear algebra computes it and
+however it blocks, so the same waveforms come out on every machine, and whichever others are computed in the same product.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def rounded(values: Floats, bits: int, axis: int | tuple[int, ...] | None = None) -> Floats:
+    """Values rounded to a common unit: the largest along `axis` has `bits` bits.
+
+    Parameters
+    ----------
+    bits : int
+        Below 2^bits units each.
+    axis : int or tuple of int, optional
+        Axes of values that share a unit; all by default.
+
+    Returns
+    -------
+    array
+        Of the same shape.
+    """
+    top = np.maximum(values.max(axis=axis, keepdims=True), -values.min(axis=axis, keepdims=True))
+    unit = np.ldexp(1.0, np.frexp(top)[1] - bits)
+    result: Floats = np.rint(values / unit)
+    result *= unit
+    return result

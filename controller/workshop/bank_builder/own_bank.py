@@ -1,0 +1,180 @@
+"""A board's own bank: what it is to hold for a scene, whether the one that is there suits, and its build."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from controller.console import tell
+from controller.device.bank.grid import Grid
+from controller.device.bank.inspection import Fit, asked_of, choice_of, fit, measured_at, optimised_for
+from controller.device.bank.lookup import find_bank
+from controller.device.bank.provenance import MEASURE_AGAIN
+from controller.device.bank.reader import Bank
+from controller.device.board.board import Board
+from controller.device.board.paths import bank_path, build_line
+from controller.device.scene.coverage import cells_needed
+from controller.device.scene.scene import Scene, load_scene
+from controller.device.scene.scene_file import find_scene
+from controller.errors import BankError, ConfigError
+from controller.workshop.bank_builder.build import BuildReport, build_bank
+from controller.workshop.bank_builder.choice import choose
+from controller.workshop.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.physics.plate import wave_scale
+from controller.workshop.physics.responses.response_source import ResponseSource
+
+SMALLEST_PITCH_MM = 0.5
+MET_AHEAD_M = 5e-3  # beyond its region, a moving finger is met this far ahead; farther, where it was
+
+
+@dataclass(frozen=True)
+class Order:
+    """What a bank is to hold.
+
+    Attributes
+    ----------
+    scene, scene_file
+        Whose cells and fixed emitters; None: the whole plate, without fixed emitters.
+    choice : dict or None
+        What `compose.method = "auto"` chose.
+    """
+
+    board: Board
+    pitch_m: float
+    scene: Scene | None = None
+    scene_file: Path | None = None
+    choice: dict[str, Any] | None = None
+
+    @property
+    def own_path(self) -> Path:
+        """Where `run` looks for such a bank."""
+        return bank_path(self.board, None if self.choice else self.pitch_m)
+
+    @property
+    def cells(self) -> NDArray[np.bool_] | None:
+        """Cells of the grid that the scene can reach; None: all."""
+        return None if self.scene is None else reached(self.board, self.scene, self.pitch_m)
+
+    def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
+        """Build it, its file beside or in place of another.
+
+        Parameters
+        ----------
+        cells : (cells of the grid,) bool array, optional
+            Other cells than those of the scene.
+        how
+            Further fields of `BankRequest`.
+
+        Raises
+        ------
+        ConfigError, BankError
+        """
+        refuse_coarse(self.board, self.pitch_m)
+        return build_bank(
+            BankRequest(
+                self.board,
+                path,
+                self.pitch_m,
+                self.cells if cells is None else cells,
+                emitters=self.scene.emitters if self.scene else (),
+                scene=self.scene_file.name if self.scene_file else None,
+                progress=True,
+                overwrite=path == self.own_path,
+                choice=self.choice,
+                **how,
+            )
+        )
+
+
+def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None = None) -> Order:
+    """The order of a bank: for the whole plate, or for the cells that a scene can reach.
+
+    Parameters
+    ----------
+    scene_file : Path, optional
+        None: the whole plate; where the pitch is chosen, the board's own scene.
+    pitch_mm : float, optional
+        The board's own or, where its `compose.method` is "auto", a chosen one by default.
+
+    Raises
+    ------
+    ConfigError
+        If the pitch is too small, the scene is invalid, or no choice keeps the board's bounds.
+    """
+    if not pitch_of(board, pitch_mm) >= SMALLEST_PITCH_MM:  # NaN too
+        raise ConfigError(f"--pitch-mm: pitch_mm = {pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
+    if board.compose.method != "auto" or pitch_mm is not None:
+        scene = load_scene(scene_file, board) if scene_file else None
+        return Order(board, pitch_of(board, pitch_mm) * 1e-3, scene, scene_file)
+    scene_file = scene_file or find_scene(board)
+    scene = load_scene(scene_file, board)
+    choice = chosen(board, scene, scene_file)
+    tell(f"{scene_file.name}: {choice['why']}")
+    return Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice)
+
+
+def reached(board: Board, scene: Scene, pitch_m: float) -> NDArray[np.bool_]:
+    """Cells of the grid of a pitch that a scene can reach."""
+    return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M, wave_scale=wave_scale(board))
+
+
+def pitch_of(board: Board, pitch_mm: float | None) -> float:
+    """The pitch that is asked for, else the board's, in mm."""
+    return board.bank.pitch_mm if pitch_mm is None else pitch_mm
+
+
+def chosen(board: Board, scene: Scene, scene_file: Path, source: ResponseSource | None = None) -> dict[str, Any]:
+    """What `compose.method = "auto"` chooses for a scene (`choice.choose`)."""
+    with threadpool_limits(1, "blas"):
+        return choose(board, scene, scene_file, MET_AHEAD_M, source)
+
+
+def own_bank(board: Board, scene: Scene, scene_file: Path) -> Bank:
+    """The board's own bank, built if it is missing, and built again if it does not suit board or scene.
+
+    Raises
+    ------
+    BankError
+        If it does not suit and was measured, or cannot be built.
+    """
+    path = find_bank(board).path
+    wanted, found = _wanted(board, scene, scene_file, path)
+    if not found.reason:
+        return Bank.open(path, board)
+    if measured_at(path):
+        raise BankError(
+            f"{path}: {found.reason}; its responses were measured, so it is not replaced by one from the plate model: build it"
+            f" again, {MEASURE_AGAIN}, or give another with --bank"
+        )
+    tell(f"building the bank {path}: {found.reason}; {int(found.cells.sum()):,} cells, some seconds")
+    if aim := optimised_for(path):
+        tell(f"its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}")
+    path = bank_path(board)
+    warn_of_pitch(path, wanted.build(path, found.cells))
+    return Bank.open(path, board)
+
+
+def warn_of_pitch(path: Path, report: BuildReport) -> None:
+    """Say what a pitch costs, if it costs much."""
+    if warning := interpolation_warning(report.interpolation_error):
+        tell(f"{path}: {warning}")
+
+
+def _wanted(board: Board, scene: Scene, scene_file: Path, path: Path) -> tuple[Order, Fit]:
+    """What the scene needs, and whether the bank at `path` has it."""
+    if board.compose.method != "auto":
+        wanted = Order(board, board.bank.pitch_mm * 1e-3, scene, scene_file)
+        return wanted, fit(path, board, reached(board, scene, wanted.pitch_m))
+    there = choice_of(path)
+    choice = there if there and there["asked"] == asked_of(board, scene_file) else chosen(board, scene, scene_file)
+    wanted = Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice)
+    cells = reached(board, scene, wanted.pitch_m)
+    if there and any(there[name] != choice[name] for name in ("pitch_mm", "snap_mm", "composes")):
+        return wanted, Fit(f"{scene_file.name} needs {choice['why'].partition(':')[0]}", cells)
+    return wanted, fit(path, board, cells)

@@ -1,0 +1,83 @@
+"""What bank is to be built, and how."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.board.board import Board
+from controller.device.scene.scene import FixedEmitter
+from controller.workshop.bank_builder.methods.descent import Aim
+from controller.workshop.bank_builder.optimised import ALONE, Workers
+from controller.workshop.physics.plate import mode_cut_hz
+from controller.workshop.physics.responses.response_source import ResponseSource
+
+
+@dataclass(frozen=True)
+class BankRequest:
+    """What `build_bank` makes: the first fields say of what the bank is, the last five how it is built.
+
+    Attributes
+    ----------
+    path : Path
+        Its folder is made if it is missing.
+    pitch_m : float, optional
+        Of the grid; the board's own by default.
+    cells : (cells of the grid,) bool array, optional
+        Cells to build; all by default.
+    fixed emitters : sequence of FixedEmitter
+        What they play together is composed beforehand.
+    scene : str, optional
+        What `cells` and `fixed emitters` came from, noted in the build parameters.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
+    choice : dict, optional
+        What `choice.choose` returned; its `composes` says whether responses are written.
+    source : ResponseSource, optional
+        Of the responses; the board's plate model by default.
+    aim : Aim, optional
+        Optimise every entry for this (`workshop/bank_builder/methods/descent.py`). What is done of an interrupted build is kept
+        beside `path`.
+    workers : Workers
+        Who optimises.
+    memory_mb : float, optional
+        Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is.
+    progress : bool
+        Show a bar on stderr if that is a terminal.
+    overwrite : bool
+        Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
+    """
+
+    board: Board
+    path: Path
+    pitch_m: float | None = None
+    cells: NDArray[np.bool_] | None = None
+    emitters: Sequence[FixedEmitter] = ()
+    scene: str | None = None
+    highest_hz: float | None = None
+    choice: dict[str, Any] | None = None
+    source: ResponseSource | None = None
+    aim: Aim | None = None
+    workers: Workers = ALONE
+    memory_mb: float | None = None
+    progress: bool = False
+    overwrite: bool = False
+
+    @property
+    def board_as_chosen(self) -> Board:
+        """The board with the snapping distance of `choice`."""
+        if self.choice is None:
+            return self.board
+        bank = msgspec.structs.replace(self.board.bank, snap_mm=self.choice["snap_mm"])
+        return msgspec.structs.replace(self.board, bank=bank)
+
+    @property
+    def highest_mode_hz(self) -> float:
+        """`highest_hz`, or its default."""
+        return mode_cut_hz(self.board.waveform) if self.highest_hz is None else self.highest_hz

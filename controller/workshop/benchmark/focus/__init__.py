@@ -1,0 +1,1 @@
+"""Foci on the plate model: amplitude, contrast, spot."""

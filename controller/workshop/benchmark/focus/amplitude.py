@@ -1,0 +1,159 @@
+"""Figures under "Amplitude": amplitudes reached on the plate by composing from a bank.
+
+`haptic-panel focus --amplitude-figures` makes them: requested against reached amplitude, places between cells, edges. The
+reference is the whole displacement in float64, with all modes, at the very points; it does not use the bank.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from controller.device.bank.grid import Grid
+from controller.device.bank.packing import WORD, edges
+from controller.device.bank.reader import Bank
+from controller.device.board.board import Board
+from controller.device.board.devices import MIN_AMPLITUDE
+from controller.device.waveforms.design import DesignMethod
+from controller.device.waveforms.device_composition import DeviceComposition
+from controller.device.waveforms.selection import REUSE_RADIUS_M
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.benchmark.focus.focus_figures import emit, random_points, spread
+from controller.workshop.physics.plate import wave_scale
+from controller.workshop.physics.plate_twin import PlateTwin
+
+Floats = NDArray[np.float64]
+Figures = dict[str, Any]
+Words = NDArray[np.uint32]
+
+# On the paper's plate; on others they go with the length of its waves
+MARGIN_M = 12e-3  # distance of fingers from the plate's edges
+SEPARATION_M = 8e-3  # smallest distance between two fingers
+FINGERS = (1, 2, 4, 10)
+AMPLITUDES = (MIN_AMPLITUDE, 0.25, 0.5, 0.75, 1.0)
+
+
+def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float | None = None) -> Figures:
+    """Judge random scenes of 1, 2, 4 and 10 fingers; none is left out.
+
+    Parameters
+    ----------
+    board : Board
+        Panel to be evaluated.
+    seed : int
+        Seed of the random places and amplitudes.
+    scenes : int
+        Number of scenes for each number of fingers, and number of single points.
+    pitch_m : float, optional
+        Pitch of the bank, which holds only the cells needed here; the board's own by default.
+
+    Returns
+    -------
+    dict
+        `fingers`: for each number of fingers, `asked` and `got`, as shares of what exact composition gives each finger at
+        full amplitude, and `error_percent`. `single`: for each amplitude, contrast and spot relative to full amplitude, and
+        edges. `between_cells`: relative amplitude when interpolated and from the nearest entry, and `REUSE_RADIUS_M`
+        beside the point.
+    """
+    random = np.random.default_rng(seed)
+    played = [[_scene(board, random, fingers) for _ in range(scenes)] for fingers in FINGERS]
+    singles = random_points(board, seed, scenes)
+    around = random.uniform(0, 2 * np.pi, scenes)
+    reuse_m = REUSE_RADIUS_M * wave_scale(board)
+    beside = singles + reuse_m * np.column_stack([np.cos(around), np.sin(around)])
+    places = np.concatenate([np.array(scene)[:, :2] for some in played for scene in some] + [singles, beside])
+    with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "bank"
+        pitch_m = board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m
+        build_bank(BankRequest(board, path, pitch_m, _cells(board, places, pitch_m)))
+        with Bank.open(path, board) as bank:
+            composer, twin = DeviceComposition(board, bank), PlateTwin(board)
+            return {
+                "seed": seed,
+                "scenes": scenes,
+                "pitch_mm": pitch_m * 1e3,
+                "fingers": {str(len(some[0])): _mixed(composer, twin, some) for some in played},
+                "single": {f"{amplitude:g}": _single(composer, twin, singles, amplitude) for amplitude in AMPLITUDES},
+                "between_cells": _between_cells(bank, composer, twin, singles, beside),
+            }
+
+
+def _scene(board: Board, random: np.random.Generator, fingers: int) -> list[tuple[float, float, float]]:
+    """(x_m, y_m, amplitude) of fingers at random places, as far apart as there is room for; amplitudes from the least to 1."""
+    sides, scale = np.array([board.plate.length_m, board.plate.width_m]), wave_scale(board)
+    margin = np.minimum(MARGIN_M * scale, 0.4 * sides)
+    far = sides - margin
+    apart_m = min(SEPARATION_M * scale, 0.2 * float((far - margin).min()))  # ten fingers have room
+    while True:
+        places = random.uniform(margin, far, (fingers, 2))
+        between_m = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.eye(fingers)
+        if between_m.min() >= apart_m:
+            return [(float(x_m), float(y_m), float(random.uniform(MIN_AMPLITUDE, 1))) for x_m, y_m in places]
+
+
+def _cells(board: Board, places: Floats, pitch_m: float) -> NDArray[np.bool_]:
+    """(cell,) mask of the cells needed to interpolate at the places."""
+    grid = Grid.of(board.plate, pitch_m)
+    cells = np.zeros(grid.cells, bool)
+    for x_m, y_m in places.tolist():
+        cells[list(grid.corners(x_m, y_m)[0])] = True
+    return cells
+
+
+def _words(composer: DesignMethod, scene: list[tuple[float, float, float]]) -> Words:
+    return composer.design(scene).words
+
+
+def _mixed(composer: DesignMethod, twin: PlateTwin, scenes: list[list[tuple[float, float, float]]]) -> Figures:
+    """Requested and reached amplitudes of fingers that are composed together."""
+    asked: list[float] = []
+    got: list[float] = []
+    for scene in scenes:
+        places = tuple((x_m, y_m) for x_m, y_m, _ in scene)
+        got.extend(np.abs(emit(twin, _words(composer, scene)).at(places)) / twin.full_amplitudes(places))
+        asked.extend(amplitude for _, _, amplitude in scene)
+    error = 100 * np.abs(np.array(got) / asked - 1)
+    percent = spread(error.tolist()) | {"p95": float(np.quantile(error, 0.95))}
+    return {"error_percent": percent, "asked": asked, "got": [float(share) for share in got]}
+
+
+def _single(composer: DesignMethod, twin: PlateTwin, points: Floats, amplitude: float) -> Figures:
+    """One finger: contrast and spot relative to full amplitude; edges, including those from and to the idle word."""
+    idle = np.array([twin.board.idle_word], np.uint32)
+    contrast, spot, busiest, together = [], [], [], []
+    for x_m, y_m in points.tolist():
+        words, full = (_words(composer, [(x_m, y_m, share)]) for share in (amplitude, 1.0))
+        less, most = (emit(twin, some).focus_metrics(x_m, y_m) for some in (words, full))
+        contrast.append(less.contrast / most.contrast)
+        spot.append(less.spot_m / most.spot_m)
+        counts = edges(np.concatenate([idle, words, idle]))
+        busiest.append(float(counts.max()))
+        together.append(float(counts.sum()))
+    figures = {"contrast_of_full": contrast, "spot_of_full": spot, "edges_busiest_channel": busiest, "edges_all": together}
+    return {name: spread(values) for name, values in figures.items()}
+
+
+def _between_cells(bank: Bank, composer: DesignMethod, twin: PlateTwin, points: Floats, beside: Floats) -> Figures:
+    """Relative amplitude at points anywhere between cells, at full amplitude."""
+    interpolated, nearest, near = [], [], []
+    for (x_m, y_m), (other_x_m, other_y_m) in zip(points.tolist(), beside.tolist(), strict=True):
+        reference_m = twin.reference_amplitude(x_m, y_m)
+        entry = np.frombuffer(bank.drive.words(bank.grid.nearest(x_m, y_m)[0]), WORD)
+        here, cell, there = (
+            float(emit(twin, words).at([(x_m, y_m)])[0])
+            for words in (_words(composer, [(x_m, y_m, 1.0)]), entry, _words(composer, [(other_x_m, other_y_m, 1.0)]))
+        )
+        interpolated.append(here / reference_m)
+        nearest.append(cell / reference_m)
+        near.append(there / here)
+    return {
+        "interpolated": spread(interpolated),
+        "nearest_entry": spread(nearest),
+        f"{REUSE_RADIUS_M * 1e3:g}_mm_beside": spread(near),
+    }

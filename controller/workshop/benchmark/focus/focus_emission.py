@@ -1,0 +1,168 @@
+"""A focus on given points of the plate model, without a bank: its emission, and the figures of merit of it.
+
+`haptic-panel focus --at X Y` prints them. The waves of repeated emissions are summed exactly: all are alike, so what is left of
+those before is a geometric series of each pole.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.bank.packing import channel_bits
+from controller.device.board.board import Board
+from controller.device.board.relations.bending_waves import bending_wavelength_m
+from controller.workshop.benchmark.focus.focus_figures import emit
+from controller.workshop.benchmark.stage.power import resistor_loss_j
+from controller.workshop.physics.field import Field, crossing
+from controller.workshop.physics.focusing import focus
+from controller.workshop.physics.mapped_energy import mapped_energy
+from controller.workshop.physics.memory import focus_bytes, require
+from controller.workshop.physics.plate_twin import PlateTwin
+from controller.workshop.physics.responses.modal_history import ModalMotion, modal_energy
+
+Floats = NDArray[np.float64]
+Figures = dict[str, Any]
+
+PULSE: Floats = np.linspace(-0.6, 0.6, 81)  # times around T at which the pulse is looked at, in periods of the band's middle
+
+
+class FocusEmission(NamedTuple):
+    """An emission on the plate model: the twin that it was played on, its words, the field at T, and where it focuses."""
+
+    twin: PlateTwin
+    words: NDArray[np.uint32]
+    field: Field
+    points_m: Sequence[tuple[float, float]]
+
+
+def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> FocusEmission:
+    """Focus on several points at once.
+
+    Parameters
+    ----------
+    points_m : sequence of (x_m, y_m)
+        Places of the foci.
+    memory_mb : float, optional
+        Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
+
+    Raises
+    ------
+    ConfigError
+        If it does not fit into `memory_mb`.
+    """
+    twin = PlateTwin(board)
+    needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s) + len(PULSE))
+    require(needed_bytes, memory_mb, f"a focus on {board.name!r} with {twin.modes.count} modes")
+    places = np.array(points_m)
+    words = focus(twin.responses.drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
+    return FocusEmission(twin, words, emit(twin, words), points_m)
+
+
+def evaluated_foci(emission: FocusEmission, period_s: float) -> list[Figures]:
+    """Figures of each focus of an emission, in the order of its points; `period_s` from one emission to the next."""
+    twin, field, points_m = emission.twin, emission.field, emission.points_m
+    repeated, pulse = repeated_field(emission, period_s), field_of_pulse(emission)
+    rows = []
+    for x_m, y_m in points_m:
+        evaluated = field.focus_metrics(x_m, y_m, points_m)
+        reference_m = twin.reference_amplitude(x_m, y_m)
+        rows.append(
+            {
+                "x_mm": x_m * 1e3,
+                "y_mm": y_m * 1e3,
+                "amplitude_um": evaluated.amplitude_m * 1e6,
+                "relative_amplitude": evaluated.amplitude_m / reference_m if reference_m else 0.0,  # so near the edge nothing moves
+                "contrast": evaluated.contrast,
+                "contrast_all": evaluated.contrast_all,
+                "spot_mm": evaluated.spot_m * 1e3,
+                "peak_offset_us": evaluated.peak_offset_s * 1e6,
+                "pulse_us": pulse_s(pulse, x_m, y_m) * 1e6,
+                "spot_wavelengths": evaluated.spot_wavelengths,
+                "contrast_repeated": repeated.focus_metrics(x_m, y_m, points_m).contrast,
+            }
+        )
+    return rows
+
+
+def repeated_field(emission: FocusEmission, period_s: float) -> Field:
+    """The plate at T of one of endless emissions, each `period_s` after the one before: exact, steps to idle and back included."""
+    twin, field = emission.twin, emission.field
+    step, board = twin.step, twin.board
+    levels = channel_bits(np.array([emission.words[-1], board.idle_word], "<u4")).astype(np.float64) * board.driver.supply_v
+    to_idle = twin.forces @ (levels[1] - levels[0])
+    plate = field.pole_amplitudes + step.residues * to_idle[step.mode_of_pole]
+    driver = field.driver_amplitudes + step.driver_residues * to_idle[:, None]
+    decayed, settled = np.exp(step.poles * period_s), np.exp(step.driver_poles * period_s)
+    return replace(
+        field,
+        pole_amplitudes=field.pole_amplitudes + plate * decayed / (1 - decayed),
+        driver_amplitudes=field.driver_amplitudes + driver * settled / (1 - settled),
+    )
+
+
+def field_of_pulse(emission: FocusEmission) -> Field:
+    """The same field, to be looked at over the times of `PULSE` around T."""
+    waveform = emission.twin.board.waveform
+    twin = copy.copy(emission.twin)  # remembers the emission: its state is not computed again
+    twin.scale = replace(twin.scale, around_s=PULSE * 2 / (waveform.band_low_hz + waveform.band_high_hz))
+    return emit(twin, emission.words)
+
+
+def pulse_s(field: Field, x_m: float, y_m: float) -> float:
+    """Time for which (x_m, y_m) of a `field_of_pulse` is above half of its peak at T; to the end of `PULSE` if it stays above."""
+    times_s = field.scale.around_s
+    u = field.around((x_m, y_m))
+    u = u if field.at((x_m, y_m))[0] >= 0 else -u
+    middle = len(times_s) // 2
+    near = slice(middle - middle // 4, middle + middle // 4 + 1)
+    top = near.start + int(np.argmax(u[near]))
+    return float(times_s[1] - times_s[0]) * (crossing(u[top:], u[top] / 2) + crossing(u[top::-1], u[top] / 2))
+
+
+def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
+    """Figures of an emission as a whole: energy at T, heat in the stages, scale.
+
+    Parameters
+    ----------
+    period_s : float
+        From one emission to the next.
+
+    Returns
+    -------
+    dict
+        `energy_uj` by modes and `energy_integrated_uj` by a map; `stages_uj` of one emission, to idle and back included, and of
+        each channel under `channels`.
+    """
+    twin, field = emission.twin, emission.field
+    board = twin.board
+    waveform, plate = board.waveform, board.plate
+    energy = modal_energy(twin.modes, ModalMotion(field.modal[None], field.modal_velocity[None]))
+    highest_hz = float(twin.modes.angular_frequency[-1]) / (2 * np.pi)
+    integrated = mapped_energy(plate, field, bending_wavelength_m(plate, highest_hz))
+    total_j = float(energy.kinetic_j[0] + energy.potential_j[0])
+    integrated_j = float(integrated.kinetic_j[0] + integrated.potential_j[0])
+    idle = np.array([board.idle_word], np.uint32)
+    levels = channel_bits(np.concatenate([idle, emission.words, idle]).astype("<u4")).astype(np.int8)
+    heat_uj = resistor_loss_j(board.driver, levels, waveform.bit_period_s) * 1e6
+    edges = (levels[1:] != levels[:-1]).sum(axis=0)
+    used = sorted(actuator.channel for actuator in board.actuators)
+    middle_m = field.scale.wave_m
+    return {
+        "energy_uj": total_j * 1e6,
+        "kinetic_share": float(energy.kinetic_j[0]) / total_j if total_j else 0.0,  # so near the edge nothing moves
+        "energy_integrated_uj": integrated_j * 1e6,
+        "kinetic_share_integrated": float(integrated.kinetic_j[0]) / integrated_j if integrated_j else 0.0,
+        "mechanical_power_mw": total_j / waveform.duration_s * 1e3,
+        "stages_uj": float(heat_uj[used].sum()),
+        "channel_uj": {"median": float(np.median(heat_uj[used])), "max": float(heat_uj[used].max())},
+        "stages_w": float(heat_uj[used].sum()) * 1e-6 / period_s,
+        "period_ms": period_s * 1e3,
+        "in_wavelengths": {"length": plate.length_m / middle_m, "width": plate.width_m / middle_m, "middle_mm": middle_m * 1e3},
+        "channels": [{"channel": q, "edges": int(edges[q]), "energy_uj": float(heat_uj[q])} for q in used],
+    }

@@ -1,0 +1,70 @@
+"""Methods behind `DesignMethod`, from the plate model: each is one line of `DESIGNS`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+from controller.device.board.board import Board
+from controller.device.kernel import Point
+from controller.device.waveforms.design import DesignMethod
+from controller.workshop.bank_builder.methods.descent import AIMS, Descent
+from controller.workshop.bank_builder.methods.exact_composition import ExactComposition
+from controller.workshop.bank_builder.methods.nulls import ExactNulls
+from controller.workshop.bank_builder.methods.plain import SignOfSum
+from controller.workshop.benchmark.methods.candidate import Candidate, Place, Words, wire_bytes
+from controller.workshop.benchmark.methods.laboratory import Laboratory
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+
+
+@dataclass(frozen=True)
+class BenchmarkedMethod:
+    """How a method is made, and how it is evaluated."""
+
+    make: Callable[[Board, ResponseModel], DesignMethod]
+    free_polarity: bool = False
+    keeps_nulls: bool = False
+    slow: bool = False
+    most_fingers: int = 10
+
+
+DESIGNS = {
+    "full field, float64": BenchmarkedMethod(SignOfSum),
+    "exact composition": BenchmarkedMethod(ExactComposition, free_polarity=True),
+    "exact composition, nulls": BenchmarkedMethod(ExactNulls, free_polarity=True, keeps_nulls=True, slow=True),
+    **{f"descent, {aim.name}": BenchmarkedMethod(partial(Descent, aim=aim), slow=True, most_fingers=1) for aim in AIMS.values()},
+}
+
+
+def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
+    """All of them."""
+    model, board = laboratory.model, laboratory.board
+    memory = model.modal_band.nbytes + model.forces.nbytes
+    for name, design in DESIGNS.items():
+        yield Candidate(
+            name,
+            f"{model.modes} modes",
+            Designed(partial(design.make, board, model)),
+            memory,
+            wire_bytes(board.waveform.samples),
+            free_polarity=design.free_polarity,
+            most_fingers=design.most_fingers,
+            keeps_nulls=design.keeps_nulls,
+            slow=design.slow,
+        )
+
+
+class Designed:
+    """The drive words of a design method, which is made when it is first needed."""
+
+    def __init__(self, make: Callable[[], DesignMethod]) -> None:
+        self._make = make
+
+    @cached_property
+    def _method(self) -> DesignMethod:
+        return self._make()
+
+    def __call__(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> Words:
+        """Drive words."""
+        return self._method.design(points, nulls).words

@@ -1,0 +1,82 @@
+"""What the methods under test share: one board, its model, and banks and tables of just the cells that the scenes need."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.bank.grid import Grid
+from controller.device.bank.reader import Bank
+from controller.device.board.board import Board
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.benchmark.methods.interpolation import Interpolation
+from controller.workshop.benchmark.methods.response_table import ResponseTable, fill
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+
+Place = tuple[float, float]
+
+
+class Laboratory:
+    """Cells for the places of all scenes.
+
+    Parameters
+    ----------
+    folder : Path
+        For banks.
+    places : sequence of (x_m, y_m)
+        That will be asked for.
+    """
+
+    def __init__(self, board: Board, folder: Path, places: Sequence[Place]) -> None:
+        self.board = board
+        self.model = ResponseModel(board)
+        self._folder = folder
+        self._places = places
+        self._banks: dict[float, Bank] = {}
+        self._tables: dict[Any, tuple[float, ResponseTable, list[Interpolation]]] = {}
+
+    def bank(self, pitch_m: float) -> Bank:
+        """An open bank with the cells around all places; built when it is first asked for."""
+        if pitch_m not in self._banks:
+            grid = Grid.of(self.board.plate, pitch_m)
+            cells = np.zeros(grid.cells, bool)
+            for x_m, y_m in self._places:
+                cells[list(grid.corners(x_m, y_m)[0])] = True
+            path = self._folder / f"{1e3 * pitch_m:g} mm"
+            build_bank(BankRequest(self.board, path, pitch_m, cells))
+            self._banks[pitch_m] = Bank.open(path, self.board)
+        return self._banks[pitch_m]
+
+    def table(
+        self, pitch_m: float, bits: int, interpolation: Interpolation, projection: NDArray[np.float32] | None = None
+    ) -> ResponseTable:
+        """A table that will hold what `interpolation` needs at the places of `prepare`."""
+        key = pitch_m, bits, None if projection is None else projection.shape
+        if key not in self._tables:
+            self._tables[key] = pitch_m, ResponseTable(self.board, pitch_m, bits, projection), []
+        _, table, interpolations = self._tables[key]
+        if interpolation not in interpolations:
+            interpolations.append(interpolation)
+        return table
+
+    def prepare(self, places: Sequence[Place]) -> None:
+        """Fill the tables for places, and for no others."""
+        for pitch_m in {pitch_m for pitch_m, _, _ in self._tables.values()}:
+            here = [(table, some) for pitch, table, some in self._tables.values() if pitch == pitch_m]
+            wanted: set[int] = set()
+            for table, interpolations in here:
+                table.forget()
+                for interpolation in interpolations:
+                    for x_m, y_m in places:
+                        wanted.update(interpolation(table.grid, x_m, y_m).cells.tolist())
+            fill(self.board, self.model, [table for table, _ in here], np.array(sorted(wanted), np.intp))
+
+    def close(self) -> None:
+        """Close the banks."""
+        for bank in self._banks.values():
+            bank.close()

@@ -1,0 +1,182 @@
+"""Rows of what one approximation costs: share of the amplitude that is kept in the band, beside an earlier trial's.
+
+Bits come from approximate responses and are evaluated by the true ones: `paper_panel.kept`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import msgspec
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.stats.qmc import Halton
+
+from controller.device.touch.prediction import Motion
+from controller.workshop.benchmark.paper.paper_panel import PaperPanel, kept
+from controller.workshop.benchmark.paper.paper_row import Row
+from controller.workshop.physics.modes.retuned import drifted
+from controller.workshop.physics.responses.driver import DriverResponse
+from controller.workshop.physics.responses.step_response import StepResponse
+
+Floats = NDArray[np.float64]
+
+CLOCKS_HZ = {1e6: 1.0, 500e3: 0.991, 250e3: 0.964, 200e3: 0.942}
+OFF_MM = {1.0: 0.93, 2.0: 0.73, 3.0: 0.46}
+COARSE_M, FINE_M = 5e-3, 2e-3  # pitches of the grids
+CORNERS = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])  # of a cell
+DETUNING = 0.005
+SPEED_M_S, LAG_S = 0.2, 15e-3
+REPORTS_HZ = (100.0, 250.0)
+NOISE_M = 0.05e-3  # of a report
+REPORTS = 30  # before a prediction
+
+
+def _kept(key: str, what: str, trial: float, here: ArrayLike, why: str) -> Row:
+    return Row.of(key, f"kept: {what}", trial, here, why, trial=True)
+
+
+def clock_rows(panel: PaperPanel) -> list[Row]:
+    """Rows of the bit clock: what bits of each length reach, relative to 1 MHz."""
+    duration_s = panel.board.waveform.samples * panel.board.waveform.bit_period_s
+    reached = {}
+    for clock_hz in CLOCKS_HZ:
+        responses = panel.band_responses(panel.points_m, 1 / clock_hz, round(duration_s * clock_hz))
+        reached[clock_hz] = np.abs(responses).sum(axis=(1, 2))
+    best = reached[1e6]
+    why = "edges fall on a coarser grid of times"
+    return [
+        _kept(f"clock_{hz / 1e3:g}_khz", f"bit clock {hz / 1e3:g} kHz", paper, reached[hz] / best, why)
+        for hz, paper in CLOCKS_HZ.items()
+    ]
+
+
+def place_rows(panel: PaperPanel) -> list[Row]:
+    """Rows of a focus beside the finger: the spot's flank, in all directions."""
+    rows = []
+    for off_mm, paper in OFF_MM.items():
+        found = [
+            field.at(panel.ring(point, off_mm * 1e-3)) / amplitude
+            for field, point, amplitude in zip(panel.fields, panel.points_m, panel.amplitudes_m, strict=True)
+        ]
+        rows.append(_kept(f"off_{off_mm:g}_mm", f"focus {off_mm:g} mm off", paper, found, "the spot's own shape"))
+    return rows
+
+
+def grid_rows(panel: PaperPanel) -> list[Row]:
+    """Rows of grids of cells: nearest cell, bilinear responses, bilinear 1-bit words."""
+    nearest, bilinear = _between_cells(panel, COARSE_M)
+    _, packed = _between_cells(panel, FINE_M, packed=True)
+    worst = float(np.quantile(nearest, 0.05)), float(np.quantile(bilinear, 0.05)), float(np.quantile(packed, 0.05))
+    flank = "anywhere in the cell: 2.0 mm off by median, 3.0 mm at worst 5 %, on the spot's flank"
+    waves = "waves of neighbouring cells cancel in part between them; the trial lost half as much"
+    return [
+        _kept("nearest", "nearest cell, 5 mm grid", 0.78, nearest, flank),
+        _kept("nearest_worst", "nearest cell, 5 mm grid, worst 5 %", 0.52, worst[0], flank),
+        _kept("bilinear", "bilinear responses, 5 mm grid", 0.95, bilinear, waves),
+        _kept("bilinear_worst", "bilinear responses, 5 mm grid, worst 5 %", 0.92, worst[1], waves),
+        _kept("packed_worst", "bilinear 1-bit words, 2 mm grid, worst 5 %", 0.957, worst[2], "only signs are summed"),
+    ]
+
+
+def bits_rows(panel: PaperPanel) -> list[Row]:
+    """Rows of responses in few bits, summed between the cells of the bank; relative to exact ones summed there."""
+    pitch_m = panel.board.bank.pitch_mm * 1e-3
+    found: dict[int, list[float]] = {8: [], 4: []}
+    for (responses, shares), true in zip(_around(panel, pitch_m), panel.in_band, strict=True):
+        exact = kept(np.tensordot(shares, responses, 1), true)
+        for bits, some in found.items():
+            step = np.abs(responses).max(axis=(1, 2), keepdims=True) / 2 ** (bits - 1)
+            rounded = (np.floor(responses / step) + 0.5) * step  # no level at zero: a small response keeps its sign
+            some.append(kept(np.tensordot(shares, rounded, 1), true) / exact)
+    why = "rounded to levels that leave out zero, one scale a cell; between cells of 2.5 mm, over exact ones there"
+    return [
+        _kept("bits_8", "responses in 8 bits before summing", 1.0, found[8], why),
+        _kept("bits_4", "responses in 4 bits before summing", 0.98, found[4], why),
+    ]
+
+
+def drift_rows(panel: PaperPanel) -> list[Row]:
+    """Rows of a plate whose frequencies are half a per cent off, and of a bit clock that follows."""
+    waveform = panel.board.waveform
+    driver = DriverResponse.of(panel.board.driver)
+    as_it_is, rescaled = [], []
+    for drift in (-DETUNING, DETUNING):
+        step = StepResponse.of(drifted(panel.modes, drift), driver)
+        true = panel.band_responses(panel.points_m, waveform.bit_period_s, waveform.samples, step)
+        faster = panel.band_responses(panel.points_m, waveform.bit_period_s / (1 + drift), waveform.samples, step)
+        for learned, now, then in zip(panel.in_band[:, ::-1], true, faster, strict=True):
+            as_it_is.append(kept(learned, now))
+            rescaled.append(float(np.vdot(np.sign(learned), then) / np.abs(now).sum()))
+    why = "at 45 kHz, 0.5 % of 2 ms is half a period"
+    return [
+        _kept("drift", "frequencies 0.5 % off", 0.60, as_it_is, why),
+        _kept("drift_rescaled", "the same, bit clock rescaled", 0.996, rescaled, "only the decay is not rescaled with it"),
+    ]
+
+
+def slip_rows(panel: PaperPanel) -> list[Row]:
+    """Rows of what goes wrong between learning and playing: a sample of slip, the driver left out."""
+    slipped = [kept(np.roll(h, by, axis=0), h) for h in panel.in_band for by in (1, -1)]
+    board = panel.board
+    prompt = msgspec.structs.replace(board.driver, resistance_ohm=1.0, inductance_h=1e-9)
+    step = StepResponse.of(panel.modes, DriverResponse.of(prompt))
+    learned = panel.band_responses(panel.points_m, board.waveform.bit_period_s, board.waveform.samples, step)
+    found = [kept(without, h) for without, h in zip(learned, panel.in_band[:, ::-1], strict=True)]
+    return [
+        _kept("slip", "one sample of slip between learning and playing", 0.90, slipped, "2 µs are 0.6 rad at 45 kHz"),
+        _kept("driver_left_out", "driver left out when learning", 0.20, found, "its phase turns by more than 90° in the band"),
+    ]
+
+
+def finger_motion_rows(panel: PaperPanel) -> list[Row]:
+    """Rows of a finger that moves at 200 mm/s under a panel with 15 ms of lag: as reported, and as the product predicts it."""
+    random = np.random.default_rng(panel.seed)
+    behind, ahead = [], []
+    for field, point, amplitude in zip(panel.fields, panel.points_m, panel.amplitudes_m, strict=True):
+        for turned in random.uniform(0, 2 * np.pi, 4):
+            direction = np.array([np.cos(turned), np.sin(turned)])
+            behind.append(float(field.at(point + SPEED_M_S * LAG_S * direction)[0] / amplitude))
+            missed = _predicted_m(random, direction) - direction * SPEED_M_S * LAG_S
+            ahead.append(float(field.at(point - missed)[0] / amplitude))
+    return [
+        _kept("moving", "finger at 200 mm/s, 15 ms of lag", 0.46, behind, "3 mm off, as above"),
+        _kept(
+            "moving_predicted",
+            "the same with velocity prediction",
+            0.9,
+            ahead,
+            "the trial has > 0.9; steady motion, reports at 100–250 Hz with 0.05 mm of noise, the product's predictor",
+        ),
+    ]
+
+
+def _predicted_m(random: np.random.Generator, direction: Floats) -> Floats:
+    """Where the product expects a finger `LAG_S` after the true place of its last report, from that place: (2,)."""
+    period_s = 1 / random.uniform(*REPORTS_HZ)
+    steps = np.arange(1 - REPORTS, 1)
+    places = np.outer(steps * period_s * SPEED_M_S, direction) + random.normal(0, NOISE_M, (REPORTS, 2))
+    times_s = (steps + REPORTS) * period_s
+    motion = Motion(float(places[0, 0]), float(places[0, 1]), float(times_s[0]))
+    for (x_m, y_m), time_s in zip(places[1:].tolist(), times_s[1:].tolist(), strict=True):
+        motion.report(x_m, y_m, time_s)
+    return np.array(motion.predict(times_s[-1], times_s[-1], LAG_S, period_s))
+
+
+def _between_cells(panel: PaperPanel, pitch_m: float, *, packed: bool = False) -> tuple[list[float], list[float]]:
+    """What nearest cell and interpolation keep at the foci on a grid: of responses, or of signs if `packed`."""
+    nearest, between = [], []
+    for (responses, shares), true in zip(_around(panel, pitch_m), panel.in_band, strict=True):
+        nearest.append(kept(responses[np.argmax(shares)], true))
+        between.append(kept(np.tensordot(shares, np.sign(responses) if packed else responses, 1), true))
+    return nearest, between
+
+
+def _around(panel: PaperPanel, pitch_m: float) -> Iterator[tuple[Floats, Floats]]:
+    """For each focus, anywhere in a cell: responses of its corners in drive order, (4, sample, 32), and bilinear shares, (4,)."""
+    places = Halton(2, scramble=False).random(len(panel.points_m) + 1)[1:]  # even over the cell: few foci stand for all
+    for point, (right, up) in zip(panel.points_m, places, strict=True):
+        corners = point + pitch_m * (CORNERS - (right, up))
+        responses = panel.twin.responses.drive_order_responses(corners, dtype=np.float64)
+        shares = np.prod(np.where(CORNERS == 1, (right, up), (1 - right, 1 - up)), axis=1)
+        yield np.asarray(responses, np.float64), shares

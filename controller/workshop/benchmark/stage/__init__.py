@@ -1,0 +1,1 @@
+"""The push-pull stage: power and pictures."""

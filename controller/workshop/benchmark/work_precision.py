@@ -1,0 +1,302 @@
+"""Work-precision figures: time, memory, bytes and energy of every method against the errors of its drive words.
+
+In the manner of the SciML benchmarks: one curve for each method, one point for each of its settings, and the Pareto front of
+those that no other one beats in both. `haptic-panel benchmark` runs it; `work_precision_diagrams` draws it.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from controller.device.bank.packing import CHANNELS
+from controller.device.board.board import Board
+from controller.device.kernel import Point
+from controller.workshop.benchmark.baselines import Baselines
+from controller.workshop.benchmark.building import building_figures
+from controller.workshop.benchmark.device.interleaved import CallTiming, interleaved
+from controller.workshop.benchmark.environment import environment
+from controller.workshop.benchmark.fingers_scenes import FINGERS, FingerScene, scenes
+from controller.workshop.benchmark.judge import Errors, Judge
+from controller.workshop.benchmark.methods.candidate import Candidate
+from controller.workshop.benchmark.methods.laboratory import Laboratory
+from controller.workshop.benchmark.methods.registry import all_candidates
+from controller.workshop.benchmark.pareto import pareto_front
+
+Figures = dict[str, Any]
+Progress = Callable[[int, int], None]
+SCHEMA_VERSION = 1
+PLACES_AT_ONCE = 40  # whose cells are held: 0.3 GB
+BETTER_HIGH = {"contrast", "amplitude_over_unfiltered"}  # the worst of these is the smallest
+AXES = ("time", "memory", "wire", "stage energy")
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured.
+
+    Attributes
+    ----------
+    each : int
+        Scenes of each family.
+    random_scenes : int
+        Further scenes of one to ten fingers.
+    timed_scenes : int
+        Scenes of each number of fingers on which methods are timed.
+    turns : int
+        Calls of each method for each of them.
+    longest_s : float
+        Of timing a method for one number of fingers, beyond its first turns.
+    slow_methods : bool
+        Whether methods that take tenths of a second take part.
+    """
+
+    each: int
+    random_scenes: int
+    timed_scenes: int
+    turns: int
+    longest_s: float
+    slow_methods: bool
+
+
+QUICK = Effort(each=2, random_scenes=4, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
+FULL = Effort(each=4, random_scenes=100, timed_scenes=3, turns=25, longest_s=0.5, slow_methods=True)
+
+
+def work_precision(
+    board: Board,
+    effort: Effort,
+    seed: int = 1,
+    *,
+    timing: bool = True,
+    candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,
+    progress: Progress = lambda _done, _total: None,
+) -> Figures:
+    """Measure errors and costs of all methods.
+
+    Parameters
+    ----------
+    seed : int
+        Of the scenes. Errors of equal seeds are equal.
+    timing : bool
+        Whether times are measured.
+    candidates : callable
+        Makes the methods.
+    progress : callable
+        Called with what is done and all there is to do.
+
+    Returns
+    -------
+    dict
+        Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says.
+    """
+    surroundings = environment()  # first: the load of the machine is still that of others
+    drawn = scenes(board, seed, effort.each, effort.random_scenes)
+    places = [place for scene in drawn for place in (*scene.expected, scene.null)]
+    with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
+        laboratory = Laboratory(board, Path(folder), places)
+        try:
+            methods = [method for method in candidates(laboratory) if effort.slow_methods or not method.slow]
+            judge = Judge(board, {scene.detuning for scene in drawn})
+            off_grid = _off_grid(drawn)
+            bar = _Bar(progress, len(drawn) + (len(off_grid) * effort.turns if timing else 0))
+            found = _errors(laboratory, judge, methods, drawn, bar)
+            times: dict[int, dict[int, CallTiming]] = {}
+            measured: Figures = {"baselines": [], "left_out": [], "machine": {}, "building": []}
+            if timing:
+                times, measured = _timings(laboratory, Path(folder), judge, methods, off_grid, effort, bar)
+        finally:
+            laboratory.close()
+    settings = [_setting(method, index, found[index], times, measured["baselines"]) for index, method in enumerate(methods)]
+    families = dict.fromkeys(scene.family for scene in drawn)
+    return {
+        "version": SCHEMA_VERSION,
+        "board": board.name,
+        "seed": seed,
+        "effort": asdict(effort),
+        "environment": surroundings,
+        "modes": judge.modes,
+        "modes_in_band": judge.modes_in_band,
+        "scenes": {family: sum(scene.family == family for scene in drawn) for family in families},
+        "settings": settings,
+        **measured,
+        "fronts": _fronts(settings, families),
+    }
+
+
+def _timings(
+    laboratory: Laboratory,
+    folder: Path,
+    judge: Judge,
+    methods: Sequence[Candidate],
+    off_grid: dict[int, list[FingerScene]],
+    effort: Effort,
+    bar: _Bar,
+) -> tuple[dict[int, dict[int, CallTiming]], Figures]:
+    """Times of methods, by number of fingers and by their index; and of all else that is timed, as `work_precision` returns it."""
+    board = laboratory.board
+    machine = Baselines(board, laboratory.bank(board.bank.pitch_mm * 1e-3), folder)
+    times: dict[int, dict[int, CallTiming]] = {}
+    baselines: list[Figures] = []
+    for count, some in off_grid.items():
+        times[count], besides = _times(laboratory, machine, methods, count, some, effort, bar)
+        baselines += besides
+    return times, {
+        "baselines": baselines,
+        "left_out": machine.left_out,
+        "machine": _rates(board, machine, judge.modes),
+        "building": building_figures(board, judge, off_grid.get(1, [])),
+    }
+
+
+def _off_grid(drawn: Sequence[FingerScene]) -> dict[int, list[FingerScene]]:
+    """Scenes between the cells of a bank, by their number of fingers: those on which methods are timed."""
+    found = {count: [scene for scene in drawn if scene.family == f"{count} off grid"] for count in FINGERS}
+    return {count: some for count, some in found.items() if some}
+
+
+def _fronts(settings: Sequence[Figures], families: Iterable[str]) -> dict[str, list[int]]:
+    """`front` of each axis and family; nothing is compared on a plate that idles."""
+    return {f"{axis}, {family}": front(settings, axis, family) for axis in AXES for family in families if family != "idle"}
+
+
+def _rates(board: Board, machine: Baselines, modes: int) -> Figures:
+    """What the machine does at best, and what a response needs of it."""
+    return {
+        "sgemm_gflops": machine.sgemm_rate * 1e-9,
+        "wire_us": machine.wire_us,
+        "sgemm_response_us": machine.sgemm_us(modes),
+        "multiplications_of_a_response": board.waveform.samples * CHANNELS * modes,
+    }
+
+
+def cost(setting: Figures, axis: str, family: str) -> float | None:
+    """Cost of a setting on one of `AXES`, for scenes of a family; None if it was not measured."""
+    if axis == "memory":
+        return float(setting["memory_bytes"])
+    if axis == "wire":
+        return float(setting["wire_bytes"])
+    if axis == "stage energy":
+        found = setting["families"].get(family)
+        return found and float(found["stage_j"]["median"])
+    timing = setting["time_us"].get(family.partition(" ")[0])
+    return timing and float(timing["median_us"])
+
+
+def main_error(family: str) -> str:
+    """The error by which methods are compared first: of one finger in the band, of several what the worst one feels."""
+    return "bound_loss" if family.startswith("1 ") else "felt_loss"
+
+
+def front(settings: Sequence[Figures], axis: str, family: str) -> list[int]:
+    """Indices of the settings on the Pareto front of a cost and the median of the main error, by ascending cost."""
+    error = main_error(family)
+    evaluated = [index for index, setting in enumerate(settings) if family in setting["families"]]
+    costs = [(index, cost(settings[index], axis, family)) for index in evaluated]
+    costly = [(index, value) for index, value in costs if value is not None]
+    errors = [settings[index]["families"][family][error]["median"] for index, _ in costly]
+    return [costly[place][0] for place in pareto_front([value for _, value in costly], errors)]
+
+
+class _Bar:
+    """Counts what is done."""
+
+    def __init__(self, progress: Progress, total: int) -> None:
+        self._progress, self._done, self._total = progress, 0, total
+
+    def step(self) -> None:
+        self._done += 1
+        self._progress(self._done, self._total)
+
+
+def _full(scene: FingerScene) -> list[Point]:
+    return [(x_m, y_m, 1.0) for x_m, y_m in scene.expected]
+
+
+def _errors(
+    laboratory: Laboratory, judge: Judge, methods: Sequence[Candidate], drawn: Sequence[FingerScene], bar: _Bar
+) -> list[dict[str, list[Errors]]]:
+    """Errors of each method by family."""
+    found: list[dict[str, list[Errors]]] = [{} for _ in methods]
+    waiting = [scene for scene in drawn if scene.points]
+    while waiting:
+        some = [waiting.pop(0)]
+        while waiting and sum(len(scene.points) for scene in (*some, waiting[0])) <= PLACES_AT_ONCE:
+            some.append(waiting.pop(0))
+        laboratory.prepare([place for scene in some for place in scene.expected])
+        for scene in some:
+            able = [index for index, method in enumerate(methods) if len(scene.points) <= method.most_fingers]
+            words = [methods[index].words_of(methods[index].run(_full(scene), scene.null)) for index in able]
+            evaluated = judge.errors(scene, words, [methods[index].free_polarity and len(scene.points) > 1 for index in able])
+            for index, errors in zip(able, evaluated, strict=True):
+                found[index].setdefault(scene.family, []).append(errors)
+            bar.step()
+    return found
+
+
+def _times(
+    laboratory: Laboratory,
+    machine: Baselines,
+    methods: Sequence[Candidate],
+    fingers: int,
+    timed: Sequence[FingerScene],
+    effort: Effort,
+    bar: _Bar,
+) -> tuple[dict[int, CallTiming], list[Figures]]:
+    """Times of methods, by their index, and of the baselines, all taking turns."""
+    timed = timed[: effort.timed_scenes]
+    laboratory.prepare([place for scene in timed for place in scene.expected])
+    able = [index for index, method in enumerate(methods) if fingers <= method.most_fingers]
+    jobs: list[list[Callable[[], object]]] = [[_call(methods[index], scene) for scene in timed] for index in able]
+    besides = machine.jobs([_full(scene) for scene in timed])
+    timings = interleaved([*jobs, *(job.calls for job in besides)], effort.turns, effort.longest_s, bar.step)
+    rows = [
+        {"name": job.name, "fingers": fingers, **asdict(timing)} for job, timing in zip(besides, timings[len(able) :], strict=True)
+    ]
+    return dict(zip(able, timings, strict=False)), rows
+
+
+def _call(method: Candidate, scene: FingerScene) -> Callable[[], object]:
+    points, null = _full(scene), scene.null
+    return lambda: method.run(points, null)
+
+
+def _setting(
+    method: Candidate,
+    index: int,
+    errors: dict[str, list[Errors]],
+    times: dict[int, dict[int, CallTiming]],
+    baselines: Sequence[Figures],
+) -> Figures:
+    time_us = {}
+    for count, timings in times.items():
+        if index in timings:
+            timing = timings[index]
+            over = {row["name"]: timing.median_us / max(row["median_us"], 1e-3) for row in baselines if row["fingers"] == count}
+            time_us[str(count)] = {**asdict(timing), "over": over}
+    return {
+        "curve": method.curve,
+        "setting": method.setting,
+        "memory_bytes": method.memory_bytes,
+        "wire_bytes": method.wire_bytes,
+        "time_us": time_us,
+        "families": {family: _summary(some) for family, some in errors.items()},
+    }
+
+
+def _summary(errors: Sequence[Errors]) -> Figures:
+    """Median and worst of each error."""
+    found: Figures = {}
+    for name in errors[0]:
+        values = [error[name] for error in errors]
+        found[name] = {
+            "median": float(np.median(values)),
+            "worst": float(min(values) if name in BETTER_HIGH else max(values)),
+        }
+    return found

@@ -1,0 +1,189 @@
+"""What is wrong with a measurement, named by channel and point: dead, swapped, inverted channels; clipped, noisy records."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from controller.errors import CalibrationError
+from controller.workshop.calibration.direct_wave import DirectWaves
+
+Floats = NDArray[np.float64]
+Kind = Literal["dead", "swapped", "inverted", "clipped", "strength", "missing", "noisy", "delay", "clock", "board", "short", "band"]
+FATAL: tuple[Kind, ...] = ("dead", "swapped", "inverted", "clipped", "strength")  # what makes a bank wrong, unless it is accepted
+
+DEAD_POWER = 1e-2  # of the median channel
+DEAD_COHERENCE = 0.2
+NOISY_COHERENCE = 0.5
+FITS, FITS_NOT = 0.5, 0.35  # strength of the direct wave, on the median channel's
+SIGNIFICANT = 3.5  # standard deviations
+STRENGTHS = (0.1, 10.0)  # of all channels, on what board.toml foresees: beyond, a unit is wrong
+SHOWN = 12  # names in a message
+
+
+@dataclass(frozen=True)
+class Objection:
+    """One thing that is wrong or worth knowing.
+
+    Attributes
+    ----------
+    message : str
+        Says what, where, and what to do.
+    channels, points : tuple
+        Which; empty: all of them, or none in particular.
+    """
+
+    kind: Kind
+    message: str
+    channels: tuple[int, ...] = ()
+    points: tuple[str, ...] = ()
+
+
+def raise_fatal(where: str, findings: Iterable[Objection], accepted: Iterable[str]) -> None:
+    """Refuse a measurement that would make a wrong bank.
+
+    Raises
+    ------
+    CalibrationError
+        With all findings that are `FATAL` and not `accepted`, in one line.
+    """
+    fatal = [finding for finding in findings if finding.kind in FATAL and finding.kind not in set(accepted)]
+    if fatal:
+        kinds = " ".join(f"--accept {kind}" for kind in dict.fromkeys(finding.kind for finding in fatal))
+        raise CalibrationError(f"{where}: {'; '.join(finding.message for finding in fatal)} (to go on all the same: {kinds})")
+
+
+def listed(names: Sequence[object]) -> str:
+    """Names in words, the first of many."""
+    shown = [str(name) for name in names[:SHOWN]]
+    if len(names) > SHOWN:
+        return f"{', '.join(shown)} and {len(names) - SHOWN} more"
+    return " and ".join([", ".join(shown[:-1]), shown[-1]]) if len(shown) > 1 else "".join(shown)
+
+
+def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], driven: NDArray[np.bool_]) -> list[Objection]:
+    """Channels of which nothing arrives anywhere.
+
+    Parameters
+    ----------
+    power : (point, 32) array
+        Of the responses, noise taken off; NaN where not resolved.
+    coherence : (point, 32) array
+    channels : sequence of int
+        Those with an actuator.
+    driven : (32,) bool array
+        Those that were ever driven.
+    """
+    never = [channel for channel in channels if np.isnan(power[:, channel]).all()]
+    others = [channel for channel in channels if channel not in never]
+    found = []
+    if undriven := [channel for channel in never if not driven[channel]]:
+        found.append(Objection("dead", f"{_channels(undriven)} never driven, and with an actuator in board.toml", tuple(undriven)))
+    if lost := [channel for channel in never if driven[channel]]:
+        found.append(Objection("dead", f"no sound record tells of {_channels(lost, '')}", tuple(lost)))
+    if not others:
+        return found
+    level = np.nanmedian(power[:, others], axis=0)
+    quiet = [channel for channel, own in zip(others, level, strict=True) if own <= DEAD_POWER * np.median(level)]
+    incoherent = [channel for channel in others if np.nanmedian(_or(coherence[:, channel], 1.0)) < DEAD_COHERENCE]
+    if dead := sorted({*quiet, *incoherent}):
+        shares = [f"{np.sqrt(max(np.nanmedian(power[:, channel]) / (np.median(level) or 1.0), 0)):.1%}" for channel in dead]
+        text = f"{_channels(dead)} dead: {listed(shares)} of the others' response; check wire, patch and driver stage"
+        found.append(Objection("dead", text, tuple(dead)))
+    return found
+
+
+def misplaced_channels(waves: DirectWaves, alive: Sequence[int]) -> list[Objection]:
+    """Channels that drive the patch of another one, or the other way round."""
+    own = list(alive)
+    table = waves.strength[np.ix_(own, own)]
+    error = waves.error[own][:, None]
+    if len(own) < 2 or not np.isfinite(table).all():
+        return []
+    rows, columns = linear_sum_assignment(-abs(table))
+    scale = float(np.median(abs(table[rows, columns])))
+    found = []
+    taken = dict(zip(rows.tolist(), columns.tolist(), strict=True))
+    seen: set[int] = set()
+    for start, column in taken.items():
+        if column == start or start in seen:
+            continue
+        circle = [start]
+        while taken[circle[-1]] != start:
+            circle.append(taken[circle[-1]])
+        seen |= set(circle)
+        there = np.array([abs(table[row, taken[row]]) for row in circle])
+        here = np.array([abs(table[row, row]) for row in circle])
+        sure = (there - here > SIGNIFICANT * error[circle, 0]) & (there > FITS * scale) & (here < FITS_NOT * scale)
+        if sure.all():
+            names = sorted(own[row] for row in circle)
+            way = "swapped" if len(names) == 2 else "in the wrong order"
+            text = f"channels {listed(names)} look {way}: each drives another's patch; mend the wiring, or actuators in board.toml"
+            found.append(Objection("swapped", text, tuple(names)))
+    right = [row for row in range(len(own)) if not any(own[row] in finding.channels for finding in found)]
+    if right:
+        sign = np.sign(np.median(np.diag(table)[right]))
+        off = [row for row in right if sign * table[row, row] < -max(SIGNIFICANT * error[row, 0], FITS_NOT * scale)]
+        if sign < 0:
+            text = "all channels look inverted: the sensor's sign, or moment_n_per_v; foci would dip"
+            found.append(Objection("inverted", text, tuple(own)))
+        if off:
+            names = [own[row] for row in off]
+            text = f"{_channels(names, 'look')} inverted against the others: turn the patch's wires round"
+            found.append(Objection("inverted", text, tuple(names)))
+    return found
+
+
+def wrong_strength(waves: DirectWaves, alive: Sequence[int]) -> list[Objection]:
+    """All responses far from what board.toml foresees: a unit."""
+    scale = float(np.nanmedian(abs(np.diag(waves.strength)[list(alive)]))) if alive else np.nan
+    if STRENGTHS[0] <= scale <= STRENGTHS[1] or np.isnan(scale):
+        return []
+    text = f"responses are {scale:.3g} times what board.toml foresees: a wrong unit, sensitivity, full_scale or supply_v?"
+    return [Objection("strength", text)]
+
+
+def clipped_records(counts: dict[str, int]) -> list[Objection]:
+    """Points whose records stand at the end of the converter's range; those are left out.
+
+    Parameters
+    ----------
+    counts : dict
+        Name of a point to its number of such records.
+    """
+    if not counts:
+        return []
+    text = f"clipped, and left out: {sum(counts.values())} records of point {listed(list(counts))}; turn the recorder's gain down"
+    return [Objection("clipped", text, points=tuple(counts))]
+
+
+def noisy_records(coherence: Floats, known: NDArray[np.bool_], names: Sequence[str]) -> list[Objection]:
+    """Points where some channel's record is mostly noise."""
+    bad = known & (_or(coherence, 1.0) < NOISY_COHERENCE)
+    points = np.flatnonzero(bad.any(axis=1)).tolist()
+    if not points:
+        return []
+    reported = [f"{names[point]} (channel {listed(np.flatnonzero(bad[point]).tolist())})" for point in points]
+    return [
+        Objection(
+            "noisy",
+            f"mostly noise, left unknown: point {listed(reported)}",
+            tuple(np.flatnonzero(bad.any(axis=0)).tolist()),
+            tuple(names[point] for point in points),
+        )
+    ]
+
+
+def _or(values: Floats, otherwise: float) -> Floats:
+    return np.where(np.isnan(values), otherwise, values)
+
+
+def _channels(numbers: Sequence[int], verb: str = "be") -> str:
+    one = len(numbers) == 1
+    word = {"be": (" is", " are"), "look": (" looks", " look"), "": ("", "")}[verb][not one]
+    return f"channel{'' if one else 's'} {listed(numbers)}{word}"

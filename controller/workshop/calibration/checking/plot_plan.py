@@ -1,0 +1,51 @@
+"""Picture of a plan: points in the order of the head's path, and the share of the amplitude that is foreseen between them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from controller.device.board.board import Board
+from controller.errors import ConfigError
+
+
+def plot_plan(
+    path: Path, board: Board, points_m: NDArray[np.float64], places_m: NDArray[np.float64], shares: NDArray[np.float64]
+) -> None:
+    """Draw it to a PNG, SVG or PDF file.
+
+    Parameters
+    ----------
+    points_m : (point, 2) array
+        In the order of the path.
+    places_m, shares : (place, 2) and (place,) array
+        What is foreseen where.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be written.
+    """
+    figure = Figure(figsize=(9, 6.5), layout="constrained")
+    plate = figure.subplots()
+    dots = plate.scatter(
+        places_m[:, 0] * 1e3, places_m[:, 1] * 1e3, 30, 100 * (1 - shares), cmap="YlOrRd", marker="s", linewidths=0, alpha=0.8
+    )
+    figure.colorbar(dots, ax=plate, label="amplitude that is not foreseen (%)", shrink=0.8)
+    x_mm, y_mm = points_m.T * 1e3
+    plate.plot(x_mm, y_mm, color="0.6", lw=0.6, zorder=1)
+    plate.scatter(x_mm, y_mm, 9, color="black", zorder=2)
+    plate.scatter(x_mm[:1], y_mm[:1], 60, facecolors="none", edgecolors="black", zorder=3)
+    for actuator in board.actuators:
+        corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
+        plate.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))
+    plate.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
+    plate.set_title(f"{len(points_m)} points; the circle is where the path begins")
+    try:
+        figure.savefig(path, dpi=120)
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error

@@ -1,0 +1,132 @@
+"""How much all frequencies of a plate have changed between two measurements of the same points: its temperature coefficient.
+
+A plate that becomes softer plays the same responses more slowly. The stretch of time that makes both measurements most alike is
+found to a hundredth of a percent and better, as responses ring for a hundred periods.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
+
+from controller.device.board.board import Board
+from controller.errors import CalibrationError
+from controller.workshop.calibration.learned import LearnedResponses
+from controller.workshop.calibration.spectra import Bins
+
+Floats = NDArray[np.float64]
+
+SAME_PLACE_M = 0.3e-3
+RECORDS = 96  # at most
+GROUPS = 8  # whose scatter says how sure the ratio is
+WIDEST = 0.02
+COARSE: Floats = np.linspace(-WIDEST, WIDEST, 81)
+FINE: Floats = np.linspace(-0.0005, 0.0005, 11)
+UNSTRETCHED = 0.01  # of the drift: the drivers' part of the responses keeps its time
+LEAST_ALIKE = 0.5  # correlation of the two at best
+
+
+@dataclass(frozen=True)
+class FittedDrift:
+    """What one plate did between two measurements.
+
+    Attributes
+    ----------
+    frequency_ratio : float
+        Frequencies of the later one over those of the earlier one.
+    error : float
+        Standard deviation of the ratio.
+    alike : float
+        Correlation of the responses when time is stretched by it.
+    kelvin : float or None
+        How much warmer the later one was.
+    """
+
+    frequency_ratio: float
+    error: float
+    alike: float
+    kelvin: float | None
+
+    @property
+    def coefficient_per_k(self) -> tuple[float, float] | None:
+        """Relative change per kelvin as in [temperature] of board.toml, and its standard deviation; None if undetermined."""
+        if self.kelvin is None or abs(self.kelvin) < 1:
+            return None
+        return (self.frequency_ratio - 1) / self.kelvin, self.error / abs(self.kelvin)
+
+
+def fit_drift(board: Board, earlier: LearnedResponses, later: LearnedResponses) -> FittedDrift:
+    """Compare two measurements.
+
+    Raises
+    ------
+    CalibrationError
+        If they share no point, or are not of one plate whose frequencies differ by 2 % at most.
+    """
+    distance_m, nearest = (np.asarray(found) for found in cKDTree(earlier.points_m).query(later.points_m))
+    places = [(int(nearest[point]), int(point)) for point in np.flatnonzero(distance_m <= SAME_PLACE_M)]
+    pairs = [
+        (one, other, int(channel)) for one, other in places for channel in np.flatnonzero(earlier.known[one] & later.known[other])
+    ]
+    if len(pairs) < GROUPS:
+        raise CalibrationError(
+            f"the two measurements share {len(pairs)} records within {SAME_PLACE_M * 1e3:g} mm: measure the same points twice"
+        )
+    random = np.random.default_rng(1)
+    chosen = [pairs[index] for index in random.permutation(len(pairs))[:RECORDS]]
+    samples = min(earlier.responses.shape[1], later.responses.shape[1])
+    before, after = (
+        _band_limited(board, np.stack([responses[pair[which], :samples, pair[2]] for pair in chosen]))
+        for which, responses in ((0, earlier.responses), (1, later.responses))
+    )
+    time = np.arange(1.0, samples + 1)  # sample j is j + 1 bit periods after the start
+    spline = CubicSpline(time, before, axis=1)
+    until = int(samples / (1 + WIDEST)) - 1
+
+    after = after[:, :until]
+    scale = np.sqrt((after**2).sum())
+
+    def alike(ratios: Floats, some: NDArray[np.intp]) -> Floats:
+        """Correlation of some records at each ratio: (ratio,)."""
+        stretched = [spline(time[:until] * ratio)[some] for ratio in ratios.tolist()]
+        return np.array([(one * after[some]).sum() / np.sqrt((one**2).sum()) / scale for one in stretched])
+
+    every = np.arange(len(chosen))
+    coarse = 1 + COARSE
+    fine = float(coarse[alike(coarse, every).argmax()]) + FINE
+    found = alike(fine, every)
+    ratio, best = _highest(fine, found), float(found.max())
+    if best < LEAST_ALIKE:
+        raise CalibrationError(
+            f"the two measurements do not agree when time is stretched by up to {WIDEST:.0%} ({best:.2f} alike at best):"
+            " not one plate, or other positions or channels"
+        )
+    groups = [_highest(fine, alike(fine, part)) for part in np.array_split(random.permutation(every), GROUPS)]
+    warmer = (
+        None
+        if earlier.provenance.temperature_c is None or later.provenance.temperature_c is None
+        else later.provenance.temperature_c - earlier.provenance.temperature_c
+    )
+    scatter = float(np.std(groups, ddof=1) / np.sqrt(GROUPS))
+    return FittedDrift(ratio, float(np.hypot(scatter, UNSTRETCHED * (ratio - 1))), best, warmer)
+
+
+def _band_limited(board: Board, records: NDArray[np.floating]) -> Floats:
+    """Of whole records, (record, sample)."""
+    waveform = board.waveform
+    bins = Bins.of(waveform, records.shape[1])
+    spectra = np.fft.rfft(records, bins.length)[:, : bins.gain.size] * bins.gain
+    limited: Floats = np.fft.irfft(spectra, bins.length)[:, : records.shape[1]].astype(np.float64)
+    return limited
+
+
+def _highest(places: Floats, values: Floats) -> float:
+    """Highest place of the parabola through the highest value and its neighbours."""
+    at = int(np.clip(values.argmax(), 1, len(values) - 2))
+    left, middle, right = values[at - 1 : at + 2].tolist()
+    bend = left - 2 * middle + right
+    return float(places[at] + (0.5 * (left - right) / bend * (places[1] - places[0]) if bend < 0 else 0.0))

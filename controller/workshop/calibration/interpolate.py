@@ -1,0 +1,208 @@
+"""From responses at measured points to those of every place: which method, with which wavenumbers, how good it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import Literal, NamedTuple
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.board.board import Board
+from controller.errors import CalibrationError
+from controller.workshop.calibration.cosines import Cosines, Lattice, fill_places
+from controller.workshop.calibration.dispersion import Dispersion
+from controller.workshop.calibration.interpolated import InterpolatedResponses, LeaveOut
+from controller.workshop.calibration.kriging import Prior, SpectralField, Waves, krige
+from controller.workshop.calibration.learned import LearnedResponses
+from controller.workshop.calibration.modal_prior import ModalPrior, unforeseen
+from controller.workshop.calibration.point_plan import scattered_count
+from controller.workshop.calibration.spectra import Bins, Spectra
+from controller.workshop.calibration.wave_fit import WaveFit, fit_waves
+from controller.workshop.physics.modes.modes import Modes
+from controller.workshop.physics.modes.plate_modes import in_words
+
+LEAST_KEPT = 0.93  # of points left out, their median: worse responses are refused
+STILL = 0.2  # of the median point's movement: those that move less are not evaluated
+LEAST_POINTS = 12  # of any plate
+PITCH_SLACK = 1.02  # a grid may be as much coarser than half a wavelength: the board's constants are known no better
+MOST_SCATTERED = 4000  # one matrix of them takes 128 MB
+
+Progress = Callable[[str, int, int], None]
+Measured = tuple[NDArray[np.float64], Spectra, NDArray[np.bool_], Bins]  # points in m, spectra, which are known, their bins
+
+
+def interpolate(
+    board: Board,
+    learned: LearnedResponses,
+    progress: Progress = lambda _what, _done, _total: None,
+    dead: Collection[int] = (),
+    model: Modes | None = None,
+) -> tuple[InterpolatedResponses, WaveFit]:
+    """Interpolate between measured points: by cosines on a grid of cells, by wavenumber otherwise.
+
+    Parameters
+    ----------
+    progress : callable
+        Called with what is done, how much of it, and all of it.
+    dead : collection of int
+        Channels that are known to do nothing: their responses are zero.
+    model : Modes, optional
+        Of the board's plate, which says what lies between scattered points if it foresees those left out better than waves do.
+
+    Raises
+    ------
+    CalibrationError
+        If records, points or channels are too few, points lie on a grid too coarse, or points left out are not foreseen well.
+    """
+    waveform = board.waveform
+    known, used = _checked(board, learned, dead)
+    points_m = learned.points_m[used]
+    bins = Bins.of(waveform, learned.responses.shape[1])
+    spectra = bins.of_records(learned.responses, used)
+    spectra *= known[None].astype(np.float32)
+    lattice = Lattice.found_in(points_m)
+    if lattice is not None:
+        _refuse_coarse(board, lattice)
+    waves = fit_waves(board, points_m, spectra, known, bins, lambda done, total: progress("wavelengths", done, total))
+    prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
+    measured = points_m, spectra, known, bins
+    if lattice is not None and lattice.covers(board.plate.length_m, board.plate.width_m):
+        found = _between_cells(board, lattice, measured, prior, progress)
+    else:
+        found = _between_points(board, measured, waves, prior, model, progress)
+    median, least = found.leave_out.summary()
+    if not median >= LEAST_KEPT:
+        raise CalibrationError(
+            f"points left out keep {median:.2f} of their amplitude at the median, below {LEAST_KEPT:g}: {len(points_m)} points are"
+            f" too few (calibrate plan proposes {scattered_count(board)} scattered ones), or their positions or records are wrong"
+        )
+    provenance = msgspec.structs.replace(
+        learned.provenance, kind=found.kind, model=found.words, points=len(points_m), kept=(median, least)
+    )
+    return InterpolatedResponses(board, bins, found.field, provenance, found.leave_out, found.reach, points_m), waves
+
+
+class _Interpolation(NamedTuple):
+    """Responses of every place, and how well they foresee points left out.
+
+    Attributes
+    ----------
+    reach : Prior or None
+        Says how far from the measured points the field is known; None where it is known on the whole plate.
+    """
+
+    field: SpectralField
+    leave_out: LeaveOut
+    kind: Literal["measured", "completed"]
+    words: str
+    reach: Prior | None
+
+
+def _between_cells(board: Board, lattice: Lattice, measured: Measured, prior: Waves, progress: Progress) -> _Interpolation:
+    """By cosines; cells that were not measured are filled from their neighbours."""
+    _, spectra, known, bins = measured
+    places = lattice.points()
+    values = np.zeros((len(bins.frequency_hz), len(places), known.shape[1]), np.complex64)
+    there = np.zeros((len(places), known.shape[1]), bool)
+    values[:, lattice.place], there[lattice.place] = spectra, known
+    foreseen = fill_places(lattice, values, there, prior, progress=lambda done, total: progress("neighbours", done, total))
+    leave_out = _evaluated(board, bins, places, values, foreseen, there)
+    field = Cosines.of(values, lattice.x_m.size, (board.plate.length_m, board.plate.width_m))
+    words = f"cosines between {len(places)} cells of {lattice.pitch_m * 1e3:.2f} mm"
+    return _Interpolation(field, leave_out, "measured", words, None)
+
+
+def _between_points(
+    board: Board, measured: Measured, waves: WaveFit, prior: Waves, model: Modes | None, progress: Progress
+) -> _Interpolation:
+    """By waves, or by the model if it foresees points left out better.
+
+    Raises
+    ------
+    CalibrationError
+        If there are more than `MOST_SCATTERED` points.
+    """
+    points_m, spectra, known, bins = measured
+    if len(points_m) > MOST_SCATTERED:
+        raise CalibrationError(
+            f"{len(points_m):,} points are neither a grid of cells of the whole plate nor {MOST_SCATTERED:,} or less"
+        )
+    chosen: Prior = prior
+    kind: Literal["measured", "completed"] = "measured"
+    words = f"waves between {len(points_m)} points"
+    if model is not None and _better_by(model, board, waves, measured):
+        chosen = ModalPrior.of(board, model, waves, bins)
+        words, kind = f"{in_words(board, model)}, between {len(points_m)} points", "completed"
+    field, foreseen = krige(points_m, spectra, known, chosen, progress=lambda done, total: progress("points", done, total))
+    return _Interpolation(field, _evaluated(board, bins, points_m, spectra, foreseen, known), kind, words, prior)
+
+
+def _better_by(model: Modes, board: Board, waves: WaveFit, measured: Measured) -> bool:
+    """Whether the model foresees points left out better than waves do."""
+    by_waves = unforeseen(*measured, lambda some: Waves.of(waves.dispersion, some, board, waves.edge_variance))
+    return unforeseen(*measured, lambda some: ModalPrior.of(board, model, waves, some)) < by_waves
+
+
+def _checked(board: Board, learned: LearnedResponses, dead: Collection[int]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """What was measured of the channels that have actuators, at the points where anything was: known, and which points."""
+    waveform = board.waveform
+    if not abs(learned.bit_clock_hz / waveform.bit_clock_hz - 1) < 1e-9:
+        raise CalibrationError(
+            f"responses at {learned.bit_clock_hz:g} Hz do not fit the board's bit_clock_hz = {waveform.bit_clock_hz:g}"
+        )
+    samples = learned.responses.shape[1]
+    if samples < waveform.samples:
+        raise CalibrationError(
+            f"responses of {samples / learned.bit_clock_hz * 1e3:.2f} ms are shorter than an emission of"
+            f" {waveform.duration_ms:g} ms: record for longer"
+        )
+    channels = np.zeros(learned.known.shape[1], bool)
+    channels[[actuator.channel for actuator in board.actuators]] = True
+    channels[list(dead)] = False
+    known = learned.known & channels
+    used = np.flatnonzero(known.any(axis=1))
+    if len(used) < LEAST_POINTS:
+        raise CalibrationError(
+            f"{len(used)} points were measured: {LEAST_POINTS} is the least, this plate needs {scattered_count(board)}"
+        )
+    silent = np.flatnonzero(channels & (known.sum(axis=0) < LEAST_POINTS))
+    if silent.size:
+        named = ", ".join(map(str, silent.tolist()))
+        raise CalibrationError(
+            f"channels measured at fewer than {LEAST_POINTS} points: {named}; measure them, or take them from the board"
+        )
+    return known[used], used
+
+
+def _refuse_coarse(board: Board, lattice: Lattice) -> None:
+    """Raise for a regular grid of more than half a wavelength: waves in it are mistaken for others."""
+    limit_m = Dispersion.of(board.plate).wavelength_m(board.waveform.band_high_hz) / 2
+    if lattice.pitch_m > PITCH_SLACK * limit_m:
+        raise CalibrationError(
+            f"the points are a regular grid of {lattice.pitch_m * 1e3:.2f} mm, above half a wavelength ({limit_m * 1e3:.2f} mm),"
+            " which mistakes waves for others: measure a finer grid, or scattered points (haptic-panel calibrate plan)"
+        )
+
+
+def _evaluated(
+    board: Board,
+    bins: Bins,
+    points_m: NDArray[np.float64],
+    spectra: NDArray[np.complex64],
+    foreseen: NDArray[np.complex64],
+    known: NDArray[np.bool_],
+) -> LeaveOut:
+    """Leave-out error, points in blocks; those beyond the cells of a bank are not evaluated: nobody plays there."""
+    known = known & ~np.isnan(foreseen[0])
+    agreed, magnitude = np.zeros((2, len(points_m)))
+    for first in range(0, len(points_m), 64):
+        some = slice(first, first + 64)
+        measured = bins.band_limited(spectra[:, some]) * known[some, None]
+        agreed[some] = (np.sign(bins.band_limited(np.where(known[some], foreseen[:, some], 0))) * measured).sum(axis=(1, 2))
+        magnitude[some] = np.abs(measured).sum(axis=(1, 2))
+    moves = magnitude / np.maximum(known.sum(axis=1), 1)
+    from_edge_m = np.minimum(points_m, (board.plate.length_m, board.plate.width_m) - points_m).min(axis=1)
+    evaluated = (magnitude > 0) & (moves > STILL * np.median(moves)) & (from_edge_m >= board.bank.pitch_mm * 1e-3)
+    return LeaveOut(points_m, np.divide(agreed, magnitude, out=np.full(len(points_m), np.nan), where=evaluated))

@@ -1,0 +1,151 @@
+"""Measured responses at any place of the plate: what a bank is built from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from controller.device.bank.provenance import Provenance
+from controller.device.board.board import Board
+from controller.device.board.panel import CHANNELS
+from controller.errors import CalibrationError
+from controller.workshop.calibration.kriging import Prior, SpectralField, foreseen_shares
+from controller.workshop.calibration.spectra import Bins
+
+Floats = NDArray[np.float64]
+
+LEAST_SHARE = 0.8  # foreseen from the places of the points; farther from them nothing is estimated, and no scene may ask for it
+POINTS_AT_ONCE = 64  # transforms of 64 points take some 70 MB
+BINS_ASKED = 8
+
+
+@dataclass(frozen=True, eq=False)
+class LeaveOut:
+    """How well points left out are foreseen by the others.
+
+    Attributes
+    ----------
+    points_m : (point, 2) array
+    kept : (point,) array
+        Sum of the measured responses with the signs of those foreseen, over the sum of their magnitudes: the share of the amplitude
+        that drive words from the others keep at that point. NaN where it was not evaluated.
+    """
+
+    points_m: Floats
+    kept: Floats
+
+    def summary(self) -> tuple[float, float]:
+        """Median and least."""
+        return round(float(np.nanmedian(self.kept)), 4), round(float(np.nanmin(self.kept)), 4)
+
+
+class InterpolatedResponses:
+    """A `ResponseSource` from measurements.
+
+    Parameters
+    ----------
+    prior, points_m : Prior and (point, 2) array, or None
+        What says how far from the measured points the field is known; None where it is known on the whole plate.
+    """
+
+    def __init__(
+        self,
+        board: Board,
+        bins: Bins,
+        field: SpectralField,
+        provenance: Provenance,
+        leave_out: LeaveOut,
+        prior: Prior | None,
+        points_m: Floats,
+    ) -> None:
+        self.provenance = provenance
+        self.leave_out = leave_out
+        self.samples = bins.samples
+        self.bit_clock_hz = board.waveform.bit_clock_hz
+        self.plate_m = (board.plate.length_m, board.plate.width_m)
+        self._bins = bins
+        self._field = field
+        self._prior = prior
+        self._points_m = points_m
+
+    def foreseen(self, points_m: ArrayLike) -> Floats:
+        """Share of the amplitude that is foreseen from the places of the measured points alone, at (point, 2) in m: (point,)."""
+        points = np.asarray(points_m, np.float64).reshape(-1, 2)
+        if self._prior is None:
+            return np.ones(len(points))
+        some = self._bins.in_band
+        return foreseen_shares(self._prior, self._points_m, points, some[:: max(len(some) // BINS_ASKED, 1)])
+
+    def near_enough(self, points_m: Floats) -> NDArray[np.bool_]:
+        """Whether responses are estimated at points, (point, 2) in m: (point,)."""
+        return self.foreseen(points_m) >= LEAST_SHARE
+
+    def responses(
+        self,
+        points_m: ArrayLike,
+        *,
+        band_limited: bool = False,
+        dtype: DTypeLike = np.float64,
+        out: NDArray[np.floating[Any]] | None = None,
+    ) -> NDArray[np.floating[Any]]:
+        """As `ResponseSource` says; beyond the band as far as it was measured, nothing above it.
+
+        Raises
+        ------
+        CalibrationError
+            If a point is too far from all that were measured.
+        ValueError
+            If `out` has another shape or type.
+        """
+        points = self._checked(points_m)
+        out = _room(out, (len(points), self.samples, CHANNELS), dtype)
+        for first in range(0, len(points), POINTS_AT_ONCE):
+            some = slice(first, first + POINTS_AT_ONCE)
+            spectra = self._field.at(points[some])
+            out[some] = self._bins.band_limited(spectra) if band_limited else self._bins.whole(spectra)
+        return out
+
+    def drive_order_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """As `ResponseSource` says. Errors as in `responses`."""
+        out = self.responses(points_m, band_limited=True, dtype=dtype, out=out)
+        out[:] = out[:, ::-1].copy()
+        return out
+
+    def entry_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """As `ResponseSource` says; outside the band, rows of rest hold what was measured there. Errors as in `responses`."""
+        points = self._checked(points_m)
+        rows = self._bins.rest_rows
+        out = _room(out, (len(points), self.samples + rows, CHANNELS), dtype)
+        for first in range(0, len(points), POINTS_AT_ONCE):
+            some = slice(first, first + POINTS_AT_ONCE)
+            spectra = self._field.at(points[some])
+            out[some, : self.samples] = self._bins.band_limited(spectra)[:, ::-1]
+            out[some, self.samples :] = self._bins.rest(spectra)
+        return out
+
+    def _checked(self, points_m: ArrayLike) -> Floats:
+        points = np.asarray(points_m, np.float64).reshape(-1, 2)
+        shares = self.foreseen(points)
+        if points.size and shares.min() < LEAST_SHARE:
+            x_mm, y_mm = points[shares.argmin()] * 1e3
+            raise CalibrationError(
+                f"x = {x_mm:.1f} mm, y = {y_mm:.1f} mm is too far from the measured points: {shares.min():.2f} of the amplitude is"
+                f" foreseen there, below {LEAST_SHARE:g}; measure nearer to it"
+            )
+        return points
+
+
+def _room(out: NDArray[np.floating[Any]] | None, shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[np.floating[Any]]:
+    kind = np.dtype(dtype)
+    if out is None:
+        return np.empty(shape, kind)
+    if out.shape != shape or out.dtype != kind:
+        raise ValueError(f"out is {out.dtype} {out.shape}, not {kind} {shape}")
+    return out

@@ -1,0 +1,41 @@
+"""Impulse responses learned at the measured points of a plate: what deconvolution gives and interpolation takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.workshop.physics.responses.response_source import Provenance
+
+
+@dataclass(frozen=True, eq=False)
+class LearnedResponses:
+    """Responses at measured points.
+
+    Attributes
+    ----------
+    points_m : (point, 2) array
+        In the plate's coordinates.
+    responses : (point, sample, 32) array
+        In m per V held for one bit period; sample j is the displacement (j + 1) bit periods after the start of the pulse.
+        Zero where not `known`. May be longer than an emission, for sharper spectra.
+    known : (point, 32) bool array
+        What was measured well enough to use.
+    coherence : (point, 32) array
+        Mean coherence between drive and record in the waveform's band, 0 to 1; NaN where it was not measured.
+    noise : (point, 32) array
+        Standard deviation of a sample's error, in m per V; NaN where it cannot be determined.
+    bit_clock_hz : float
+        Rate of the samples.
+    """
+
+    points_m: NDArray[np.float64]
+    responses: NDArray[np.floating[Any]]
+    known: NDArray[np.bool_]
+    coherence: NDArray[np.float64]
+    noise: NDArray[np.float64]
+    bit_clock_hz: float
+    provenance: Provenance

@@ -1,0 +1,180 @@
+"""From a measurement folder to learned responses: read, deconvolve, find what is wrong, correct what can be corrected."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.board.board import Board
+from controller.errors import CalibrationError
+from controller.workshop.calibration.checking.checks import Objection, raise_fatal
+from controller.workshop.calibration.checking.findings import findings_of, remarks_on
+from controller.workshop.calibration.deconvolution import Deconvolution, Transfers
+from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
+from controller.workshop.calibration.learned import LearnedResponses
+from controller.workshop.calibration.point_cache import PointCache
+from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
+from controller.workshop.calibration.records.measurements import Measurement, read_measurement, sha256_of
+from controller.workshop.calibration.time_responses import responses_in_time
+
+Floats = NDArray[np.float64]
+CLOCK_POINTS = 4  # that the clock is found from
+WAVE_POINTS = 64  # that the direct wave is found from
+STATED_DELAY_S = 60e-6  # how far from its stated delay a record is searched
+DELAY_TOLERANCE_S = 3e-6  # what geometry and an unknown edge leave open
+
+
+@dataclass(frozen=True, eq=False)
+class Learned:
+    """What a measurement gives.
+
+    Attributes
+    ----------
+    delay_s : float
+        By which what happened is later in the records than they say; corrected.
+    excited_hz : (float, float)
+        What was played excites this band.
+    residual : (point,) array
+        Share of the records' power that no drive explains.
+    learned_anew : int
+        Points that were not in the cache.
+    """
+
+    measurement: Measurement
+    responses: LearnedResponses
+    findings: tuple[Objection, ...]
+    clock: RecorderClock
+    delay_s: float
+    waves: DirectWaves | None
+    excited_hz: tuple[float, float]
+    residual: Floats
+    learned_anew: int
+
+    def require(self, accepted: Collection[str] = ()) -> LearnedResponses:
+        """The responses, if nothing is wrong that would make a wrong bank.
+
+        Raises
+        ------
+        CalibrationError
+            Naming all that is wrong and not `accepted`.
+        """
+        raise_fatal(str(self.measurement.folder), self.findings, accepted)
+        return self.responses
+
+
+def learn(
+    folder: Path,
+    board: Board,
+    *,
+    samples: int | None = None,
+    cache: Path | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+) -> Learned:
+    """Learn the responses of a board's plate from a measurement folder.
+
+    Parameters
+    ----------
+    samples : int, optional
+        Of a response; twice an emission by default, or what the records hold.
+    cache : Path, optional
+        Folder for results of points, by the hash of their files: an interrupted run goes on where it was.
+    progress : callable
+        Called with the points done and their number.
+
+    Raises
+    ------
+    CalibrationError
+        If the folder cannot be read or determines nothing. What else is wrong is in `findings`.
+    """
+    measurement = read_measurement(folder, board)
+    there = [point for point in range(len(measurement.names)) if point not in measurement.missing]
+    if not there:
+        raise CalibrationError(f"{folder}: no record of any point: {measurement.settings.records.files} names no file")
+    first = measurement.records(there[0])
+    length = first.values.shape[2]
+    end_s = length / measurement.settings.sample_rate_hz + (measurement.settings.records.first_sample_us or 0) * 1e-6
+    deconvolution = Deconvolution(measurement, board, length)
+    excited_hz = deconvolution.excited_hz
+    stated = measurement.settings.records.first_sample_us is not None
+    widest_s = STATED_DELAY_S if stated else end_s / 2
+    clock, delay_s = _clock_and_delay(measurement, board, deconvolution, there, widest_s)
+    results, files, again = _transfers(measurement, board, deconvolution, there, clock, cache, progress)
+    waves = _waves(measurement, board, deconvolution, results, widest_s)
+    if waves is not None:
+        delay_s = waves.delay_s
+    elif not stated:
+        raise CalibrationError(
+            f"{folder}: when the records begin cannot be found from {len(there)} points: give records.first_sample_us, the time of"
+            " their first sample after the start of the drive"
+        )
+    if stated and abs(delay_s) <= DELAY_TOLERANCE_S:
+        delay_s = 0.0
+    count = 2 * board.waveform.samples if samples is None else samples
+    responses, ringing = responses_in_time(measurement, board, deconvolution, results, count, delay_s, files)
+    findings = findings_of(measurement, board, deconvolution, results, responses, waves)
+    findings += remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)
+    residual = np.full(len(measurement.names), np.nan)
+    for point, found in results.items():
+        residual[point] = found.residual
+    return Learned(measurement, responses, tuple(findings), clock, delay_s, waves, excited_hz, residual, again)
+
+
+def _clock_and_delay(
+    measurement: Measurement, board: Board, deconvolution: Deconvolution, there: list[int], widest_s: float
+) -> tuple[RecorderClock, float]:
+    """From a few points; the delay roughly."""
+    some = there[:: max(len(there) // CLOCK_POINTS, 1)][:CLOCK_POINTS]
+    records = {point: measurement.records(point) for point in some}
+    rough = {point: deconvolution.transfers(deconvolution.spectra(one), one.sound) for point, one in records.items()}
+    waves = _waves(measurement, board, deconvolution, rough, widest_s)
+    delay_s = 0.0 if waves is None else waves.delay_s
+    return clock_of(deconvolution, list(records.values()), delay_s), delay_s
+
+
+def _waves(
+    measurement: Measurement, board: Board, deconvolution: Deconvolution, results: dict[int, Transfers], widest_s: float
+) -> DirectWaves | None:
+    points = list(results)[:: max(len(results) // WAVE_POINTS, 1)]
+    transfers = np.stack([results[point].transfer for point in points])
+    resolved = np.stack([results[point].resolved for point in points])
+    return direct_waves(board, deconvolution.bins, measurement.points_m[points], transfers, resolved, widest_s)
+
+
+def _transfers(
+    measurement: Measurement,
+    board: Board,
+    deconvolution: Deconvolution,
+    there: list[int],
+    clock: RecorderClock,
+    cache: Path | None,
+    progress: Callable[[int, int], None],
+) -> tuple[dict[int, Transfers], dict[Path, str], int]:
+    """Of every point that is there, the hashes of all files, and how many points were learned again."""
+    hashes = {file: sha256_of(file) for file in measurement.common_files}
+    kept = PointCache(cache, [*hashes.values(), board.digest().hex(), f"{clock.ppm:.2f} {deconvolution.bins.length}"])
+    results: dict[int, Transfers] = {}
+    again = 0
+    for done, point in enumerate(there):
+        progress(done, len(there))
+        files = measurement.files(point)
+        hashes |= {file: sha256_of(file) for file in files if file not in hashes}
+        own = [hashes[file] for file in files]
+        found = kept.find(measurement.names[point], own)
+        if found is None:
+            records = measurement.records(point)
+            if records.values.shape[2] != deconvolution.length:
+                raise CalibrationError(
+                    f"{files[0]}: point {measurement.names[point]}: {records.values.shape[2]:,} samples, and point"
+                    f" {measurement.names[there[0]]} has {deconvolution.length:,}: all records are of one length"
+                )
+            found = deconvolution.learn(records, clock.ppm)
+            kept.keep(measurement.names[point], own, found)
+            again += 1
+        results[point] = found
+    progress(len(there), len(there))
+    kept.forget_others()
+    return results, hashes, again

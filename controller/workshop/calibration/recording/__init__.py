@@ -1,0 +1,1 @@
+"""How a plate is measured, really or simulated."""

@@ -1,0 +1,93 @@
+"""What is played to learn a plate: emissions of 1-bit chirps or noise on all channels at once, distinguished by their signs.
+
+An emission lasts 2 ms, the most that the FPGA plays. Every channel plays the same sequence in each, with the sign that a Hadamard
+matrix gives channel and emission: as many emissions as there are channels, rounded up to a power of 2, tell all of them apart, with
+as much energy of each channel as if it had played alone in every one of them.
+"""
+
+from __future__ import annotations
+
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import hadamard
+
+from controller.device.board.board import Board
+from controller.errors import ConfigError
+
+Words = NDArray[np.uint32]
+Kind = Literal["chirp", "noise"]
+
+BEYOND: Final = 0.8, 1.06  # of the band's edges: what is swept, so that its edges are learned too
+
+
+def drive_words(board: Board, kind: Kind = "chirp", seed: int = 1) -> Words:
+    """Drive words of all emissions.
+
+    Parameters
+    ----------
+    kind : {"chirp", "noise"}
+        Sign of a chirp through the waveform's band, whose spectrum is flat, or of noise limited to it.
+    seed : int
+        Of the noise.
+
+    Returns
+    -------
+    (emission, word) uint32 array
+        Bit q is channel q.
+
+    Raises
+    ------
+    ConfigError
+        If a channel has more edges than the limits of the board allow in an emission.
+    """
+    high = _chirp(board) if kind == "chirp" else _noise(board, seed)
+    channels = [actuator.channel for actuator in board.actuators]
+    order = 1 << (len(channels) - 1).bit_length()
+    random = np.random.default_rng(0)  # else one emission drives all channels alike, and one channel plays the same in all
+    signs = hadamard(order) * random.choice((-1, 1), (order, 1)) * random.choice((-1, 1), order)
+    same = signs[:, : len(channels)] > 0  # (emission, channel)
+    bits = np.uint32(1) << np.array(channels, np.uint32)
+    words: Words = np.bitwise_or.reduce(np.where(same[:, None, :] == high[None, :, None], bits, np.uint32(0)), axis=2)
+    edges_hz = np.count_nonzero(np.diff(high)) / board.waveform.duration_s
+    if edges_hz > board.limits.max_edge_rate_hz:
+        raise ConfigError(
+            f"a {kind} has {edges_hz:,.0f} edges a second, above limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:,.0f}"
+        )
+    return words
+
+
+def ringing_s(board: Board) -> float:
+    """Time for which the plate rings after an emission, in s."""
+    damping = board.plate.damping
+    times_ms = [at.decay_time_ms for at in damping.decay_times] if damping else [board.plate.decay_time_ms]
+    return 8e-3 * max(times_ms)
+
+
+def period_s(board: Board, ring_s: float) -> float:
+    """Least time from one emission to the next: its length, what rings on, and what the limits of the board ask for."""
+    limits, edges_hz = board.limits, 2 * board.waveform.band_high_hz * BEYOND[1]
+    in_emission = edges_hz * board.waveform.duration_s
+    apart_s = max(in_emission / limits.max_channel_edge_rate_hz, len(board.actuators) * in_emission / limits.max_total_edge_rate_hz)
+    return max(board.waveform.duration_s + ring_s, board.waveform.duration_s / limits.max_duty, apart_s)
+
+
+def _chirp(board: Board) -> NDArray[np.bool_]:
+    """Signs of a chirp, (word,)."""
+    waveform = board.waveform
+    low_hz, high_hz = waveform.band_low_hz * BEYOND[0], waveform.band_high_hz * BEYOND[1]
+    time_s = (np.arange(waveform.samples) + 0.5) * waveform.bit_period_s
+    cycles = low_hz * time_s + (high_hz - low_hz) * time_s**2 / (2 * waveform.duration_s)
+    signs: NDArray[np.bool_] = cycles % 1 < 0.5
+    return signs
+
+
+def _noise(board: Board, seed: int) -> NDArray[np.bool_]:
+    """Signs of band-limited noise, (word,)."""
+    waveform = board.waveform
+    spectrum = np.fft.rfft(np.random.default_rng(seed).standard_normal(waveform.samples))
+    frequency_hz = np.fft.rfftfreq(waveform.samples, waveform.bit_period_s)
+    spectrum[(frequency_hz < waveform.band_low_hz * BEYOND[0]) | (frequency_hz > waveform.band_high_hz * BEYOND[1])] = 0
+    signs: NDArray[np.bool_] = np.fft.irfft(spectrum, waveform.samples) > 0
+    return signs

@@ -1,0 +1,92 @@
+"""Records to spectra and back: interpolation works frequency by frequency.
+
+Records need not be longer than an emission, though longer ones have sharper spectra. Each is followed by silence, into which falls
+what the transform would else wrap round, and by which bins are nearer to each other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfft
+
+from controller.device.bank.file_format import REST_SAMPLES
+from controller.device.board.panel import Waveform
+from controller.workshop.physics.responses.modal_response import band_gain, edge_width_hz
+
+Floats = NDArray[np.float64]
+Spectra = NDArray[np.complex64]
+
+SILENCE = 0.25  # of an emission
+
+
+@dataclass(frozen=True, eq=False)
+class Bins:
+    """Frequencies from 0 to where the band's filter ends.
+
+    Attributes
+    ----------
+    length : int
+        Samples of a transform.
+    samples : int
+        Of an emission.
+    frequency_hz : (bin,) array
+    gain : (bin,) array
+        Of the band's filter.
+    """
+
+    length: int
+    samples: int
+    frequency_hz: Floats
+    gain: Floats
+
+    @classmethod
+    def of(cls, waveform: Waveform, record_samples: int) -> Bins:
+        """For records of this many samples at a waveform's bit clock."""
+        length = int(next_fast_len(record_samples + int(np.ceil(SILENCE * waveform.samples)), real=True))
+        band_hz = waveform.band_low_hz, waveform.band_high_hz
+        frequency_hz = np.arange(length // 2 + 1, dtype=np.float64) * (waveform.bit_clock_hz / length)
+        frequency_hz = frequency_hz[frequency_hz < waveform.band_high_hz + edge_width_hz(band_hz) / 2]
+        return cls(length, waveform.samples, frequency_hz, band_gain(frequency_hz, band_hz))
+
+    @property
+    def in_band(self) -> NDArray[np.intp]:
+        """Bins that the filter passes at all."""
+        return np.flatnonzero(self.gain)
+
+    @property
+    def rest_rows(self) -> int:
+        """Rows of rest that follow an entry's samples."""
+        return -(-self.samples // REST_SAMPLES)
+
+    def part(self, chosen: NDArray[np.intp]) -> Bins:
+        """Some of the bins."""
+        return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen])
+
+    def of_records(self, responses: NDArray[np.floating[Any]], points: NDArray[np.intp]) -> Spectra:
+        """Spectra of the records, (point, sample, channel), of some points, by bins: (bin, point, channel)."""
+        spectra = np.empty((self.frequency_hz.size, len(points), responses.shape[2]), np.complex64)
+        for index, point in enumerate(points.tolist()):
+            spectra[:, index] = rfft(responses[point], self.length, axis=0)[: self.frequency_hz.size]
+        return spectra
+
+    def band_limited(self, spectra: Spectra) -> NDArray[np.float32]:
+        """Responses of an emission's samples, in the band only, zero phase: (bin, point, channel) to (point, sample, channel)."""
+        return self.whole(spectra * self.gain[:, None, None].astype(np.float32))
+
+    def whole(self, spectra: Spectra) -> NDArray[np.float32]:
+        """The same with all that lies below the band."""
+        times: NDArray[np.float32] = irfft(spectra, self.length, axis=0)[: self.samples].swapaxes(0, 1)
+        return times
+
+    def rest(self, spectra: Spectra) -> NDArray[np.float32]:
+        """What the band leaves out, reversed in time, as means over `REST_SAMPLES`: (point, row, channel)."""
+        outside = self.whole(spectra * (1 - self.gain[:, None, None]).astype(np.float32))
+        rows = self.rest_rows
+        padded = np.zeros((len(outside), rows * REST_SAMPLES, outside.shape[2]), np.float32)
+        padded[:, : self.samples] = outside[:, ::-1]
+        means: NDArray[np.float32] = padded.reshape(len(outside), rows, REST_SAMPLES, -1).mean(axis=2)
+        return means

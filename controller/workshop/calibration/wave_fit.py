@@ -1,0 +1,180 @@
+"""The plate's own wavenumbers, from measurements: those with which points left out are best foreseen by the others.
+
+The error of points left out has a sharp minimum: half a percent off costs as much as all else. It is searched in several parts of
+the band, by points away from the edges, which gives a factor on the board's wavenumbers, how it changes over the band, and how sure
+both are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.board.board import Board
+from controller.errors import CalibrationError
+from controller.workshop.calibration.dispersion import Dispersion
+from controller.workshop.calibration.kriging import Waves, krige
+from controller.workshop.calibration.spectra import Bins, Spectra
+
+Floats = NDArray[np.float64]
+
+POINTS = 150  # at most, of those there are
+PARTS = 6  # of the band
+BINS = 3  # of each part
+MOST_UNFORESEEN = 0.4  # of the energy of a point left out
+EDGE_WAVES = 0.75  # nearer to an edge than this many wavelengths a point does not judge
+EDGE_VARIANCES = (0.0, 0.3)
+COARSE: Floats = np.linspace(0.93, 1.07, 15)
+FINE: Floats = np.linspace(-0.0075, 0.0075, 7)
+
+
+@dataclass(frozen=True)
+class WaveFit:
+    """Wavenumbers as measured.
+
+    Attributes
+    ----------
+    dispersion : Dispersion
+        With the factor found in the middle of the band, and its slope.
+    edge_variance : float
+        Of waves that fade from the edges, in that of the field.
+    factor_error, slope_error_per_hz : float
+        Standard deviations, from the scatter between parts of the band.
+    frequency_hz, factors : tuple of float
+        Middle of each part of the band, and the factor found there.
+    scatter : float
+        Standard deviation of one of them.
+    """
+
+    dispersion: Dispersion
+    edge_variance: float
+    factor_error: float
+    slope_error_per_hz: float
+    frequency_hz: tuple[float, ...]
+    factors: tuple[float, ...]
+    scatter: float
+
+    @property
+    def frequency_scale(self) -> float:
+        """Frequencies of waves of a length, over those of the board's plate, in the middle of the band."""
+        return self.dispersion.factor**-2
+
+    @property
+    def stiffness_scale(self) -> float:
+        """Bending stiffness for the board's mass per area, over the board's."""
+        return self.dispersion.factor**-4
+
+
+def fit_waves(
+    board: Board,
+    points_m: Floats,
+    spectra: Spectra,
+    known: NDArray[np.bool_],
+    bins: Bins,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+) -> WaveFit:
+    """Fit wavenumbers, and what edges add.
+
+    Parameters
+    ----------
+    board : Board
+        What its plate's constants say is where the search begins.
+    points_m : (point, 2) array
+    spectra : (bin, point, channel) array
+    known : (point, channel) bool array
+    progress : callable
+        Called with the work done and all of it.
+
+    Raises
+    ------
+    CalibrationError
+        If no wavenumber within 7 % of the board's explains the field.
+    """
+    dispersion = Dispersion.of(board.plate)
+    whole, channels = _of_one_pattern(known)
+    low, high = np.searchsorted(bins.frequency_hz, (board.waveform.band_low_hz, board.waveform.band_high_hz))
+    inside = _inside(board, points_m[whole])
+    parts = np.linspace(low, high - 1, PARTS * BINS + 2)[1:-1].round().astype(int).reshape(PARTS, BINS)
+    steps = len(COARSE) + len(FINE) + PARTS * len(FINE)
+
+    done = 0
+
+    def error(factor: float, chosen: NDArray[np.intp], edge_variance: float) -> float:
+        nonlocal done
+        prior = Waves.of(replace(dispersion, factor=factor), bins.part(chosen), board, edge_variance)
+        found = _unforeseen(points_m[whole], spectra[np.ix_(chosen, whole, channels)], inside, prior)
+        done += 1
+        progress(done, steps)
+        return found
+
+    middles = parts[:, BINS // 2]
+    none, fading = EDGE_VARIANCES
+    coarse = np.array([error(factor, middles, fading) for factor in COARSE.tolist()])
+    best = int(coarse.argmin())
+    around = [error(COARSE[best] + off, middles, none) for off in FINE.tolist()]
+    edge_variance = none if min(around) < coarse.min() else fading
+    least = float(coarse.min())
+    if best in (0, len(COARSE) - 1) or least > MOST_UNFORESEEN:
+        raise CalibrationError(
+            f"no waves within 7 % of the board's wavelengths explain what was measured at {len(whole)} points (of one left out,"
+            f" {least:.0%} of the energy is not foreseen): too few points, or check positions, channels, [plate]"
+        )
+    factors = []
+    for part in parts:
+        errors = [error(COARSE[best] + off, part, edge_variance) for off in FINE.tolist()]
+        factors.append(float(COARSE[best] + _lowest(FINE, np.array(errors))))
+    return _line(dispersion, edge_variance, bins.frequency_hz[parts].mean(axis=1), factors)
+
+
+def _of_one_pattern(known: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Points, and channels that are known at every one of them, as most are."""
+    whole = np.flatnonzero(known.any(axis=1))
+    if len(whole) > POINTS:
+        whole = np.sort(np.random.default_rng(1).choice(whole, POINTS, replace=False))
+    channels = np.flatnonzero(known[whole].mean(axis=0) > 0.5)
+    return whole[known[np.ix_(whole, channels)].all(axis=1)], channels
+
+
+def _inside(board: Board, points_m: Floats) -> NDArray[np.bool_]:
+    """Which points judge: those away from the edges, or all if few are."""
+    from_edge_m = np.minimum(points_m, (board.plate.length_m, board.plate.width_m) - points_m).min(axis=1)
+    inside: NDArray[np.bool_] = from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_high_hz)
+    if inside.sum() < len(points_m) / 5:
+        inside[:] = True
+    return inside
+
+
+def _unforeseen(points_m: Floats, spectra: Spectra, inside: NDArray[np.bool_], prior: Waves) -> float:
+    """Energy of points inside, each left out, that the others do not foresee, over all."""
+    _, foreseen = krige(points_m, spectra, np.ones(spectra.shape[1:], bool), prior)
+    scale = (np.abs(spectra[:, inside]) ** 2).mean(axis=(1, 2), keepdims=True)
+    return float((np.abs(foreseen[:, inside] - spectra[:, inside]) ** 2 / scale).mean())
+
+
+def _line(dispersion: Dispersion, edge_variance: float, frequency: Floats, factors: list[float]) -> WaveFit:
+    """The straight line through the factors of the parts of the band."""
+    middle_hz = float(frequency.mean())
+    design = np.column_stack([np.ones(PARTS), frequency - middle_hz])
+    found, *_ = np.linalg.lstsq(design, np.array(factors), rcond=None)
+    scatter = np.sum((design @ found - factors) ** 2) / (PARTS - 2)
+    errors_of = np.sqrt(np.diag(np.linalg.inv(design.T @ design)) * scatter)
+    return WaveFit(
+        replace(dispersion, factor=float(found[0]), slope_per_hz=float(found[1]), reference_hz=middle_hz),
+        edge_variance,
+        float(errors_of[0]),
+        float(errors_of[1]),
+        tuple(frequency.tolist()),
+        tuple(factors),
+        float(np.sqrt(scatter)),
+    )
+
+
+def _lowest(places: Floats, values: Floats) -> float:
+    """Lowest place of the parabola through the lowest value and its neighbours."""
+    at = int(np.clip(np.argmin(values), 1, len(values) - 2))
+    left, middle, right = values[at - 1 : at + 2].tolist()
+    bend = left - 2 * middle + right
+    return float(places[at] + (0.5 * (left - right) / bend * (places[1] - places[0]) if bend > 0 else 0.0))

@@ -1,0 +1,1 @@
+"""Clips of haptic designers, as rhythms that a panel plays."""

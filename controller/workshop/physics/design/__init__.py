@@ -1,0 +1,1 @@
+"""A panel's figures by the equations of the paper."""

@@ -1,0 +1,139 @@
+"""What a focus looks like that is made of the frequencies that patches and drivers really give, by statistics of the modes alone.
+
+The paper takes the band's spectrum as flat. Patches and drivers weight it: of the amplitude at the focus the share w(f) df
+comes from f, w as the power of the responses there. Then spot and pulse at T are the sums of w(f) J0(k r) and of
+w(f) cos(2 pi f t), a plate has 1 / (integral of w^2) hertz of bandwidth, and mass at the focus acts on each frequency alone.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import trapezoid
+from scipy.special import j0
+
+from controller.device.board.panel import Driver, Plate
+from controller.device.board.relations.bending_waves import bending_stiffness
+from controller.workshop.physics.design.design import characteristic_time_s, one_bit_share, point_impedance_kg_s
+from controller.workshop.physics.responses.driver import DriverResponse
+
+Floats = NDArray[np.float64]
+
+FREQUENCIES = 401
+DIRECTIONS = 91
+SAMPLED = 401  # radii of a spot, and times of a pulse
+
+
+@dataclass(frozen=True, eq=False)
+class FocalSpectrum:
+    """Frequencies of a focus.
+
+    Attributes
+    ----------
+    frequency_hz : (n,) array
+        Evenly from the lower to the upper edge of the band.
+    weight_s : (n,) array
+        w: share of the amplitude per hertz, of integral 1.
+    response_m_per_vs : float
+        Root mean square over all points, times from 0 and channels of the response to 1 V s, at time 0 (it falls as exp(-t / tau)).
+    """
+
+    plate: Plate
+    frequency_hz: Floats
+    weight_s: Floats
+    response_m_per_vs: float
+
+    @classmethod
+    def of(cls, plate: Plate, driver: Driver, patch_m: float, band_hz: tuple[float, float], bit_clock_hz: float) -> FocalSpectrum:
+        """Spectrum by a square patch and its driver; waves come to it from all directions alike.
+
+        Parameters
+        ----------
+        patch_m : float
+            Edge length of a patch.
+        band_hz : (float, float)
+        bit_clock_hz : float
+            Of the words, whose length is a filter too.
+        """
+        frequency_hz: Floats = np.linspace(*band_hz, FREQUENCIES)
+        omega = 2 * np.pi * frequency_hz
+        wavenumber = _wavenumber(plate, frequency_hz)
+        turned = np.linspace(0, np.pi / 2, DIRECTIONS)
+        phase = np.multiply.outer(wavenumber, patch_m / (2 * np.pi) * np.array([np.cos(turned), np.sin(turned)]))
+        over_patch = np.mean(np.prod(np.sinc(phase), axis=1) ** 2, axis=1)
+        force = (driver.moment_n_per_v * wavenumber**2 * patch_m**2) ** 2 * over_patch
+        stage = np.abs(DriverResponse.of(driver).transfer(1j * omega)) ** 2 * np.sinc(frequency_hz / bit_clock_hz) ** 2
+        mass_kg = plate.density_kg_m3 * plate.thickness_m * plate.length_m * plate.width_m
+        power = force * stage * characteristic_time_s(plate) / (2 * (mass_kg * omega) ** 2)
+        whole = float(trapezoid(power, frequency_hz))
+        return cls(plate, frequency_hz, power / whole, whole**0.5)
+
+    @cached_property
+    def bandwidth_hz(self) -> float:
+        """Width of a flat band with as many modes in the focus."""
+        return 1 / float(trapezoid(self.weight_s**2, self.frequency_hz))
+
+    @cached_property
+    def crossings_hz(self) -> float:
+        """Edges a second of the sign of a random signal with this spectrum (Rice)."""
+        return 2 * math.sqrt(trapezoid(self.weight_s * self.frequency_hz**2, self.frequency_hz))
+
+    def amplitude_m(self, volts: float, channels: int, duration_s: float, decay_s: float) -> float:
+        """Amplitude of a focus by 1-bit drive of `volts` from its middle: the sum of |h|, normally distributed."""
+        gained_s = channels * decay_s * one_bit_share(duration_s, decay_s)
+        return float(volts * np.sqrt(2 / np.pi) * self.response_m_per_vs * gained_s)
+
+    def energy_j(self, amplitude_m: float) -> float:
+        """Energy of the modes that make up the focus at T, as eq. (6) means it, with this spectrum instead of its flat one."""
+        mass_kg = self.plate.density_kg_m3 * self.plate.thickness_m * self.plate.length_m * self.plate.width_m
+        squared = float(trapezoid((2 * np.pi * self.frequency_hz * self.weight_s) ** 2, self.frequency_hz))
+        return float(mass_kg / 2 * amplitude_m**2 * squared / characteristic_time_s(self.plate))
+
+    def width_m(self, height: float = 0.5) -> float:
+        """Full width of the spot at T where it is `height` of its crest; the -3 dB width at sqrt(1/2)."""
+        radius_m = np.linspace(0, 0.6 * 2 * np.pi / _wavenumber(self.plate, self.frequency_hz)[0], SAMPLED)
+        return 2 * _falls_to(height, radius_m, self._spot(radius_m))
+
+    def pulse_s(self) -> float:
+        """Time for which the focus is above half its height around T."""
+        time_s: Floats = np.linspace(0, 0.5 / self.frequency_hz[0], SAMPLED)
+        return 2 * _falls_to(0.5, time_s, self._sum(np.cos(np.multiply.outer(time_s, 2 * np.pi * self.frequency_hz))))
+
+    def share_within(self, radius_m: float) -> float:
+        """Share of the spot's mean square, over the infinite plate, that lies within `radius_m` of it."""
+        radii: Floats = np.linspace(0, radius_m, SAMPLED)
+        inside = 2 * np.pi * float(trapezoid(self._spot(radii) ** 2 * radii, radii))
+        area_m2 = self.plate.length_m * self.plate.width_m
+        return inside * self.bandwidth_hz * characteristic_time_s(self.plate) / area_m2
+
+    def mass_attenuation(self, finger_kg: float) -> float:
+        """Share of the peak that a point mass at the focus leaves, on an infinite plate: eq. (7) without its gate."""
+        impedance = point_impedance_kg_s(self.plate)
+        left = impedance / (impedance + 2j * np.pi * self.frequency_hz * finger_kg)
+        time_s = np.linspace(-0.5, 0.5, SAMPLED) / self.frequency_hz[0]  # the mass makes the peak late
+        turning = np.exp(np.multiply.outer(time_s, 2j * np.pi * self.frequency_hz))
+        return float(self._sum((left * turning).real).max())
+
+    def _spot(self, radius_m: Floats) -> Floats:
+        return self._sum(j0(np.multiply.outer(radius_m, _wavenumber(self.plate, self.frequency_hz))))
+
+    def _sum(self, of_frequencies: Floats) -> Floats:
+        """Sum with the weights over frequency, the last axis."""
+        summed: Floats = trapezoid(of_frequencies * self.weight_s, self.frequency_hz, axis=-1)
+        return summed
+
+
+def _wavenumber(plate: Plate, frequency_hz: Floats) -> Floats:
+    per_area = plate.density_kg_m3 * plate.thickness_m
+    wavenumber: Floats = np.sqrt(2 * np.pi * frequency_hz) * (per_area / bending_stiffness(plate)) ** 0.25
+    return wavenumber
+
+
+def _falls_to(height: float, at: Floats, values: Floats) -> float:
+    """Where `values`, from 1 on, first fall to `height`."""
+    after = int(np.argmax(values <= height))
+    return float(np.interp(-height, [-values[after - 1], -values[after]], [at[after - 1], at[after]]))

@@ -1,0 +1,1 @@
+"""Resonances of a plate: closed form and Ritz."""

@@ -1,0 +1,182 @@
+"""The plate over time (paper, fig. 6): displacement on a grid at evenly spaced times, from the state of all modes.
+
+The state of the modes goes from frame to frame (`modal_frames`); it is summed over modes as two matrix products a frame where
+shapes are products.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.bank.packing import channel_bits
+from controller.errors import ConfigError
+from controller.workshop.physics.field import map_axis
+from controller.workshop.physics.memory import BASE_BYTES, TABLE_BYTES, require
+from controller.workshop.physics.modes.modes import Modes
+from controller.workshop.physics.pictures.modal_frames import modal_frames
+from controller.workshop.physics.plate_twin import PlateTwin
+from controller.workshop.physics.responses.modal_history import STATES_AT_ONCE
+
+Floats = NDArray[np.float64]
+Frames = NDArray[np.float32]
+
+FRAMES = 151  # where no number is asked for
+PERIODS = 13.5  # of the band's middle before and after T, where no window is asked for: 0.3 ms
+MOST_FRAMES = 5000
+LARGEST = 1280  # points along the longer side
+WORKING_BYTES = 6 * 16.0 * STATES_AT_ONCE + 64e6  # states of poles, and frames that are not yet pictures
+
+
+@dataclass(frozen=True, eq=False)
+class Movie:
+    """What is shown, and how much it is.
+
+    Attributes
+    ----------
+    bits : (frame,) int array
+        Bits from the start of the emission at whose ends the plate is shown.
+    time_s : (frame,) array
+        The same from T.
+    x_m, y_m : (nx,), (ny,) array
+        Grid.
+    """
+
+    bits: NDArray[np.int64]
+    time_s: Floats
+    x_m: Floats
+    y_m: Floats
+
+    @classmethod
+    def of(
+        cls,
+        twin: PlateTwin,
+        from_s: float | None = None,
+        to_s: float | None = None,
+        step_s: float | None = None,
+        frames: int | None = None,
+    ) -> Movie:
+        """Frames of one emission; T is one of them.
+
+        Parameters
+        ----------
+        from_s, to_s : float, optional
+            Window from T; 0.3 ms before and after, in a band as the paper's. Before the emission the plate is at rest.
+        step_s : float, optional
+            From frame to frame, in whole bits; by default so that there are `frames`.
+        frames : int, optional
+            `FRAMES` by default.
+
+        Raises
+        ------
+        ConfigError
+            If the window does not contain T, or there are too many frames.
+        """
+        waveform = twin.board.waveform
+        period_s, samples = waveform.bit_period_s, waveform.samples
+        around_s = PERIODS * 2 / (waveform.band_low_hz + waveform.band_high_hz)
+        first_s = max(-around_s if from_s is None else from_s, (1 - samples) * period_s)
+        last_s = around_s if to_s is None else to_s
+        if not (first_s <= 0 <= last_s <= 10.0):  # NaN too
+            raise ConfigError(f"a movie from {first_s * 1e3:g} to {last_s * 1e3:g} ms does not show T = 0, or ends after 10 s")
+        wanted = FRAMES if frames is None else frames
+        if not 2 <= wanted <= MOST_FRAMES:
+            raise ConfigError(f"a movie of {wanted} frames: from 2 to {MOST_FRAMES}")
+        if step_s is None:
+            step = max(1, int(np.ceil((last_s - first_s) / period_s / (wanted - 1) - 1e-9)))
+        elif period_s * (1 - 1e-9) <= step_s <= last_s - first_s:
+            step = round(step_s / period_s)
+        else:
+            longest_us = (last_s - first_s) * 1e6
+            raise ConfigError(f"a step of {step_s * 1e6:g} us between frames: from {period_s * 1e6:g}, a bit, to {longest_us:g} us")
+        before, after = int(-first_s / period_s + 1e-9) // step, int(last_s / period_s + 1e-9) // step
+        if before + after + 1 > MOST_FRAMES:
+            raise ConfigError(
+                f"a movie of {before + after + 1} frames: at most {MOST_FRAMES}; take a longer step or a shorter window"
+            )
+        from_t = np.arange(-before, after + 1) * step
+        spacing_m = max(twin.scale.map_step_m / 4, max(twin.modes.length_m, twin.modes.width_m) / LARGEST)
+        axes = (map_axis(extent_m, spacing_m) for extent_m in (twin.modes.length_m, twin.modes.width_m))
+        time_s: Floats = from_t * np.float64(period_s)
+        return cls(samples - 1 + from_t, time_s, *axes)
+
+    def bytes(self, modes: Modes) -> float:
+        """Memory of a movie whose pictures are all kept until it is written, one byte a point."""
+        pictures = float(len(self.bits) * self.x_m.size * self.y_m.size)
+        of_modes = 8.0 * 80 * modes.count  # forces and shapes
+        return BASE_BYTES + TABLE_BYTES + WORKING_BYTES + of_modes + 2 * pictures
+
+    def frames(self, twin: PlateTwin, words: NDArray[np.uint32], memory_mb: float | None = None) -> Iterator[Frames]:
+        """Displacement in m of some frames after the others, (frame, ny, nx) each, in float32.
+
+        Parameters
+        ----------
+        words : (sample,) uint32 array
+            Played from rest at the idle word; the idle word follows.
+        memory_mb : float, optional
+            Memory that it may take.
+
+        Raises
+        ------
+        ConfigError
+            If it takes more.
+        """
+        require(
+            self.bytes(twin.modes), memory_mb, f"a movie of {len(self.bits)} frames of {self.x_m.size} x {self.y_m.size} points"
+        )
+        grid = PixelGrid.of(twin.modes, self.x_m, self.y_m)
+        for amplitudes in self.amplitudes(twin, words):
+            for first in range(0, len(amplitudes), grid.at_once):
+                yield grid.sum(amplitudes[first : first + grid.at_once])
+
+    def amplitudes(self, twin: PlateTwin, words: NDArray[np.uint32]) -> Iterator[Floats]:
+        """Displacement of each mode in m at the frames, some after the others: (frame, mode)."""
+        board = twin.board
+        played = np.full(int(self.bits[-1]) + 1, board.idle_word, np.uint32)
+        count = min(len(words), len(played))
+        played[:count] = words[:count]
+        idle = channel_bits(np.array([board.idle_word], "<u4")).astype(np.float64)
+        volts = (channel_bits(played.astype("<u4")) - idle) * board.driver.supply_v
+        every, first = int(self.bits[1] - self.bits[0]), int(self.bits[0])
+        yield from modal_frames(twin.step, twin.forces, volts, board.waveform.bit_period_s, every, first)
+
+
+@dataclass(frozen=True, eq=False)
+class PixelGrid:
+    """Sums over modes on a grid, for many frames at once."""
+
+    modes: Modes
+    x_m: Floats
+    y_m: Floats
+    along_x: Frames
+    along_y: Frames
+    at_once: int
+
+    @classmethod
+    def of(cls, modes: Modes, x_m: Floats, y_m: Floats) -> PixelGrid:
+        """Factors of the shapes on the grid, once for all frames."""
+        at_once = max(1, int(64e6 / (8 * x_m.size * y_m.size)))
+        if modes.factors is None:
+            return cls(modes, x_m, y_m, np.empty((0, 0), np.float32), np.empty((0, 0), np.float32), at_once)
+        along_x, along_y = modes.factors.along_x(x_m), modes.factors.along_y(y_m)
+        return cls(modes, x_m, y_m, along_x.astype(np.float32), along_y.astype(np.float32), at_once)
+
+    def sum(self, amplitudes: Floats) -> Frames:
+        """Displacement in m of frames with modal `amplitudes`, (frame, mode): (frame, ny, nx)."""
+        if self.modes.factors is None:
+            return np.stack([self.modes.on_grid(of_frame, self.x_m, self.y_m).astype(np.float32) for of_frame in amplitudes])
+        by_factors = self.by_factors(amplitudes)
+        rows = by_factors.reshape(-1, by_factors.shape[2]) @ self.along_x.T
+        frames: Frames = self.along_y @ rows.reshape(len(amplitudes), -1, self.x_m.size)
+        return frames
+
+    def by_factors(self, amplitudes: Floats) -> Frames:
+        """Amplitudes by the factors of their shapes: (frame, factor along y, factor along x)."""
+        factors = self.modes.factors
+        assert factors is not None
+        matrices = np.zeros((len(amplitudes), self.along_y.shape[1], self.along_x.shape[1]), np.float32)
+        matrices[:, factors.y_index, factors.x_index] = amplitudes
+        return matrices

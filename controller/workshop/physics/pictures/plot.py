@@ -1,0 +1,86 @@
+"""Pictures of a focus: the plate at T with fingers and actuators, and a cross-section (as the paper's fig. 6)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Rectangle
+
+from controller.device.board.board import Board
+from controller.errors import ConfigError
+from controller.workshop.physics.field import Field
+from controller.workshop.physics.pictures.focus_series import FocusSeries
+from controller.workshop.physics.pictures.plot_series import draw_series
+
+KINDS = (".png", ".svg", ".pdf")
+Point = tuple[float, float]
+
+
+def check_picture(path: Path) -> None:
+    """Refuse a picture that could not be written, before the work for it is done.
+
+    Raises
+    ------
+    ConfigError
+        If its folder does not exist or is not writable, or its suffix is none of `KINDS`.
+    """
+    if path.suffix not in KINDS:
+        raise ConfigError(f"{path}: a picture is {' or '.join(KINDS)}, by the ending of its name")
+    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise ConfigError(f"{path}: the picture cannot be written there")
+
+
+def plot_focus(
+    path: Path, board: Board, field: Field, foci: Sequence[Point], title: str, series: FocusSeries | None = None
+) -> None:
+    """Draw the field to a PNG, SVG or PDF file.
+
+    Parameters
+    ----------
+    foci : sequence of (x_m, y_m)
+        Where the fingers are; the first one gets the cross-section along x.
+    series : FocusSeries, optional
+        Drawn beside the plate: what happens over time at the first focus.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be written.
+    """
+    x, y, u = field.map(field.scale.map_step_m / 4)
+    u_um = u * 1e6
+    across_m = np.linspace(0, board.plate.length_m, 2101)
+    section_y_m = foci[0][1]
+    section_um = field.at(np.column_stack([across_m, np.full_like(across_m, section_y_m)])) * 1e6
+    largest = float(abs(u_um).max()) or 1.0
+
+    figure = Figure(figsize=(8 if series is None else 14, 8.2), layout="constrained")
+    left: Any = figure
+    if series is not None:
+        halves = figure.add_gridspec(1, 2, width_ratios=[8, 6])
+        left = figure.add_subfigure(halves[0])
+        draw_series(figure.add_subfigure(halves[1]), board, series)
+    above, below = left.subplots(2, 1, height_ratios=[2.4, 1], sharex=True)
+    picture = above.pcolormesh(
+        x * 1e3, y * 1e3, u_um, cmap="RdBu_r", vmin=-largest, vmax=largest, shading="nearest", rasterized=True
+    )
+    left.colorbar(picture, ax=above, label="displacement at T (µm)")
+    for actuator in board.actuators:
+        corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
+        above.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))
+    for focus_x_m, focus_y_m in foci:
+        above.add_patch(Circle((focus_x_m * 1e3, focus_y_m * 1e3), field.scale.circle_m * 1e3, fill=False, color="black", lw=1.2))
+    above.axhline(section_y_m * 1e3, color="black", lw=0.6, ls=":")
+    above.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), ylabel="y (mm)", title=title)
+    below.plot(across_m * 1e3, section_um, color="black", lw=0.9)
+    below.axhline(0, color="0.7", lw=0.6)
+    below.set(xlabel="x (mm)", ylabel="displacement (µm)", title=f"cross-section at y = {section_y_m * 1e3:.1f} mm")
+    try:
+        figure.savefig(path, dpi=120)
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error

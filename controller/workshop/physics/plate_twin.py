@@ -1,0 +1,299 @@
+"""The plate twin: displacement of the plate, computed from the recorded pin changes of the FPGA.
+
+Its only input is pin changes with their ticks, not banks, frames or waveforms. Each change is a step of
+voltage on some channels, and the response to a step is a sum of exponentials (`step_response`), so the
+state at any tick is an exact superposition, starting at 0 V and at rest at tick 0: it includes the arming
+ramp and the decay of earlier emissions.
+
+Pin changes are divided into groups at focus ticks and wherever nothing changes for 16 bit periods. The
+state that a group adds depends only on its words and their spacing, so equal groups are computed once.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.bank.packing import channel_bits
+from controller.device.board.board import Board
+from controller.device.board.panel import CHANNELS
+from controller.device.fpga.capture import Capture
+from controller.workshop.physics.field import Field, FocusScale
+from controller.workshop.physics.focusing import balanced_weights, focus
+from controller.workshop.physics.memory import TABLE_BYTES
+from controller.workshop.physics.modes.modes import Modes
+from controller.workshop.physics.modes.plate_modes import modes_of
+from controller.workshop.physics.responses.driver import DriverResponse
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
+
+Floats = NDArray[np.float64]
+Reals = NDArray[np.floating[Any]]
+Complex = NDArray[np.complex128]
+Point = tuple[float, float]
+
+GAP_BITS = 16
+MAX_GROUP_BITS = 1024
+POLES_AT_ONCE = 512  # 25 MB of exponentials
+
+
+class GroupState(NamedTuple):
+    """State that a group of steps adds by the tick of its last step: amplitudes of plate poles (pole,) and driver poles (2, 32)."""
+
+    plate: Complex
+    driver: Complex
+
+
+@dataclass
+class Work:
+    """How many groups were computed and how many were known already."""
+
+    groups_computed: int = 0
+    groups_reused: int = 0
+
+
+class PlateTwin:
+    """A simulated plate behind 32 pins.
+
+    Parameters
+    ----------
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
+    remembered : int
+        Groups kept (0.1 MB each); the one not used for longest goes first.
+    modes : Modes, optional
+        In place of those of the board's plate.
+
+    Attributes
+    ----------
+    scale : FocusScale
+        Where foci are measured.
+    work : Work
+        Counters.
+    """
+
+    def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256, modes: Modes | None = None) -> None:
+        self.board = board
+        self.modes = modes_of(board, highest_hz) if modes is None else modes
+        self.step = StepResponse.of(self.modes, DriverResponse.of(board.driver))
+        self.forces = channel_forces(board, self.modes)
+        self.scale = FocusScale.of(board)
+        self.work = Work()
+        self._remembered = remembered
+        self._group_states: OrderedDict[bytes, GroupState] = OrderedDict()
+        self._table: Floats | None = None
+        self._exact: dict[tuple[Point, ...], Floats] = {}
+        self._pole_forces = np.ascontiguousarray(self.forces[self.step.mode_of_pole])
+
+    @cached_property
+    def responses(self) -> ResponseModel:
+        """Responses of the same plate, which its own way from pins to displacement does not use."""
+        return ResponseModel(self.board, modes=self.modes)
+
+    def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
+        """Displacement of the plate at every focus tick, relative to rest at the board's idle word.
+
+        Parameters
+        ----------
+        capture : Capture
+            From tick 0 on, everything low before its first change.
+        clock_hz : float
+            Of the ticks.
+
+        Yields
+        ------
+        Field
+            In the order of `focus_ticks`. A step at the focus tick itself counts as after it.
+        """
+        ticks = capture.ticks.astype(np.int64)
+        words = np.zeros(len(ticks) + 1, np.uint32)  # step i goes from words[i] to words[i + 1]
+        np.copyto(words[1:], capture.words, where=capture.hv != 0)
+        focus_ticks = capture.focus_ticks.astype(np.int64)
+        bit_ticks = clock_hz * self.board.waveform.bit_period_s
+        cuts = _cuts(ticks, focus_ticks, bit_ticks)
+        idle = self._volts(np.array([self.board.idle_word], np.uint32))[0]
+        plate, driver = np.zeros(self.step.poles.size, np.complex128), np.zeros((2, CHANNELS), np.complex128)
+        now = group = 0
+        early, early_driver, early_end = 0, driver, 0  # tick and state of the drivers after the first `early_end` steps
+        around_ticks = self.scale.around_s[-1] * clock_hz
+        for focus_tick in focus_ticks.tolist():
+            if now <= focus_tick - around_ticks and group:
+                early, early_driver, early_end = now, driver, cuts[group]
+            end = int(np.searchsorted(ticks, focus_tick, side="left"))
+            while group + 1 < len(cuts) and cuts[group + 1] <= end:
+                first, after = cuts[group], cuts[group + 1]
+                state = self._group_state(ticks[first:after], words[first : after + 1], bit_ticks)
+                passed = (int(ticks[after - 1]) - now) / clock_hz
+                plate = plate * np.exp(self.step.poles * passed) + state.plate
+                driver = driver * np.exp(self.step.driver_poles * passed)[:, None] + state.driver
+                now = int(ticks[after - 1])
+                group += 1
+                if now <= focus_tick - around_ticks:
+                    early, early_driver, early_end = now, driver, after
+            passed = (focus_tick - now) / clock_hz
+            settling = driver * np.exp(self.step.driver_poles * passed)[:, None]
+            near, beyond = np.searchsorted(ticks, [focus_tick - around_ticks, focus_tick + around_ticks]).tolist()
+            ago_s = np.maximum(focus_tick - around_ticks - np.append(early, ticks[early_end:near]), 0) / clock_hz
+            forgot = np.exp(np.outer(self.step.driver_poles, ago_s))
+            at_first = forgot[:, :1] * early_driver + forgot[:, 1:] @ np.diff(self._volts(words[early_end : near + 1]), axis=0)
+            yield Field(
+                modes=self.modes,
+                step=self.step,
+                pole_amplitudes=plate * np.exp(self.step.poles * passed),
+                driver_amplitudes=self.step.driver_residues * (self.forces @ settling.T),
+                level=self.step.static * (self.forces @ (self._volts(words[end : end + 1])[0] - idle)),
+                near_s=(ticks[near:beyond] - focus_tick) / clock_hz,
+                near_force=self.forces @ np.diff(self._volts(words[near : beyond + 1]), axis=0).T,
+                early_driver_amplitudes=self.step.driver_residues * (self.forces @ at_first.T),
+                scale=self.scale,
+            )
+
+    def reference_amplitude(self, x_m: float, y_m: float) -> float:
+        """A_ref in m: amplitude at (x_m, y_m) of one emission of the sign of that point's band-limited response, in float64."""
+        return float(self.exact_amplitudes(((x_m, y_m),))[0])
+
+    def exact_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
+        """Amplitude in m of each of `points_m` when all are composed exactly at full amplitude: (point,).
+
+        As `reference_amplitude`, with the sign of the sum of all points' responses with `balanced_weights`; the absolute
+        values of the displacements, since the polarities of points are free.
+        """
+        if points_m not in self._exact:
+            places = np.array(points_m)
+            in_band = self.responses.drive_order_responses(places, dtype=np.float64)
+            whole = self.responses.responses(places)[:, ::-1]
+            self._exact[points_m] = np.abs(self._amplitudes_of(in_band, balanced_weights(in_band), whole))
+            for index, point in enumerate(points_m):  # computing the responses takes the time, so keep each point alone too
+                alone = slice(index, index + 1)
+                self._exact.setdefault((point,), np.abs(self._amplitudes_of(in_band[alone], np.ones(1), whole[alone])))
+        return self._exact[points_m]
+
+    def full_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
+        """What amplitude 1 means at each of `points_m` when less is asked of some, in m: (point,).
+
+        For one point its `reference_amplitude`. For several, the same share for all of what each gets alone in the band: the
+        largest that all can have. What bits do outside the band, which depends on the polarities of all points, is left out.
+        """
+        if len(points_m) == 1:
+            return self.exact_amplitudes(points_m)
+        in_band = self.responses.drive_order_responses(np.array(points_m), dtype=np.float64)
+        weights, sizes = balanced_weights(in_band), np.abs(in_band).sum(axis=(1, 2))
+        share = np.abs(np.tensordot(weights, in_band, 1)).sum() / (np.abs(weights) * sizes).sum()
+        levels: Floats = share * sizes * self.board.driver.supply_v / 2
+        return levels
+
+    def _amplitudes_of(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
+        """Displacement at each point by the words that weighted responses give, from rest at the idle word."""
+        words = focus(in_band, weights.tolist(), self.board.idle_word)
+        above_idle = self._volts(words) - self._volts(np.array([self.board.idle_word], np.uint32))
+        reached = whole.reshape(len(whole), -1) @ above_idle.ravel()
+        return reached.astype(np.float64, copy=False)
+
+    def _group_state(self, ticks: NDArray[np.int64], words: NDArray[np.uint32], bit_ticks: float) -> GroupState:
+        """State that a group adds; `words` has one more than `ticks`, the one before the first step."""
+        key = (ticks - ticks[0]).tobytes() + words.tobytes()
+        known = self._group_states.get(key)
+        if known is not None:
+            self._group_states.move_to_end(key)
+            self.work.groups_reused += 1
+            return known
+        self.work.groups_computed += 1
+        state = self._superpose((ticks[-1] - ticks) / bit_ticks, np.diff(self._volts(words), axis=0))
+        self._group_states[key] = state
+        if len(self._group_states) > self._remembered:
+            self._group_states.popitem(last=False)
+        return state
+
+    def _superpose(self, ago_bits: Floats, steps: Floats) -> GroupState:
+        """Sum the steps of a group, each as old as `ago_bits` bit periods at the group's last step."""
+        period = self.board.waveform.bit_period_s
+        whole = np.rint(ago_bits).astype(np.int64)
+        count = self.step.poles.size
+        if np.array_equal(whole, ago_bits) and whole[0] < MAX_GROUP_BITS:
+            spread = np.zeros((int(whole[0]) + 1, CHANNELS))
+            spread[whole] = steps
+            table = self._decay_table()
+            if table is not None:
+                summed = (table[:, : len(spread)] @ spread).reshape(2, count, CHANNELS)
+                rung = np.einsum("pq,rpq->rp", self._pole_forces, summed)
+            else:
+                rung = self._rung(np.arange(float(len(spread))) * period, spread)
+        else:
+            rung = self._rung(ago_bits * period, steps)
+        plate = (rung[0] + 1j * rung[1]) * self.step.residues
+        return GroupState(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
+
+    def _volts(self, words: NDArray[np.uint32]) -> Floats:
+        """Voltage of each channel's stage: (word, 32)."""
+        return channel_bits(words).astype(np.float64) * self.board.driver.supply_v
+
+    def _rung(self, ago_s: Floats, steps: Floats) -> Floats:
+        """Sum of steps of voltage, (step, 32), each as old as `ago_s`, over channels: real and imaginary part of each pole."""
+        rung = np.empty((2, self.step.poles.size))
+        for first in range(0, self.step.poles.size, POLES_AT_ONCE):
+            some = slice(first, first + POLES_AT_ONCE)
+            decay = np.exp(np.outer(self.step.poles[some], ago_s))
+            for part, of_poles in zip(rung, (decay.real, decay.imag), strict=True):
+                part[some] = np.einsum("pq,pq->p", self._pole_forces[some], of_poles @ steps)
+        return rung
+
+    def _decay_table(self) -> Floats | None:
+        """exp(pole * n bit periods), real parts above imaginary parts, (2 * pole, n); None if it would be too large."""
+        count = self.step.poles.size
+        if self._table is None and 16.0 * count * MAX_GROUP_BITS <= TABLE_BYTES:
+            times = np.arange(MAX_GROUP_BITS) * self.board.waveform.bit_period_s
+            table = np.empty((2 * count, MAX_GROUP_BITS))
+            for first in range(0, count, POLES_AT_ONCE):
+                last = min(first + POLES_AT_ONCE, count)
+                decay = np.exp(np.outer(self.step.poles[first:last], times))
+                table[first:last], table[count + first : count + last] = decay.real, decay.imag
+            self._table = table
+        return self._table
+
+
+def _cuts(ticks: NDArray[np.int64], focus_ticks: NDArray[np.int64], bit_ticks: float) -> list[int]:
+    """First changes of the groups, and the number of changes."""
+    quiet = np.flatnonzero(np.diff(ticks) >= GAP_BITS * bit_ticks) + 1
+    wanted = {0, len(ticks), *quiet.tolist(), *np.searchsorted(ticks, focus_ticks, side="left").tolist()}
+    cuts: list[int] = []
+    for cut in sorted(wanted):
+        while cuts and ticks[cut - 1] - ticks[cuts[-1]] >= MAX_GROUP_BITS * bit_ticks:
+            cuts.append(int(np.searchsorted(ticks, ticks[cuts[-1]] + MAX_GROUP_BITS * bit_ticks, side="left")))
+        cuts.append(int(cut))
+    return cuts
+
+
+def capture_of_words(
+    words: NDArray[np.uint32], bit_ticks: int, idle_word: int, start_tick: int, period_ticks: int = 0, repetitions: int = 1
+) -> Capture:
+    """Pins that idle from tick 0 on and play `words` from `start_tick` on, without an FPGA.
+
+    Parameters
+    ----------
+    words : (sample,) uint32 array
+    bit_ticks : int
+        Ticks for which a word is held.
+    period_ticks : int
+        Start to start, if there is more than one repetition; between emissions the pins hold `idle_word`.
+    """
+    starts = start_tick + np.arange(repetitions) * period_ticks
+    length = len(words) * bit_ticks
+    emission = np.arange(len(words) + 1) * bit_ticks
+    ticks = np.concatenate([[0], (starts[:, None] + emission).ravel()])
+    played = np.concatenate([[idle_word], np.tile(np.append(words, np.uint32(idle_word)), repetitions)]).astype(np.uint32)
+    last = np.append(ticks[1:] != ticks[:-1], True)  # back to back, the next emission's first word counts
+    ticks, played = ticks[last], played[last]
+    changed = np.append(played[0] != 0, played[1:] != played[:-1])
+    ticks, played = ticks[changed], played[changed]
+    return Capture(
+        ticks=ticks.astype(np.uint64),
+        words=played,
+        hv=np.ones(len(played), np.uint8),
+        focus_ticks=(starts + length).astype(np.uint64),
+    )

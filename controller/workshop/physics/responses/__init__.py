@@ -1,0 +1,1 @@
+"""Responses of a plate to a bit of drive voltage."""

@@ -1,0 +1,216 @@
+"""Impulse responses h[point, sample, channel]: the responses of the modes summed at many points, as one GEMM.
+
+Points of a grid go by rows (`row_responses`) if the shapes of the modes are products, any others by the sum over all modes.
+Sample j is the displacement (j + 1) bit periods after the start of a pulse of one bit period (`modal_response`).
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from controller.device.bank.file_format import REST_SAMPLES
+from controller.device.bank.provenance import Provenance
+from controller.device.board.board import Board
+from controller.device.board.panel import CHANNELS
+from controller.workshop.physics.modes.modes import Modes, slowest_decay_s
+from controller.workshop.physics.modes.plate_modes import in_words, modes_of
+from controller.workshop.physics.responses.driver import DriverResponse
+from controller.workshop.physics.responses.modal_response import band_limited_response, modes_at_once, pulse_response
+from controller.workshop.physics.responses.row_responses import RowResponses, flops_in_rows, in_rows
+from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
+
+Floats = NDArray[np.float64]
+POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough to stay in the cache
+
+
+class ResponseModel:
+    """Responses of any point of a board's plate, from its modes: a `ResponseSource`.
+
+    Parameters
+    ----------
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
+    modes : Modes, optional
+        In place of those of the board's plate.
+
+    Attributes
+    ----------
+    forces : (mode, 32) array
+        N per V.
+    """
+
+    def __init__(self, board: Board, highest_hz: float | None = None, modes: Modes | None = None) -> None:
+        self.plate_modes = modes_of(board, highest_hz) if modes is None else modes
+        self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
+        self.forces = channel_forces(board, self.plate_modes)
+        self.provenance = Provenance("modelled", in_words(board, self.plate_modes))
+        waveform = board.waveform
+        self.bit_clock_hz = waveform.bit_clock_hz
+        self.samples = waveform.samples
+        self._bit_period_s = waveform.bit_period_s
+        self._band_hz = waveform.band_low_hz, waveform.band_high_hz
+        self._decay_time_s = slowest_decay_s(self.plate_modes)
+        self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
+        self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
+        self._workspaces: dict[tuple[str, int], tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
+
+    @cached_property
+    def modal(self) -> Floats:
+        """Response of each mode to a pulse of one bit period, in m per N: (mode, sample)."""
+        return self._modal(slice(0, self.modes), band_limited=False)
+
+    @cached_property
+    def modal_band(self) -> Floats:
+        """The same, band-limited."""
+        return np.concatenate([self._modal(some, band_limited=True) for some in self._blocks()])
+
+    def _modal(self, some: slice, *, band_limited: bool) -> Floats:
+        """Responses of some modes: (mode, sample)."""
+        step = self.step.part(some)
+        if not band_limited:
+            return pulse_response(step, self._bit_period_s, self.samples)
+        return band_limited_response(step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
+
+    def _blocks(self) -> list[slice]:
+        """Modes in blocks whose responses are computed at once."""
+        at_once = modes_at_once(self.step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
+        return [slice(first, min(first + at_once, self.modes)) for first in range(0, self.modes, at_once)]
+
+    @property
+    def plate_m(self) -> tuple[float, float]:
+        """Extent of the plate along x and y."""
+        return self.plate_modes.length_m, self.plate_modes.width_m
+
+    @property
+    def modes(self) -> int:
+        """Number of modes in every response."""
+        return self.plate_modes.count
+
+    def responses(
+        self,
+        points_m: ArrayLike,
+        *,
+        band_limited: bool = False,
+        dtype: DTypeLike = np.float64,
+        out: NDArray[np.floating[Any]] | None = None,
+    ) -> NDArray[np.floating[Any]]:
+        """Responses in the order of time.
+
+        Parameters
+        ----------
+        points_m : (point, 2) array
+            x and y in m.
+        band_limited : bool
+            The waveform's band only, zero phase.
+        out : (point, sample, 32) array of `dtype`, optional
+            Filled and returned.
+
+        Returns
+        -------
+        (point, sample, 32) array
+            m per V held for one bit period; zero for channels without an actuator.
+
+        Raises
+        ------
+        ValueError
+            If `out` has another shape or type.
+        """
+        return self._responses(points_m, self._kernel(np.dtype(dtype), band_limited=band_limited), out)
+
+    def drive_order_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """Band-limited responses reversed in time: sample n belongs to drive word n, and sum(v * response) is u at T.
+
+        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`.
+        """
+        return self._responses(points_m, self._kernel(np.dtype(dtype), band_limited=True, reverse=True), out)
+
+    def entry_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """`drive_order_responses`, followed by what they leave out: responses outside the band, as means over 4 samples.
+
+        With the latter the displacement that bits give at a point is known to 1 %, not only in the band.
+
+        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 4 samples; what
+        the last row has beyond the last sample is zero.
+        """
+        return self._responses(points_m, self.entry_kernel(dtype), out)
+
+    def entry_kernel(self, dtype: DTypeLike = np.float32) -> NDArray[np.floating[Any]]:
+        """What `entry_responses` multiplies with, (sample and row, mode), computed with the first call."""
+        kind = np.dtype(dtype)
+        key = ("entry", kind.str)
+        if key not in self._kernels:
+            rows = -(-self.samples // REST_SAMPLES)
+            kernel = np.empty((self.samples + rows, self.modes), kind)
+            for some in self._blocks():
+                in_band = self._modal(some, band_limited=True)
+                outside = np.zeros((len(in_band), rows * REST_SAMPLES))
+                outside[:, : self.samples] = (self._modal(some, band_limited=False) - in_band)[:, ::-1]
+                kernel[: self.samples, some] = in_band[:, ::-1].T
+                kernel[self.samples :, some] = outside.reshape(len(in_band), rows, REST_SAMPLES).mean(axis=2).T
+            self._kernels[key] = kernel
+        return self._kernels[key]
+
+    def entry_flops(self, points_m: NDArray[np.float64]) -> float:
+        """Additions and multiplications that `entry_responses` needs for `points_m`, (point, 2)."""
+        rows = self.samples + -(-self.samples // REST_SAMPLES)
+        if (factors := self.plate_modes.factors) is not None and in_rows(points_m):
+            return flops_in_rows(factors, rows, points_m)
+        return 2.0 * len(points_m) * self.modes * rows * CHANNELS
+
+    def _kernel(self, dtype: np.dtype[Any], *, band_limited: bool, reverse: bool = False) -> NDArray[np.floating[Any]]:
+        """Modal responses as the (sample, mode) factor of the GEMM; kept."""
+        key = (f"{band_limited} {reverse}", dtype.str)
+        if key not in self._kernels:
+            kernel = np.empty((self.samples, self.modes), dtype)
+            for some in self._blocks():
+                modal = self._modal(some, band_limited=band_limited)
+                kernel[:, some] = (modal[:, ::-1] if reverse else modal).T
+            self._kernels[key] = kernel
+        return self._kernels[key]
+
+    def _responses(
+        self, points_m: ArrayLike, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]] | None
+    ) -> NDArray[np.floating[Any]]:
+        points = np.asarray(points_m, np.float64).reshape(-1, 2)
+        shape = (len(points), len(kernel), CHANNELS)
+        if out is None:
+            out = np.empty(shape, kernel.dtype)
+        if out.shape != shape or out.dtype != kernel.dtype:
+            raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
+        if (factors := self.plate_modes.factors) is not None and in_rows(points) and out.flags.c_contiguous:
+            if id(kernel) not in self._rows:
+                self._rows[id(kernel)] = RowResponses(factors, self.forces, kernel)
+            self._rows[id(kernel)].fill(points, out)
+        else:
+            self._responses_anywhere(points, kernel, out)
+        return out
+
+    def _responses_anywhere(self, points: Floats, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]]) -> None:
+        """Fill `out` with the sum over all modes at each point: one GEMM for 16 points."""
+        forces, driven, product = self._workspace(kernel)
+        for first in range(0, len(points), POINTS_PER_GEMM):
+            some = points[first : first + POINTS_PER_GEMM]
+            columns = len(some) * CHANNELS
+            np.multiply(self.plate_modes.shapes(some, kernel.dtype)[:, None, :], forces, out=driven[: len(some)])
+            result = product[: len(kernel) * columns].reshape(len(kernel), columns)
+            np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
+            out[first : first + len(some)] = result.reshape(len(kernel), len(some), CHANNELS).swapaxes(0, 1)
+
+    def _workspace(self, kernel: NDArray[np.floating[Any]]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+        """Forces (32, mode), modal forces at points (point, 32, mode) and room for a product; kept."""
+        key = (kernel.dtype.str, len(kernel))
+        if key not in self._workspaces:
+            self._workspaces[key] = (
+                np.ascontiguousarray(self.forces.T, kernel.dtype),
+                np.empty((POINTS_PER_GEMM, CHANNELS, self.modes), kernel.dtype),
+                np.empty(len(kernel) * POINTS_PER_GEMM * CHANNELS, kernel.dtype),
+            )
+        return self._workspaces[key]

@@ -1,0 +1,58 @@
+"""Where the responses of a bank come from: a model, measurements, or measurements completed by a model."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from controller.device.bank.provenance import Provenance, SourceFile
+
+__all__ = ["Provenance", "ResponseSource", "SourceFile"]
+
+
+class ResponseSource(Protocol):
+    """Responses of any point of a board's plate."""
+
+    @property
+    def provenance(self) -> Provenance:
+        """Where they come from."""
+
+    @property
+    def samples(self) -> int:
+        """Samples of a response: those of an emission."""
+
+    @property
+    def bit_clock_hz(self) -> float:
+        """Rate of the samples."""
+
+    @property
+    def plate_m(self) -> tuple[float, float]:
+        """Extent along x and y of the plate that they are of."""
+
+    def responses(
+        self,
+        points_m: ArrayLike,
+        *,
+        band_limited: bool = False,
+        dtype: DTypeLike = np.float64,
+        out: NDArray[np.floating[Any]] | None = None,
+    ) -> NDArray[np.floating[Any]]:
+        """Responses at `points_m`, (point, 2) in m, in the order of time: (point, sample, 32), m per V held for one bit period.
+
+        Sample j is the displacement (j + 1) bit periods after the start of the pulse. Zero for channels without an actuator.
+        """
+
+    def drive_order_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """`responses`, band-limited and reversed in time: sample n belongs to drive word n, and sum(v * response) is u at T."""
+
+    def entry_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """What a bank keeps: `drive_order_responses`, then what the band leaves out as means over `REST_SAMPLES`.
+
+        (point, sample + row of rest, 32).
+        """

@@ -1,0 +1,1 @@
+"""Where releases are made and signed: keys, drafts, repositories, wheels."""

@@ -1,0 +1,192 @@
+"""What the owner of a repository publishes, each as a draft that waits for signatures: first root, releases, keys, longer life."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from pathlib import Path
+from typing import Any, Final
+
+import msgspec
+from tuf.api.metadata import Key, Metadata, MetaFile, Root, Snapshot, TargetFile, Targets, Timestamp
+
+from controller.device.update.layout import MANIFEST
+from controller.device.update.manifest import Channel, Manifest, read_manifest
+from controller.errors import UpdateError
+from controller.workshop.publish.keys import owner
+from controller.workshop.publish.publisher import LIFE, LOCK, ROLES, Repository, issue
+from controller.workshop.publish.release_folder import banks, digest_of, read_release
+from controller.workshop.publish.repository_files import content_of, put
+
+THRESHOLD_ROLES: Final = ("root", "targets")  # a threshold of several people; the others say only what is the newest
+CHANNEL: Final = re.compile("[0-9a-z-]{1,32}")  # as in the settings of devices
+LEFT_OVERS: Final = frozenset({"targets", ".draft.new", LOCK})  # of an `init` that was interrupted
+
+
+def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], threshold: int, now: datetime) -> None:
+    """Draft a repository without releases.
+
+    Parameters
+    ----------
+    keys : mapping
+        Of each role.
+    threshold : int
+        How many people must sign what is root and targets.
+
+    Raises
+    ------
+    UpdateError
+        If there is a repository already, or fewer keys than the threshold.
+    """
+    if others := {path.name for path in repository.folder.iterdir()} - LEFT_OVERS:
+        raise UpdateError(f"{repository.folder}: holds {min(others)} already: name a new folder, or an empty one")
+    root = Root(version=1, expires=now + LIFE["root"], consistent_snapshot=True)
+    for role in ROLES:
+        root.roles[role].threshold = threshold if role in THRESHOLD_ROLES else 1
+        for key in keys[role]:
+            root.add_key(key, role)
+    check_thresholds(root)
+    first = {
+        "root": root,
+        "targets": Targets(version=1, expires=now + LIFE["targets"]),
+        "snapshot": Snapshot(version=1, expires=now + LIFE["snapshot"]),
+        "timestamp": Timestamp(version=1, expires=now + LIFE["timestamp"]),
+    }
+    for signed in first.values():
+        issue(signed, now)
+    repository.targets.mkdir(exist_ok=True)
+    repository.begin({role: Metadata(signed) for role, signed in first.items()})
+
+
+def draft_releases(repository: Repository, folders: Sequence[Path], channel: str, now: datetime) -> list[Manifest]:
+    """Put releases into a channel.
+
+    Parameters
+    ----------
+    folders : sequence of Path
+        Releases as `make-release` made them, such as one for each platform.
+
+    Raises
+    ------
+    UpdateError
+        If a release was altered, its counter is not larger than that of the release it follows, or its version is taken.
+    """
+    repository.must_have_no_draft()
+    if not CHANNEL.fullmatch(channel):
+        raise UpdateError(f"channel {channel!r}: is no name of a channel: lower-case letters, digits and -, at most 32")
+    targets = _changed(repository, now)
+    known: dict[str, TargetFile] = targets["targets"].signed.targets
+    offered = dict(_channel(repository, known, channel).releases)
+    manifests = []
+    for folder in folders:
+        manifest = read_release(folder)
+        _check_follows(repository, known, offered, manifest, folder)
+        for file in manifest.files:
+            put(repository, known, folder / file.path, TargetFile(file.size_bytes, {"sha256": file.sha256}, file.target))
+        for bank in banks(manifest):
+            index = folder / bank.index_target
+            put(repository, known, index, TargetFile.from_file(bank.index_target, str(index), ["sha256"]))
+        put(repository, known, folder / MANIFEST, TargetFile.from_file(manifest.target, str(folder / MANIFEST), ["sha256"]))
+        offered[manifest.platform] = manifest.target
+        manifests.append(manifest)
+    data = msgspec.json.format(msgspec.json.encode(Channel(releases=offered), order="sorted"), indent=1) + b"\n"
+    put(repository, known, data, TargetFile.from_data(Channel.target(channel), data, ["sha256"]))
+    repository.begin(targets)
+    return manifests
+
+
+def draft_keys(
+    repository: Repository,
+    add: Mapping[str, Sequence[Key]],
+    drop: Mapping[str, Sequence[Key]],
+    threshold: int | None,
+    now: datetime,
+) -> None:
+    """Change whose keys count; the new root is signed by enough of the old keys and enough of the new ones.
+
+    Raises
+    ------
+    UpdateError
+        If a key to drop does not count, or fewer keys than the threshold would be left.
+    """
+    repository.must_have_no_draft()
+
+    def edit(root: Root) -> None:
+        for role in ROLES:
+            for key in drop.get(role, ()):
+                if key.keyid not in root.roles[role].keyids:
+                    raise UpdateError(
+                        f"{repository.folder}: the key of {owner(key)} does not count for {role}: it cannot be dropped"
+                    )
+                root.revoke_key(key.keyid, role)
+            for key in add.get(role, ()):
+                root.add_key(key, role)
+            if threshold is not None and role in THRESHOLD_ROLES:
+                root.roles[role].threshold = threshold
+        check_thresholds(root)
+
+    roles = _changed(repository, now)  # what an old key has signed is signed again
+    repository.begin({"root": repository.changed("root", now, edit), **roles})
+
+
+def draft_renewal(repository: Repository, now: datetime) -> None:
+    """Draft a longer life of the timestamp, and of what has lived for more than half of its own."""
+    repository.must_have_no_draft()
+    roles = {role: repository.changed(role, now) for role in ROLES}
+    old = {role for role in ROLES if (found := repository.published(role)) and found.signed.expires - now < LIFE[role] / 2}
+    renewed: dict[str, Metadata[Any]] = {role: roles[role] for role in ROLES if role == "timestamp" or role in old}
+    if "targets" in renewed or "snapshot" in renewed:
+        renewed |= _changed(repository, now, targets="targets" in renewed)
+    repository.begin(renewed)
+
+
+def check_thresholds(root: Root) -> None:
+    """Check that each role has keys enough.
+
+    Raises
+    ------
+    UpdateError
+        If one has not.
+    """
+    for role, wanted in root.roles.items():
+        if not 1 <= wanted.threshold <= len(wanted.keyids):
+            people = f"{wanted.threshold} people are to sign, but {len(wanted.keyids)} keys are given"
+            raise UpdateError(f"{role}: {people}: give more, or another --threshold")
+
+
+def _changed(repository: Repository, now: datetime, *, targets: bool = True) -> dict[str, Metadata[Any]]:
+    """The next version of targets (or the same), and what points to it."""
+    known = repository.published("targets")
+    made: dict[str, Metadata[Any]] = {"targets": repository.changed("targets", now)} if targets else {}
+    version = made["targets"].signed.version if targets else known.signed.version if known else 0
+    snapshot = repository.changed("snapshot", now)
+    snapshot.signed.meta["targets.json"] = MetaFile(version)
+    timestamp = repository.changed("timestamp", now)
+    timestamp.signed.snapshot_meta = MetaFile(snapshot.signed.version)
+    return made | {"snapshot": snapshot, "timestamp": timestamp}
+
+
+def _channel(repository: Repository, known: Mapping[str, TargetFile], name: str) -> Channel:
+    """What a channel offers now."""
+    target = known.get(Channel.target(name))
+    return msgspec.json.decode(content_of(repository, target), type=Channel) if target else Channel(releases={})
+
+
+def _check_follows(
+    repository: Repository, known: Mapping[str, TargetFile], offered: Mapping[str, str], manifest: Manifest, folder: Path
+) -> None:
+    """Check that a release may follow what a channel offers."""
+    taken = known.get(manifest.target)
+    if taken and taken.hashes["sha256"] != digest_of(folder / MANIFEST)[0]:
+        raise UpdateError(
+            f"{folder}: version {manifest.version} for {manifest.platform} is published with other files: give it another version"
+        )
+    if manifest.platform in offered:
+        path = offered[manifest.platform]
+        before = read_manifest(content_of(repository, known[path]), path)
+        if manifest.counter <= before.counter:
+            which = (
+                f"its counter {manifest.counter} is not larger than {before.counter} of version {before.version}, which is offered"
+            )
+            raise UpdateError(f"{folder}: {which}: make the release with --counter {before.counter + 1} or more")

@@ -1,0 +1,175 @@
+"""A run on the simulated panel: a recording through the event loop, against the gateware model or the compiled Verilog.
+
+What the foci of a run were like is computed afterwards (`focus_evaluation`, `run_figures`), so that its computing time does not
+affect latencies.
+"""
+
+from __future__ import annotations
+
+import time
+import zlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from controller.clocks import MonotonicClock, VirtualClock
+from controller.device.bank.reader import Bank
+from controller.device.board.board import Board
+from controller.device.fpga.capture import Capture
+from controller.device.loop.context import LoopContext, Watch
+from controller.device.loop.playing.records import Played
+from controller.device.loop.skips import ALL, Skips
+from controller.device.loop.wiring import Assembly, assemble
+from controller.device.scene.scene import Scene
+from controller.device.service.bit_clock import BitClock
+from controller.device.service.drivers import open_session, tracked
+from controller.device.service.temperature import Thermometer
+from controller.device.touch.recordings.recording import Recording, Track
+from controller.device.touch.recordings.replay import RecordingSource
+from controller.metrics import Counters, LatencyHistogram
+from controller.workshop.gateware.gateware import GatewareFactory
+from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.gateware.simulated_link import SimulatedLink, open_simulated
+from controller.workshop.simulation.drift import Drift
+
+SETTLE_S = 50e-3  # between arming and the first event of the recording
+REAL_SETTLE_S = 0.3  # the same in real time, for a busy machine
+REFERENCE_ROUNDS = 2000
+
+
+@dataclass(frozen=True)
+class Hardware:
+    """What is simulated behind the loop.
+
+    Attributes
+    ----------
+    gateware : GatewareFactory
+        Makes the gateware: the model by default, or the compiled Verilog.
+    plate : Board, optional
+        Whose plate and driver are behind the pins, if they are not the board's.
+    drift : Drift, optional
+        Of the plate's frequencies; the board's temperature sensor, if it has one, says the temperature that this means.
+    """
+
+    gateware: GatewareFactory = GatewareModel
+    plate: Board | None = None
+    drift: Drift | None = None
+
+
+MODEL = Hardware()
+
+
+@dataclass(frozen=True)
+class Run:
+    """Record of a run. The plate twin sees only `capture`; everything else is for the figures."""
+
+    board: Board
+    recording: Recording
+    source: RecordingSource
+    tracks: dict[int, Track]  # by the loop's finger number: all contacts of that finger joined
+    counters: Counters
+    capture: Capture
+    played: list[Played]
+    link: SimulatedLink
+    start_s: float
+    real_time: bool
+    touch: dict[str, Any]  # figures of the tracker
+    lookups: int
+    response_mapped: bool
+    reference: LatencyHistogram
+    plate: Board  # whose plate is played on
+    drift: Drift | None
+    bit_clock: BitClock | None  # that follows the plate's temperature
+
+
+def play(
+    board: Board,
+    scene: Scene,
+    bank: Bank,
+    recording: Recording,
+    *,
+    real_time: bool,
+    ready: Callable[[], None] = lambda: None,
+    skips: Skips = ALL,
+    hardware: Hardware = MODEL,
+) -> Run:
+    """Replay a recording through the event loop into the gateware.
+
+    Parameters
+    ----------
+    bank : Bank
+        Holds the cells of the scene.
+    recording : Recording
+        Touches; without any, nothing is played.
+    real_time : bool
+        False: virtual time, as fast as the machine can and deterministic.
+    ready : callable
+        Called once the outputs are on.
+    skips : Skips
+        What of the loop's work is left out.
+
+    Raises
+    ------
+    FaultError, LinkError
+        From the event loop.
+    """
+    clock = MonotonicClock() if real_time else VirtualClock()
+    link = open_simulated(board, clock.now_s, hardware.gateware)
+    session = open_session(link, board, clock.now_s)
+    played: list[Played] = []
+    start_s = session.earliest_trigger_s() + board.limits.arming_s + (REAL_SETTLE_S if real_time else SETTLE_S)
+    axes = recording.axes(board)
+    tracks = recording.tracks(axes, start_s)
+    if not tracks:  # without any touch nothing is played, fixed emitters included
+        scene = Scene(())
+    source = RecordingSource(recording, axes, start_s)
+    contacts = {finger: [track] for finger, track in tracks.items()}
+    tracker = tracked(source, board, lambda finger, contact: contacts[finger].append(tracks[contact]))
+    bit_clock = None
+    if hardware.drift is not None and board.temperature is not None:
+        sensor = hardware.drift.sensor(board.temperature, lambda: clock.now_s() - start_s)
+        bit_clock = BitClock(session, Thermometer(board.temperature, sensor), board.temperature.period_s)
+    assembly: Assembly
+
+    def progress(now_s: float) -> None:  # what the service's housekeeping does about the temperature
+        if bit_clock is not None and assembly.loop.outputs.on:
+            bit_clock.follow(assembly.loop, now_s)
+
+    context = LoopContext(board, clock, session, tracker)
+    assembly = assemble(context, scene, bank, played=played.append, watch=Watch(progress), skips=skips)
+    assembly.loop.run(ready)
+    link.close()
+    return Run(
+        board=board,
+        recording=recording,
+        source=source,
+        tracks={finger: Track.joined(finger, parts) for finger, parts in contacts.items()},
+        counters=assembly.counters,
+        capture=link.take_capture(),
+        played=played,
+        link=link,
+        start_s=start_s,
+        real_time=real_time,
+        touch=tracker.figures(),
+        lookups=bank.counters.lookups,
+        response_mapped=assembly.selection.composes,
+        reference=copy_and_checksum(board.waveform.samples * 4),
+        plate=hardware.plate or board,
+        drift=hardware.drift,
+        bit_clock=bit_clock,
+    )
+
+
+def copy_and_checksum(size: int) -> LatencyHistogram:
+    """Measure one copy and one CRC-32 of `size` bytes, which every upload needs: a lower bound of its host time."""
+    histogram = LatencyHistogram()
+    source = memoryview(bytes(np.random.default_rng(0).bytes(size)))
+    target = memoryview(bytearray(size))
+    for _ in range(REFERENCE_ROUNDS):
+        started = time.perf_counter_ns()
+        target[:] = source
+        zlib.crc32(target)
+        histogram.record(time.perf_counter_ns() - started)
+    return histogram

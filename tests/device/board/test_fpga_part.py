@@ -1,0 +1,94 @@
+"""fpga.toml: what goes together in it, and with board.toml and top.v."""
+
+import re
+import shutil
+
+import pytest
+
+from controller.cli import main
+from controller.device.board.board import load_board
+from controller.device.board.fpga_part import BAUD, PLL, find_part, load_part
+from controller.device.board.lookup import data_folder, find_board
+from controller.errors import ConfigError
+
+BOARDS = data_folder("boards")
+
+
+@pytest.fixture
+def copied(tmp_path):
+    folder = tmp_path / "panel"
+    shutil.copytree(find_board("ulx3s"), folder)
+    text = (folder / "board.toml").read_text()
+    (folder / "board.toml").write_text(text.replace('"../simulated/', f'"{find_board("simulated")}/'))
+    return folder
+
+
+def rewrite(file, was, becomes):
+    text = file.read_text()
+    assert was in text
+    file.write_text(text.replace(was, becomes, 1))
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "said"),
+    [
+        ('family = "ecp5"', 'family = "ice40"', "devices: '25k' is no size of family 'ice40', such as 'hx8k'"),
+        ('"25k"', '"hx8k"', "devices: 'hx8k' is no size of family 'ecp5', such as '25k'"),
+        ('"pins.lpf"', '"pins.pcf"', "constraints = 'pins.pcf': pins of family 'ecp5' are in a file .lpf"),
+    ],
+)
+def test_keys_that_do_not_go_together_are_refused(copied, was, becomes, said):
+    rewrite(copied / "fpga.toml", was, becomes)
+    with pytest.raises(ConfigError) as caught:
+        load_part(copied)
+    assert said in str(caught.value)
+
+
+def test_an_ice40_has_its_speed_in_its_name(tmp_path):
+    text = (BOARDS / "ice40_hx8k" / "fpga.toml").read_text()
+    (tmp_path / "fpga.toml").write_text(text)
+    assert load_part(tmp_path).speed is None
+    (tmp_path / "fpga.toml").write_text(text + "speed = 6\n")
+    with pytest.raises(ConfigError, match="speed = 6: the sizes of family 'ice40' have their speed in the name"):
+        load_part(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["top.v", "pins.lpf"])
+def test_a_file_that_it_needs_and_has_not_is_named(copied, name):
+    (copied / name).unlink()
+    with pytest.raises(ConfigError, match=re.escape(f"there is no {name} beside it")):
+        find_part(copied, None)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (
+            [("clock_hz = 62_500_000", "clock_hz = 50_000_000"), ("sck_hz = 25_0", "sck_hz = 20_0")],
+            "link.clock_hz = 50000000, but ",
+        ),
+        (
+            [
+                *(('kind = "spi"\ndevice = "/dev/spidev0.0"', 'kind = "serial"\nbaud = 500_000\ndevice = "/dev/ttyUSB0"'),),
+                *((f'{key}_line = "GPIO{pin}"\n', "") for key, pin in (("trigger", 25), ("configured", 24), ("permit", 23))),
+            ],
+            "link.baud = 500000, but ",
+        ),
+    ],
+)
+def test_a_clock_or_baud_rate_that_top_v_does_not_make_is_refused_before_minutes_of_work(copied, changes, said, capsys):
+    for was, becomes in changes:
+        rewrite(copied / "board.toml", was, becomes)
+    load_board(copied)
+    for command in (("board", "check"), ("gateware", "build")):
+        assert main([*command, "--board", str(copied)]) == 78
+        err = capsys.readouterr().err
+        assert f"{said}{copied / 'top.v'} makes " in err
+        assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", sorted(file.parent.name for file in BOARDS.glob("*/top.v")))
+def test_what_a_shipped_top_v_makes_is_found_in_it(name):
+    text = (BOARDS / name / "top.v").read_text()
+    assert int(PLL.search(text)[1].replace("_", "")) == load_board(BOARDS / name).link.clock_hz
+    assert BAUD.search(text) or name != "ulx3s"

@@ -1,0 +1,131 @@
+"""A simulated panel and a bridge, each the real program; pages of a test's own."""
+
+import contextlib
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+from patience import wait_for
+from websockets.sync.client import connect
+
+PATIENCE_S = 60.0
+
+
+class Served:
+    """A panel of `haptic-panel serve`, which can die and come back."""
+
+    def __init__(self, folder):
+        self.socket = str(folder / "panel.sock")
+        self._process = None
+
+    def begin(self):
+        """Return once it plays."""
+        command = [sys.executable, "-m", "controller", "serve", "--background", "--commands-per-s", "5000", self.socket]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        self._pid = int(re.search(r"`kill (\d+)`", done.stderr)[1])
+
+    def end(self, by=signal.SIGTERM):
+        """Return once it has ended."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self._pid, by)
+        stat = Path(f"/proc/{self._pid}/stat")
+        wait_for("the panel's end", lambda: not stat.exists() or stat.read_text().rpartition(")")[2].split()[0] == "Z")
+
+
+class Bridge:
+    """A process of `haptic-panel page`."""
+
+    def __init__(self, folder, socket, text="", www=None):
+        self.settings = folder / "page.toml"
+        self.settings.write_text(text)
+        self._said = tempfile.TemporaryFile("w+")  # noqa: SIM115
+        command = [sys.executable, "-m", "controller", "page", "--settings", str(self.settings), "--port", "0", "--socket", socket]
+        self.process = subprocess.Popen(
+            [*command, *(["--www", str(www)] if www else [])], stdout=subprocess.PIPE, stderr=self._said, text=True
+        )
+        self.address = self.process.stdout.readline().strip()
+        assert self.address, self.said()
+        self.port = int(re.search(r":(\d+)/", self.address)[1])
+        self.origin = self.address.rstrip("/")
+
+    def said(self):
+        """All that it wrote to standard error."""
+        self._said.seek(0)
+        return self._said.read()
+
+    def open(self, origin=None, **options):
+        """A page's socket."""
+        url = f"ws://127.0.0.1:{self.port}/panel"
+        return connect(url, origin=origin or self.origin, compression=None, open_timeout=PATIENCE_S, **options)
+
+    def end(self):
+        """Its exit code."""
+        if self.process.returncode is None:
+            self.process.terminate()
+            self.process.stdout.close()
+            self._said.close()
+        return self.process.wait()
+
+
+def ask(page, **message):
+    """The answer to a message; what comes between is left out."""
+    page.send(json.dumps(message | {"id": "test"}))
+    while (answer := json.loads(page.recv(PATIENCE_S))).get("id") != "test":
+        pass
+    return answer
+
+
+@pytest.fixture(scope="session")
+def asks():
+    return ask
+
+
+@pytest.fixture(scope="session")
+def folder():
+    """With a short name: a socket's path has at most 107 bytes."""
+    path = Path(tempfile.mkdtemp(prefix="hp"))
+    yield path
+    shutil.rmtree(path, ignore_errors=True)
+
+
+@pytest.fixture(scope="session")
+def served(folder):
+    panel = Served(folder)
+    panel.begin()
+    yield panel
+    panel.end()
+
+
+@pytest.fixture
+def another_panel(folder):
+    """One that does not run yet."""
+    (folder / "own").mkdir()
+    panel = Served(folder / "own")
+    yield panel
+    panel.end()
+
+
+@pytest.fixture
+def bridge_with(served, tmp_path):
+    """A bridge with the given settings."""
+    bridges = []
+
+    def make(text="", www=None, socket=served.socket):
+        bridges.append(Bridge(tmp_path, socket, text, www))
+        return bridges[-1]
+
+    yield make
+    assert [bridge.end() for bridge in bridges] == [0] * len(bridges)
+
+
+@pytest.fixture
+def bridge(bridge_with):
+    return bridge_with()

@@ -1,0 +1,171 @@
+"""haptic.js and the live page in a real browser, before the simulated panel: a finger feels the element under it, and no other.
+
+What the page has sent is compared with the browser's own hit test: at random points of the plate, the first region there has to be
+that of the element that a touch at this point would meet.
+"""
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from chromium import PROGRAM, browser
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(PROGRAM is None, reason="no browser: apt-get install chromium"),
+]
+FOLDER = Path(__file__).parent
+POINTS = 2000
+PICTURES = os.environ.get("HAPTIC_PANEL_PICTURES")  # a folder: store what the live page looks like there
+
+
+@pytest.fixture(scope="module")
+def page():
+    with browser() as tab:
+        tab.size(1000, 700)
+        yield tab
+
+
+@pytest.fixture
+def elements(page, bridge_with, tmp_path):
+    """The page of the elements, whose layer has arrived."""
+    (tmp_path / "www").mkdir()
+    for name in ("elements.css", "elements.js"):
+        shutil.copy(FOLDER / name, tmp_path / "www")
+    shutil.copy(FOLDER / "elements.html", tmp_path / "www" / "index.html")
+    bridge = bridge_with("messages_per_s = 1000\nburst = 1000", www=tmp_path / "www")
+    page.said.clear()
+    page.size(1000, 700)
+    page.open(bridge.address)
+    settled(page)
+    yield page
+    page.call("Page.navigate", url="about:blank")
+    assert page.said == []
+
+
+def settled(page):
+    """Until the panel has what is seen."""
+    page.value("HapticPanel.look(); new Promise((done) => setTimeout(done, 300))")
+    page.until("layers.length && layers.at(-1).answer.kind === 'layer'")
+    assert page.value("layers.at(-1).answer.refused") == []
+
+
+def right(page):
+    settled(page)
+    found = page.value(f"compare({POINTS})")
+    assert found["asked"] > 0.9 * POINTS, found
+    assert found["right"] >= 0.995 * found["asked"], found
+    assert found["felt"] > 0.02 * POINTS, found
+
+
+def test_what_is_felt_is_what_a_touch_would_meet(elements):
+    right(elements)
+    names = elements.value("layers.at(-1).regions.filter((one) => one.effects.length).map((one) => one.name)")
+    for hidden in ("hidden", "invisible", "transparent", "disabled", "inert", "untouchable", "none", "aria"):
+        assert not [name for name in names if name.startswith(f"{hidden} ")], names
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "document.getElementById('list').scrollTop = 90",
+        "document.getElementById('list').scrollTop = 25",
+        "document.getElementById('turned').style.transform = 'rotate(73deg) scale(1.3)'",
+        "document.getElementById('moved').style.left = '500px'",
+        "document.getElementById('moved').style.translate = '60px 20px'",
+        "document.getElementById('zoomed').style.zoom = 2",
+        "document.body.style.zoom = 1.25",
+        "document.getElementById('above').style.zIndex = -1",
+        "document.getElementById('below').remove()",
+        "document.getElementById('dialog').showModal()",
+        "document.querySelector('fieldset').disabled = true",
+        "document.styleSheets[0].insertRule('#plain { display: none }')",
+    ],
+)
+def test_it_follows_what_changes(elements, change):
+    elements.value(f"{change}; 0")
+    elements.value("new Promise((done) => setTimeout(done, 700))")  # what no event announces is looked for twice a second
+    right(elements)
+
+
+def test_it_follows_the_window_and_its_pixels(elements):
+    for size in ((800, 600), (1200, 500)):
+        elements.size(*size, 2)
+        right(elements)
+
+
+def test_an_animation_is_followed_to_its_end(elements):
+    before = elements.value("layers.length")
+    elements.value("moves('moved', '300px 100px', 1500)")
+    assert elements.value("layers.length") - before >= 3
+    right(elements)
+
+
+def test_a_page_that_is_hidden_takes_its_layer_along_and_brings_it_again(elements):
+    elements.value("hide(true)")
+    elements.until("layers.at(-1).regions.length === 0")
+    elements.value("hide(false)")
+    right(elements)
+
+
+def test_effects_are_those_of_attribute_property_and_other_names(elements):
+    effects = elements.value(
+        "Object.fromEntries(layers.at(-1).regions.map((one) => [one.name.replace(/ \\d+$/, ''), one.effects]))"
+    )
+    assert effects["plain"] == [{"effect": "click"}]
+    assert effects["weak"] == [{"effect": "click", "amplitude": 0.5}]
+    assert effects["styled"] == [{"effect": "buzz", "amplitude": 0.5}]
+    assert effects["foreign"] == [{"effect": "click", "amplitude": 0.3}]
+    assert effects["on"] == [{"effect": "click", "when": ["press", "enter"]}]
+
+
+def test_calls_play_at_places_elements_and_pointers_and_stop(elements):
+    for where in ("{x: 500, y: 350}", "document.getElementById('plain')"):
+        assert elements.value(f"HapticPanel.play('tick', {where})")["outcome"] == "played"
+    assert elements.value("HapticPanel.play('click', 77)")["reason"] == "no such place"
+    assert elements.value("HapticPanel.play('nothing', {x: 500, y: 350})")["outcome"] == "refused"
+    point = [{"x": 300, "y": 300, "id": 1}]
+    elements.value("addEventListener('pointerdown', (event) => window.pointer = event.pointerId); 0")
+    elements.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=point)
+    assert elements.value("HapticPanel.play('click', pointer)")["outcome"] == "played"
+    elements.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+
+
+def test_the_live_page(page, bridge_with, asks, tmp_path):
+    """Also that a stop by its button is one, and that arming asks."""
+    bridge = bridge_with('[origins]\nself = ["operate"]')
+    folder = Path(PICTURES) if PICTURES else tmp_path
+    page.said.clear()
+    page.size(1280, 900)
+    page.dark("light")
+    page.open(f"{bridge.address}live/")
+    page.until("document.querySelectorAll('.region').length >= 4 && document.querySelectorAll('.finger').length === 2")
+    page.until("document.body.dataset.state === 'on' && document.querySelectorAll('#figures dd').length")
+    page.picture(folder / "live_page.png")
+    page.value("[...document.querySelectorAll('#effects button')].find((one) => one.textContent === 'click').click(); 0")
+    page.until("document.getElementById('outcome').textContent.startsWith('click: played')")
+    page.size(390, 844, 2, mobile=True)
+    page.dark()
+    assert page.value("document.documentElement.scrollWidth") == 390
+    page.picture(folder / "live_page_phone.png")
+    box = page.value(
+        "(({x, y, width, height}) => [x + width / 2, y + height / 2])(document.getElementById('stop').getBoundingClientRect())"
+    )
+    page.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": box[0], "y": box[1]}])
+    page.until("document.getElementById('state-word').textContent === 'disarmed'")  # before the finger is lifted
+    page.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    page.picture(folder / "live_page_stopped.png")
+    page.value("document.getElementById('arm').click(); 0")
+    page.picture(folder / "live_page_asks.png")
+    assert page.value("document.getElementById('state-word').textContent") == "disarmed"
+    page.value("document.getElementById('arm-yes').click(); 0")
+    page.until("document.body.dataset.state === 'on'")
+    for button in page.value(
+        "[...document.querySelectorAll('button, input, a')].map((one) => one.textContent || one.labels?.[0]?.textContent || '')"
+    ):
+        assert button.strip()
+    bridge.end()
+    page.until("document.getElementById('state-word').textContent === 'no panel'")
+    page.picture(folder / "live_page_no_panel.png")
+    assert all("ERR_CONNECTION_REFUSED" in said or "WebSocket" in said for said in page.said), page.said

@@ -1,0 +1,58 @@
+"""What a device gets, installed from the lock files once, and a whole release made twice; both fetch and build."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from workshop.publish.test_make_release import contents
+
+from controller.workshop.publish.release_folder import read_release
+
+ROOT = Path(__file__).parents[3]
+LOCKS = ROOT / "systemd"
+
+pytestmark = pytest.mark.kernel
+
+
+def run(*command, **more):
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, **more)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_a_fresh_environment_is_installed_from_the_lock_files(tmp_path):
+    run(sys.executable, "-m", "venv", tmp_path / "venv")
+    python = tmp_path / "venv/bin/python"
+    install = (python, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-deps")
+    for name in ("build.lock", "requirements.lock"):
+        run(*install, "--require-hashes", "--no-build-isolation", "-r", LOCKS / name)
+    run(*install, "--no-build-isolation", ROOT)
+    assert "No broken requirements" in run(python, "-m", "pip", "check")
+    said = run(python, "-I", "-c", "import numpy, spidev, evdev, gpiod, msgspec, tuf.ngclient, prometheus_client, pip; print('ok')")
+    assert said == "ok\n"
+    assert run(python, "-I", "-m", "controller", "--version", cwd=tmp_path).startswith("haptic-panel ")
+
+
+def test_a_release_made_twice_is_the_same_to_the_byte(tmp_path):
+    """Everything is built again, in another folder, by another cache, umask and time zone."""
+    program = [sys.executable, "-m", "controller", "update", "make-release"]
+    about = ["--version", "1.0.0", "--counter", 1, "--board", "simulated"]
+    pip_cache = run(sys.executable, "-m", "pip", "cache", "dir").strip()
+    for name, umask, zone in (("a", 0o022, "UTC"), ("b/deeper", 0o077, "Pacific/Auckland")):
+        out = tmp_path / name
+        out.parent.mkdir(exist_ok=True)
+        environment = os.environ | {"XDG_CACHE_HOME": str(out.parent / "cache"), "PIP_CACHE_DIR": pip_cache, "TZ": zone}
+        run(*program, out, *about, cwd=ROOT, env=environment, umask=umask)
+    wheels = {file.path.removeprefix("wheels/") for file in read_release(tmp_path / "a").files if file.path.startswith("wheels/")}
+    bill = json.loads((tmp_path / "a/sbom.cdx.json").read_bytes())
+    parts = [part for part in [*bill["components"], bill["metadata"]["component"]] if "purl" in part]
+    named = {(part["name"].replace("-", "_"), part["version"]) for part in parts}
+    assert all(part["licenses"] for part in parts), "each wheel tells its licence"
+    (numpy,) = [part for part in parts if part["name"] == "numpy"]
+    assert any("openblas" in library["name"] for library in numpy["components"]), "and what it brings along"
+    assert named == {tuple(wheel.split("-")[:2]) for wheel in wheels}
+    assert "serialNumber" not in bill
+    assert contents(tmp_path / "a") == contents(tmp_path / "b/deeper")

@@ -1,0 +1,106 @@
+"""What composed words do on the plate: the twin's own way from pins to displacement, against what was asked for."""
+
+import numpy as np
+import pytest
+
+from controller.commands.common.tables import amplitude_table
+from controller.device.bank.grid import Grid
+from controller.device.bank.reader import Bank
+from controller.device.board.devices import MIN_AMPLITUDE
+from controller.device.waveforms.composition import Composer
+from controller.errors import ConfigError
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.benchmark.focus.amplitude import amplitude_figures
+from controller.workshop.benchmark.focus.focus_figures import emit
+from controller.workshop.benchmark.focus.plot_amplitude import plot_amplitude
+from controller.workshop.physics.plate_twin import PlateTwin
+
+PITCH_M = 2.5e-3
+APART_M = 10e-3
+MARGIN_M = 12e-3
+SCENES = (1, 1, 1, 1, 2, 2, 4, 4)  # fingers in each
+
+
+@pytest.fixture(scope="module")
+def scenes(board):
+    """Fingers at random places, each with an amplitude of its own."""
+    random = np.random.default_rng(11)
+    far = np.array([board.plate.length_m, board.plate.width_m]) - MARGIN_M
+    made = []
+    for fingers in SCENES:
+        while True:
+            places = random.uniform(MARGIN_M, far, (fingers, 2))
+            apart_m = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.eye(fingers)
+            if apart_m.min() > APART_M:
+                break
+        made.append([(float(x_m), float(y_m), float(random.uniform(0.25, 1))) for x_m, y_m in places])
+    return made
+
+
+@pytest.fixture(scope="module")
+def composer(board, scenes, tmp_path_factory):
+    """Of a bank of just the cells that the scenes need."""
+    grid = Grid.of(board.plate, PITCH_M)
+    cells = np.zeros(grid.cells, bool)
+    for scene in scenes:
+        for x_m, y_m, _ in scene:
+            cells[list(grid.corners(x_m, y_m)[0])] = True
+    path = tmp_path_factory.mktemp("bank") / "bank"
+    build_bank(BankRequest(board, path, PITCH_M, cells))
+    with Bank.open(path, board) as bank:
+        yield Composer(bank, board.idle_word)
+
+
+def test_every_finger_gets_the_amplitude_it_asks_for_of_what_exact_composition_gives(board, scenes, composer):
+    twin = PlateTwin(board)
+    found, asked = [], []
+    for scene in scenes:
+        places = tuple((x_m, y_m) for x_m, y_m, _ in scene)
+        words = np.frombuffer(composer.compose(scene), "<u4").copy()
+        found.extend(np.abs(emit(twin, words).at(places)) / twin.full_amplitudes(places))
+        asked.extend(amplitude for _, _, amplitude in scene)
+    assert found == pytest.approx(asked, rel=0.05)
+    assert found != pytest.approx(0.94 * np.array(asked), rel=0.05)  # 5 % is not much more than is needed
+    assert found != pytest.approx(1.06 * np.array(asked), rel=0.05)
+
+
+def test_a_quarter_of_the_amplitude_keeps_the_contrast(board, scenes, composer):
+    twin = PlateTwin(board)
+    for (x_m, y_m, _), *others in scenes:
+        if others:
+            continue
+        full, quarter = (
+            emit(twin, np.frombuffer(composer.compose([(x_m, y_m, share)]), "<u4").copy()).focus_metrics(x_m, y_m)
+            for share in (1.0, 0.25)
+        )
+        assert quarter.amplitude_m / full.amplitude_m == pytest.approx(0.25, rel=0.05)
+        assert quarter.contrast > 0.85 * full.contrast
+        assert quarter.spot_m == pytest.approx(full.spot_m, rel=0.05)
+
+
+def test_a_lone_finger_gets_the_least_amplitude_within_5_percent(scenes, board, composer):
+    twin = PlateTwin(board)
+    for (x_m, y_m, _), *others in scenes:
+        if others:
+            continue
+        words = np.frombuffer(composer.compose([(x_m, y_m, MIN_AMPLITUDE)]), "<u4").copy()
+        (reached_m,) = np.abs(emit(twin, words).at([(x_m, y_m)]))
+        assert reached_m / twin.full_amplitudes(((x_m, y_m),))[0] == pytest.approx(MIN_AMPLITUDE, rel=0.05)
+
+
+@pytest.mark.slow
+def test_the_figures_of_amplitude_are_measured_and_drawn(board, tmp_path):
+    found = amplitude_figures(board, 4, scenes=1)
+    assert list(found["fingers"]) == ["1", "2", "4", "10"]
+    assert [len(row["asked"]) for row in found["fingers"].values()] == [1, 2, 4, 10]
+    assert found["fingers"]["2"]["error_percent"]["max"] < 5
+    assert found["single"]["1"]["contrast_of_full"]["median"] == 1
+    assert found["single"]["0.5"]["edges_all"]["median"] < 0.6 * found["single"]["1"]["edges_all"]["median"]
+    assert found["between_cells"]["interpolated"]["min"] > 0.97 > found["between_cells"]["nearest_entry"]["min"]
+    assert found["between_cells"]["0.4_mm_beside"]["min"] > 0.97
+    plot_amplitude(tmp_path / "amplitude.png", found)
+    assert (tmp_path / "amplitude.png").stat().st_size > 10_000
+    with pytest.raises(ConfigError, match="cannot be written"):
+        plot_amplitude(tmp_path / "nowhere" / "amplitude.png", found)
+    assert "error_percent_of_fingers.4.max" in amplitude_table(found)

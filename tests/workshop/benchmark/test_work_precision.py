@@ -1,0 +1,181 @@
+"""The benchmark as a whole, on a coarse grid with few methods: its figures, their schema, its diagrams and command."""
+
+import json
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import jsonschema
+import msgspec
+import pytest
+
+from controller.cli import main
+from controller.commands import benchmark as command
+from controller.commands.common.tables import benchmark_table
+from controller.errors import ConfigError
+from controller.workshop.benchmark import baselines, judge
+from controller.workshop.benchmark import work_precision as module
+from controller.workshop.benchmark.device.interleaved import interleaved
+from controller.workshop.benchmark.fingers_scenes import scenes
+from controller.workshop.benchmark.methods import designs, device, modal_bank, registry
+from controller.workshop.benchmark.methods.laboratory import Laboratory
+from controller.workshop.benchmark.work_precision import Effort, cost, front, work_precision
+from controller.workshop.benchmark.work_precision_diagrams import DIAGRAMS, draw_all
+
+SCHEMA = json.loads(Path(__file__).with_name("work_precision.schema.json").read_text())
+EFFORT = Effort(each=1, random_scenes=1, timed_scenes=1, turns=2, longest_s=1e3, slow_methods=False)
+
+
+def few(laboratory):
+    """One setting of each of four methods."""
+    return [
+        *islice(device.candidates(laboratory), 3, 4),
+        *islice(modal_bank.candidates(laboratory), 4, 5),
+        *plain(laboratory),
+    ]
+
+
+def plain(laboratory):
+    return islice(designs.candidates(laboratory), 1)
+
+
+@pytest.fixture(scope="module")
+def coarse(small_board):
+    return msgspec.structs.replace(small_board, bank=msgspec.structs.replace(small_board.bank, pitch_mm=10.0))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def hasty():
+    """Neither the bounds of many fingers nor the machine's best rate are the subject here, and both take long."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(judge, "BOUND_STEPS", 5)
+        patched.setattr(baselines, "best_sgemm_rate", lambda: 1e10)
+        yield
+
+
+@pytest.fixture(scope="module")
+def figures(coarse):
+    return work_precision(coarse, EFFORT, seed=5, candidates=few)
+
+
+def test_figures_are_as_the_schema_says(figures):
+    jsonschema.validate(json.loads(json.dumps(figures, allow_nan=False)), SCHEMA)
+    broken = {**figures, "settings": [{**figures["settings"][0], "time_us": 3}]}
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(broken, SCHEMA)
+
+
+def flat(figures):
+    """Every error but the one that depends on which methods are compared."""
+    return {
+        (setting["curve"], family, error, kind): value
+        for setting in figures["settings"]
+        for family, errors in setting["families"].items()
+        for error, found in errors.items()
+        for kind, value in found.items()
+        if error != "felt_loss"
+    }
+
+
+def test_errors_are_the_same_for_a_seed(coarse, figures):
+    again = work_precision(coarse, EFFORT, seed=5, timing=False, candidates=lambda laboratory: few(laboratory)[:2])
+    assert flat(again) == pytest.approx({name: value for name, value in flat(figures).items() if name in flat(again)}, rel=1e-12)
+    assert len(flat(again)) > 200
+    assert not any(setting["time_us"] for setting in again["settings"])
+    assert again["baselines"] == again["building"] == []
+
+
+def test_the_full_field_loses_nothing_alone_and_the_nearest_of_coarse_cells_much(figures):
+    entry, *_, exact = figures["settings"]
+    assert entry["curve"] == "nearest entry"
+    assert abs(exact["families"]["1 off grid"]["loss"]["worst"]) < 1e-9
+    assert entry["families"]["1 off grid"]["loss"]["worst"] > 0.3
+    assert "2 off grid" not in entry["families"]
+    assert exact["families"]["1 at +0.5 % drift"]["loss"]["median"] > 0.02
+    assert set(exact["time_us"]) == {"1", "2", "4", "10"}
+
+
+def test_fronts_name_settings_that_none_beats(figures):
+    for name, indices in figures["fronts"].items():
+        axis, _, family = name.partition(", ")
+        assert indices == front(figures["settings"], axis, family)
+        costs = [cost(figures["settings"][index], axis, family) for index in indices]
+        assert costs == sorted(costs)
+
+
+def test_every_diagram_has_its_curves(figures):
+    for name, draw in DIAGRAMS.items():
+        figure = draw(figures)
+        if name == "building":
+            assert len(figure.axes[0].lines) == 3
+            continue
+        if name == "front_page":
+            assert {"nearest entry", "modal bank, baseband", "full field, float64"} <= {
+                t.get_text() for ax in figure.axes for t in ax.texts
+            }
+            continue
+        labels = {text.get_text() for ax in figure.axes for text in ax.texts}
+        assert {"B", "C"} <= labels, name  # the letters of the curves
+        assert len(figure.legends[0].get_texts()) == 4
+
+
+@pytest.mark.slow
+def test_every_diagram_is_written(figures, tmp_path):
+    written = draw_all(tmp_path, figures)
+    assert {path.suffix for path in written} == {".png", ".svg"}
+    assert {path.stem for path in written} == set(DIAGRAMS)
+    for path in written:
+        assert path.stat().st_size > 10_000
+    with pytest.raises(ConfigError, match="cannot be written"):
+        draw_all(tmp_path / "nowhere", figures)
+
+
+def test_the_command_writes_figures_and_says_where_it_cannot(coarse, monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(module, "QUICK", replace(EFFORT, random_scenes=0))
+    monkeypatch.setattr(module, "scenes", lambda *given: [scene for scene in scenes(*given) if scene.family == "1 off grid"])
+    monkeypatch.setattr(registry, "METHODS", (plain,))
+    monkeypatch.setattr(command, "load_board", lambda _folder: coarse)
+    assert main(["benchmark", "--quick", "--no-timing", "--no-pictures", "--json", "--out", str(tmp_path / "out")]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert shown == json.loads((tmp_path / "out" / "work_precision.json").read_text())
+    assert shown["seed"] == 1
+    (tmp_path / "file").write_text("")
+    assert main(["benchmark", "--out", str(tmp_path / "file")]) == 78
+    assert "another folder" in capsys.readouterr().err
+
+
+def test_every_method_gives_words(small_board, tmp_path):
+    places = [(0.0417, 0.0332), (0.0603, 0.0471)]
+    quiet = (0.05, 0.02)
+    laboratory = Laboratory(small_board, tmp_path, [*places, quiet])
+    try:
+        methods = [method for method in registry.all_candidates(laboratory) if not method.slow]
+        laboratory.prepare(places)
+        assert len({(method.curve, method.setting) for method in methods}) == len(methods)
+        for method in methods:
+            points = [(*place, 1.0) for place in places[: method.most_fingers]]
+            words = method.words_of(method.run(points, quiet))
+            assert words.dtype == "u4"
+            assert 0 < len(words) <= small_board.waveform.samples
+            assert method.memory_bytes > 0
+            assert method.wire_bytes in {72} or method.wire_bytes > 4 * len(words)
+    finally:
+        laboratory.close()
+
+
+def test_the_table_has_the_front_of_each_number_of_fingers(figures):
+    text = benchmark_table(figures)
+    for fingers in ("1", "10"):
+        front = [figures["settings"][index]["curve"] for index in figures["fronts"][f"time, {fingers} off grid"]]
+        part = text.partition(f"{fingers} fingers, front")[2].partition("fingers, front")[0]
+        assert [line[:34].strip() for line in part.splitlines()[1:] if line.startswith(tuple(front))] == front
+    assert "plain C composes 1000 samples, not 250" in text  # what is left out, and why
+
+
+def test_jobs_take_turns():
+    order = []
+    timings = interleaved([[lambda: order.append("a")], [lambda: order.append("b")]], turns=5, most_s=1e3)
+    assert order == ["a", "b", *("a", "a", "b", "b") * 5]
+    assert [timing.calls for timing in timings] == [5, 5]
+    assert all(0 <= timing.median_us <= timing.p99_us for timing in timings)
+    assert interleaved([[lambda: order.append("a")]], turns=50, most_s=0)[0].calls == 3

@@ -1,0 +1,69 @@
+"""UFF files as analysers write them: a time for each sample, lines filled up; what is damaged is refused in words."""
+
+import pytest
+from tables import each_row
+
+from controller.errors import CalibrationError
+from controller.workshop.calibration.records.record_formats import load_uff
+
+SAMPLES = [1e-3 * number for number in range(1, 11)]
+TIMES_S = [1e-6 * number for number in range(10)]
+
+
+def uff(data, *, count=10, even=1, step_s=1e-6):
+    """A file with one set of type 58, written here by the words of the format's description."""
+    head = f"{-1:6}\n{58:6}\n" + "NONE\n" * 5
+    head += f"{1:5}{1:10}{1:5}{0:10} {'NONE':10}{7:10}{3:4} {'NONE':10}{1:10}{3:4}\n"
+    head += f"{2:10}{count:10}{even:10}{0.0:13.5E}{step_s:13.5E}{0.0:13.5E}\n"
+    head += "".join(f"{kind:10}{0:5}{0:5}{0:5} {'NONE':20} {'NONE':20}\n" for kind in (17, 11, 0, 0))
+    lines = ["".join(f"{value:13.5E}" for value in data[first : first + 6]) for first in range(0, len(data), 6)]
+    return head + "\n".join(lines) + f"\n{-1:6}\n"
+
+
+def with_times(times_s):
+    return [value for pair in zip(times_s, SAMPLES, strict=True) for value in pair]
+
+
+@pytest.fixture
+def load(tmp_path):
+    def loaded(text):
+        (tmp_path / "one.uff").write_text(text)
+        return load_uff(tmp_path / "one.uff", 1e6, "m/s").records
+
+    return loaded
+
+
+@each_row(
+    "text",
+    [
+        uff(SAMPLES),
+        uff([*SAMPLES, 0.0, 0.0]),
+        uff([*SAMPLES, 5.0, 6.0]),
+        uff([*SAMPLES, *[0.0] * 20]),
+        uff(with_times(TIMES_S), even=0, step_s=0.0),
+        uff(with_times([0.5 + time_s for time_s in TIMES_S]), even=0, step_s=0.0),
+    ],
+    ids=["plain", "last line filled up", "by other than zeros", "lines of zeros", "a time for each", "which begin late"],
+)
+def test_the_samples_are_read_as_many_as_are_stated(load, text):
+    (samples,) = load(text).values()
+    assert samples.tolist() == pytest.approx(SAMPLES)
+
+
+@each_row(
+    ("text", "said"),
+    [
+        (uff(with_times([*TIMES_S[:5], *(time_s + 3e-7 for time_s in TIMES_S[5:])]), even=0), "not evenly spaced in time"),
+        (uff(with_times(TIMES_S[::-1]), even=0), "not evenly spaced in time"),
+        (uff(with_times([0.0] * 10), even=0), "not evenly spaced in time"),
+        (uff(with_times([2 * time_s for time_s in TIMES_S]), even=0), "500000 samples a second"),
+        (uff(SAMPLES, step_s=0.0), "gives 0 s from sample to sample"),
+        (uff(SAMPLES, count=12), "10 real samples, not 12"),
+        (uff([*SAMPLES, *SAMPLES]), "20 real samples, not 10"),
+        (uff(SAMPLES[:1], count=1, even=0), "cannot be read|times of 1 samples"),
+        (uff(SAMPLES).replace("1.00000E-03", "1.00000X-03"), "cannot be read"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused_in_words(load, text, said):
+    with pytest.raises(CalibrationError, match=rf"one\.uff.*({said})"):
+        load(text)

@@ -1,0 +1,140 @@
+import msgspec
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from tables import each_row
+from workshop.physics.steps import step_displacement
+
+from controller.device.bank.packing import channel_bits, drive_words
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.responses.modal_response import band_gain, pulse_response
+from controller.workshop.physics.responses.row_responses import in_rows
+
+BOARD = load_board(find_board("simulated"))
+POINTS = np.random.default_rng(3).uniform([0.01, 0.01], [0.2, 0.138], (20, 2))
+
+
+@pytest.fixture(scope="module")
+def model():
+    return ResponseModel(BOARD)
+
+
+def stepped_by_matrix_exponential(model, mode, board=BOARD):
+    """Displacement of one mode after a pulse of one bit period: states (q, dq/dt, voltage, current), zero-order hold."""
+    omega, rate = model.plate_modes.angular_frequency[mode], model.plate_modes.decay_rate[mode]
+    driver = board.driver
+    matrix = np.zeros((5, 5))
+    matrix[0, 1] = 1
+    matrix[1, :3] = -(omega**2), -2 * rate, 1 / model.plate_modes.mass_kg[mode]
+    matrix[2, 3] = 1 / driver.capacitance_f
+    matrix[3, 2:] = np.array([-1.0, -driver.resistance_ohm, 1.0]) / driver.inductance_h
+    held = expm(matrix * board.waveform.bit_period_s)
+    state = held[:4, 4]
+    response = np.empty(board.waveform.samples)
+    for sample in range(len(response)):
+        response[sample] = state[0]
+        state = held[:4, :4] @ state
+    return response
+
+
+@each_row("mode", [0, 1, 7, 100, 500, 1200, 1899])  # mode 0 is overdamped
+def test_modes_are_stepped_as_by_the_matrix_exponential(model, mode):
+    expected = stepped_by_matrix_exponential(model, mode)
+    assert np.abs(model.modal[mode] - expected).max() <= 1e-9 * np.abs(expected).max()
+
+
+@each_row("part", ["inductance_h", "resistance_ohm", "capacitance_f"])
+def test_a_driver_one_per_cent_off_is_far_outside_that_tolerance(model, part):
+    driver = msgspec.structs.replace(BOARD.driver, **{part: getattr(BOARD.driver, part) * 1.01})
+    wrong = stepped_by_matrix_exponential(model, 500, msgspec.structs.replace(BOARD, driver=driver))
+    assert np.abs(model.modal[500] - wrong).max() > 1e-4 * np.abs(wrong).max()
+
+
+def test_pulses_are_differences_of_steps_at_the_edges_of_the_bit(model):
+    period = BOARD.waveform.bit_period_s
+    for sample in (0, 1, 10, 999):
+        later, sooner = (step_displacement(model.step, (sample + after) * period) for after in (1, 0))
+        expected = later - sooner
+        # the difference of two steps is rounded to 1e-16 of a step, the pulse is not
+        assert np.abs(model.modal[:, sample] - expected).max() <= 1e-9 * np.abs(model.modal).max()
+
+
+def test_the_band_limited_response_is_the_long_response_through_a_zero_phase_filter():
+    thick = msgspec.structs.replace(BOARD.plate, thickness_mm=5.0)  # a tenth of the modes
+    model = ResponseModel(msgspec.structs.replace(BOARD, plate=thick))
+    period, long, length = BOARD.waveform.bit_period_s, 16_000, 32_768
+    spectrum = np.fft.rfft(pulse_response(model.step, period, long), length, axis=1)
+    gain = band_gain(np.fft.rfftfreq(length, period), (20e3, 70e3))
+    filtered = np.fft.irfft(spectrum * gain, length, axis=1)[:, :1000]
+    assert np.abs(model.modal_band - filtered).max() < 1e-4 * np.abs(filtered).max()  # exp(-16): circles round after 16 ms
+    assert np.abs(np.roll(model.modal_band, 1, axis=1) - filtered).max() > 0.1 * np.abs(filtered).max()  # a sample of phase
+
+
+def test_the_filter_passes_the_band_and_nothing_one_can_hear():
+    gain = band_gain(np.array([0.0, 16e3, 20e3, 24e3, 45e3, 66e3, 70e3, 74e3, 250e3]), (20e3, 70e3))
+    assert gain == pytest.approx([0, 0, 0.5, 1, 1, 1, 0.5, 0, 0], abs=1e-12)
+
+
+def test_responses_are_sums_over_modes_in_either_order_of_time(model):
+    shapes = model.plate_modes.shapes(POINTS[:2])
+    expected = np.einsum("pk,kj,kq->pjq", shapes, model.modal_band, model.forces, optimize=True)
+    scale = np.abs(expected).max()
+    assert model.responses(POINTS[:2], band_limited=True) == pytest.approx(expected, abs=1e-12 * scale)
+    assert model.drive_order_responses(POINTS[:2], dtype=np.float64)[:, ::-1] == pytest.approx(expected, abs=1e-12 * scale)
+
+
+def test_channels_without_an_actuator_do_nothing():
+    board = msgspec.structs.replace(BOARD, actuators=tuple(a for a in BOARD.actuators if a.channel not in (0, 31)))
+    response = ResponseModel(board, 10e3).responses(POINTS[:1])[0]
+    assert np.flatnonzero(np.any(response != 0, axis=0)).tolist() == list(range(1, 31))
+
+
+def test_float32_plays_the_bits_of_float64(model):
+    exact = model.drive_order_responses(POINTS, dtype=np.float64)
+    into = np.empty((30, 1000, 32), np.float32)[5:25]
+    rounded = model.drive_order_responses(POINTS, into)
+    assert rounded is into
+    for in_double, in_single in zip(exact, rounded, strict=True):
+        wanted, got = channel_bits(drive_words(in_double)), channel_bits(drive_words(in_single))
+        assert (wanted != got).mean() <= 1e-3
+        assert np.vdot(2.0 * got - 1, in_double) >= 0.9999 * np.abs(in_double).sum()
+
+
+def test_one_bit_in_a_hundred_wrong_is_outside_those_limits(model):
+    exact = model.drive_order_responses(POINTS[:1], dtype=np.float64)[0]
+    bits = channel_bits(drive_words(exact))
+    wrong = bits ^ (np.random.default_rng(1).random(bits.shape) < 0.01)
+    assert (wrong != bits).mean() > 1e-3
+    assert np.vdot(2.0 * wrong - 1, exact) < 0.9999 * np.abs(exact).sum()
+
+
+@pytest.mark.parametrize("out", [np.empty((1, 999, 32), np.float32), np.empty((1, 1000, 32))])
+def test_refuses_an_array_that_does_not_fit(model, out):
+    with pytest.raises(ValueError, match="out is"):
+        model.drive_order_responses(POINTS[:1], out)
+
+
+GRID = np.array([(x, y) for y in np.linspace(0.02, 0.13, 5) for x in np.linspace(0.01, 0.2, 11)])
+
+
+@each_row("dtype", [np.float32, np.float64])
+@each_row("order", ["rows", "shuffled", "ragged"])
+def test_points_in_rows_have_the_responses_they_have_anywhere(model, dtype, order):
+    """The sum over orders along y first: another order of summation, so equal to rounding (measured 3e-7 and 1e-15)."""
+    points = {"rows": GRID, "shuffled": np.random.default_rng(1).permutation(GRID), "ragged": GRID[np.arange(len(GRID)) % 7 != 3]}[
+        order
+    ]
+    assert in_rows(points)
+    found = model.drive_order_responses(points, dtype=dtype)
+    exact = np.concatenate([model.drive_order_responses(point, dtype=np.float64) for point in points])
+    largest = np.abs(exact).max()
+    tolerance = 2e-6 if dtype is np.float32 else 1e-13
+    assert np.abs(found - exact).max() <= tolerance * largest
+    moved = model.drive_order_responses(points + np.array([1e-5, 0]), dtype=dtype)
+    assert np.abs(moved - exact).max() > 100 * tolerance * largest, "ten micrometres off would be noticed"
+
+
+def test_scattered_points_do_not_go_by_rows():
+    assert not in_rows(POINTS)
