@@ -1,4 +1,4 @@
-"""Machines of the kernel tests are made at the same time, on a computer that has none of what they need: one installs, others wait."""
+"""Machines of the kernel tests are made at the same time, on a computer that may lack all they need: one installs, others wait."""
 
 import os
 import subprocess

@@ -5,7 +5,7 @@
 #    source ~/.local/share/bash_completion/haptic-panel
 # See also: https://github.com/scop/bash-completion/blob/main/doc/configuration.md
 
-_shtab_haptic_panel_client_subparsers=(play touches regions load stop disarm arm state figures describe faults hello)
+_shtab_haptic_panel_client_subparsers=(play touches emissions regions load stop disarm arm state figures describe faults hello)
 _shtab_haptic_panel_board_subparsers=(check reference schema)
 _shtab_haptic_panel_gateware_subparsers=(check build info load)
 _shtab_haptic_panel_bank_subparsers=(build choices info verify)
@@ -19,8 +19,9 @@ _shtab_haptic_panel_subparsers=(run serve status client doctor board gateware ba
 _shtab_haptic_panel_run_option_strings=(-h --help --board --json --replay --scene --bank --link --speed --plate --drift-percent --drift --sensor --plot --verbose)
 _shtab_haptic_panel_serve_option_strings=(-h --help --board --commands-per-s --touched-s --background --ready-fd)
 _shtab_haptic_panel_status_option_strings=(-h --help --json --file)
-_shtab_haptic_panel_client_play_option_strings=(-h --help --at --finger --amplitude)
+_shtab_haptic_panel_client_play_option_strings=(-h --help --at --finger --region --table --amplitude)
 _shtab_haptic_panel_client_touches_option_strings=(-h --help)
+_shtab_haptic_panel_client_emissions_option_strings=(-h --help)
 _shtab_haptic_panel_client_regions_option_strings=(-h --help --once)
 _shtab_haptic_panel_client_load_option_strings=(-h --help)
 _shtab_haptic_panel_client_stop_option_strings=(-h --help)
@@ -128,7 +129,7 @@ _shtab_haptic_panel_trace_pos_0_COMPGEN=_shtab_compgen_files
 _shtab_haptic_panel_run___link_choices=(model rtl)
 _shtab_haptic_panel_run___speed_choices=(1 max)
 _shtab_haptic_panel_run___sensor_choices=(board assumed none)
-_shtab_haptic_panel_client_pos_0_choices=(play touches regions load stop disarm arm state figures describe faults hello)
+_shtab_haptic_panel_client_pos_0_choices=(play touches emissions regions load stop disarm arm state figures describe faults hello)
 _shtab_haptic_panel_board_pos_0_choices=(check reference schema)
 _shtab_haptic_panel_gateware_check___link_choices=(model rtl)
 _shtab_haptic_panel_gateware_pos_0_choices=(check build info load)
@@ -166,6 +167,8 @@ _shtab_haptic_panel_client_play___help_nargs=0
 _shtab_haptic_panel_client_play___at_nargs=2
 _shtab_haptic_panel_client_touches__h_nargs=0
 _shtab_haptic_panel_client_touches___help_nargs=0
+_shtab_haptic_panel_client_emissions__h_nargs=0
+_shtab_haptic_panel_client_emissions___help_nargs=0
 _shtab_haptic_panel_client_regions__h_nargs=0
 _shtab_haptic_panel_client_regions___help_nargs=0
 _shtab_haptic_panel_client_regions___once_nargs=0

@@ -18,7 +18,7 @@ import socket
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 import msgspec
 from msgspec import Raw
@@ -30,6 +30,7 @@ from controller.device.application_socket.messages import (
     AnyRequest,
     Data,
     Description,
+    Emissions,
     Farewell,
     FaultNotice,
     FiguresAnswer,
@@ -41,12 +42,12 @@ from controller.device.application_socket.messages import (
 )
 from controller.errors import ControllerError, LinkError
 
-T = TypeVar("T")
+T = TypeVar("T", bound="Notice")
 DEFAULT_PATH = "/run/haptic-panel/panel.sock"
 RECEIVE_BYTES = 65536
-MAX_KEPT = 1000  # touches, and states, that arrive while an answer is awaited; older ones are dropped
+MAX_KEPT = 1000  # of each kind that arrive while an answer is awaited; older ones are dropped
 
-
+Notice = Touch | Emissions | StateAnswer | FaultNotice | Description
 Reply = Answer | LayerAnswer | Data
 
 
@@ -74,10 +75,7 @@ class PanelClient:
         self._encoder = msgspec.json.Encoder()
         self._decoder = messages.message_decoder()
         self._received = bytearray()
-        self._touches: deque[Touch] = deque(maxlen=MAX_KEPT)
-        self._states: deque[StateAnswer] = deque(maxlen=MAX_KEPT)
-        self._faults: deque[FaultNotice] = deque(maxlen=MAX_KEPT)
-        self._descriptions: deque[Description] = deque(maxlen=MAX_KEPT)
+        self._notices: dict[type[Any], deque[Any]] = {kind: deque(maxlen=MAX_KEPT) for kind in get_args(Notice)}
         self._answers: dict[int, Reply] = {}  # by request id: answers that no call has taken yet
         self._last_id = 0
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -101,18 +99,26 @@ class PanelClient:
         self._socket.close()
 
     def play(
-        self, effect: str, *, at_mm: tuple[float, float] | None = None, finger: int | None = None, amplitude: float | None = None
+        self,
+        effect: str | Mapping[str, Any],
+        *,
+        at_mm: tuple[float, float] | None = None,
+        finger: int | None = None,
+        region: str | None = None,
+        amplitude: float | None = None,
     ) -> Answer:
-        """Play an effect at a point of the plate or at a finger, and wait for the outcome.
+        """Play an effect at a point of the plate, at a finger or at all fingers in a region, and wait for the outcome.
 
         Parameters
         ----------
-        effect : str
-            One of `hello().effects`.
+        effect : str or mapping
+            One of `hello().effects`, a name given to `keep_clip`, or a table with the keys of a scene's [effects.NAME].
         at_mm : (float, float), optional
             Place on the plate from its corner, x and y in mm.
         finger : int, optional
             Instead of a place: a finger, as numbered by `touches`; the effect follows it.
+        region : str, optional
+            Instead of a place: a region of this client's layer, or of the scene, by its name.
         amplitude : float, optional
             Share of the full amplitude, 0.1 to 1; default: the largest that the board allows.
 
@@ -121,16 +127,39 @@ class PanelClient:
         Answer
             `outcome` is "played", "merged" (replaced by a newer command), "skipped" or "refused", with its `reason`.
         """
-        return self._answer(self.start_play(effect, at_mm=at_mm, finger=finger, amplitude=amplitude))
+        return self._answer(self.start_play(effect, at_mm=at_mm, finger=finger, region=region, amplitude=amplitude))
 
     def start_play(
-        self, effect: str, *, at_mm: tuple[float, float] | None = None, finger: int | None = None, amplitude: float | None = None
+        self,
+        effect: str | Mapping[str, Any],
+        *,
+        at_mm: tuple[float, float] | None = None,
+        finger: int | None = None,
+        region: str | None = None,
+        amplitude: float | None = None,
     ) -> int:
         """As `play`, but without waiting: returns the id to give to `wait`."""
         x_mm, y_mm = at_mm or (None, None)
-        return self._ask(
-            messages.PlayRequest(id=self._new_id(), effect=effect, x_mm=x_mm, y_mm=y_mm, finger=finger, amplitude=amplitude)
-        )
+        where: dict[str, Any] = {"x_mm": x_mm, "y_mm": y_mm, "finger": finger, "region": region, "amplitude": amplitude}
+        number = self._new_id()
+        if isinstance(effect, str):
+            return self._ask(messages.PlayRequest(id=number, effect=effect, **where))
+        return self._ask(messages.Clip(id=number, effect=Raw(self._encoder.encode(effect)), **where))
+
+    def keep_clip(self, name: str, effect: Mapping[str, Any]) -> None:
+        """Have the panel keep an effect for this client, to be played by that name.
+
+        Parameters
+        ----------
+        effect : mapping
+            A table with the keys of a scene's [effects.NAME].
+
+        Raises
+        ------
+        ControllerError
+            If it is not valid, or this user may not play.
+        """
+        self._done(messages.Clip(id=self._new_id(), effect=Raw(self._encoder.encode(effect)), name=name))
 
     def wait(self, number: int) -> Answer:
         """Wait for the outcome of a command given with `start_play`."""
@@ -182,25 +211,29 @@ class PanelClient:
 
     def touches(self) -> Iterator[Touch]:
         """Every touch from this call on, until the iterator is closed."""
-        self._done(messages.Subscribe(id=self._new_id()))
-        return self._subscribed(self._touches)
+        return self._subscribed(Touch, "touches")
+
+    def emissions(self) -> Iterator[Emissions]:
+        """What is played from this call on, and what is not, until the iterator is closed, as for `states`."""
+        return self._subscribed(Emissions, "emissions")
 
     def states(self) -> Iterator[StateAnswer]:
         """State of the panel now and after each change, until the iterator is closed; that ends `touches` too."""
-        self._done(messages.Subscribe(id=self._new_id(), to=("state",)))
-        return self._subscribed(self._states)
+        return self._subscribed(StateAnswer, "state")
 
     def faults(self) -> Iterator[FaultNotice]:
         """Every fault from this call on, until the iterator is closed, as for `states`; `describe` has the last 50."""
-        self._done(messages.Subscribe(id=self._new_id(), to=("faults",)))
-        return self._subscribed(self._faults)
+        return self._subscribed(FaultNotice, "faults")
 
     def descriptions(self) -> Iterator[Description]:
         """Description of the panel now and whenever another scene is in force, until the iterator is closed, as for `states`."""
-        self._done(messages.Subscribe(id=self._new_id(), to=("description",)))
-        return self._subscribed(self._descriptions)
+        return self._subscribed(Description, "description")
 
-    def _subscribed(self, kept: deque[T]) -> Iterator[T]:
+    def _subscribed(self, kind: type[T], topic: messages.Topic) -> Iterator[T]:
+        self._done(messages.Subscribe(id=self._new_id(), to=(topic,)))
+        return self._follow(self._notices[kind])
+
+    def _follow(self, kept: deque[T]) -> Iterator[T]:
         try:
             while True:
                 while kept:
@@ -209,10 +242,8 @@ class PanelClient:
         except GeneratorExit:
             if self._socket.fileno() >= 0:
                 self._done(messages.Unsubscribe(id=self._new_id()))
-                self._touches.clear()
-                self._states.clear()
-                self._faults.clear()
-                self._descriptions.clear()
+                for notices in self._notices.values():
+                    notices.clear()
 
     def arm(self) -> None:
         """Switch the outputs on as soon as the FPGA allows it; `states` reports when they are.
@@ -309,20 +340,14 @@ class PanelClient:
         return self._answers.pop(number)
 
     def _keep(self, message: AnyMessage) -> None:
-        if isinstance(message, Touch):
-            self._touches.append(message)
-        elif isinstance(message, StateAnswer) and message.id is None:
-            self._states.append(message)
-        elif isinstance(message, FaultNotice):
-            self._faults.append(message)
-        elif isinstance(message, Description) and message.id is None:
-            self._descriptions.append(message)
-        elif isinstance(message, Farewell) and message.lacks:
+        if isinstance(message, Farewell) and message.lacks:
             raise ControllerError(f"{self._path}: {message.reason}")
-        elif isinstance(message, Farewell):
+        if isinstance(message, Farewell):
             raise LinkError(f"{self._path}: the panel has ended the connection: {message.reason}")
-        elif isinstance(message.id, int):
+        if isinstance(message, Reply) and isinstance(message.id, int):
             self._answers[message.id] = message
+        elif isinstance(message, Notice):
+            self._notices[type(message)].append(message)
 
     def _receive(self, timeout_s: float | None) -> AnyMessage:
         """Wait for the next message."""

@@ -10,6 +10,7 @@ import msgspec
 
 from controller.console import ReaderGone, flush, program, say
 from controller.device.application_socket.client import DEFAULT_PATH, PanelClient
+from controller.errors import ConfigError
 
 
 @program
@@ -41,12 +42,17 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
     match options.request:
         case "play":
             at_mm = tuple(options.at) if options.at else None
-            answer = panel.play(options.effect, at_mm=at_mm, finger=options.finger, amplitude=options.amplitude)
+            effect = _table(options.table, options.effect) if options.table else options.effect
+            where = {"at_mm": at_mm, "finger": options.finger, "region": options.region}
+            answer = panel.play(effect, **where, amplitude=options.amplitude)
             _show(answer)
             return 0 if answer.outcome in ("played", "merged") else 1
         case "touches":
             for touch in panel.touches():
                 _show(touch)
+        case "emissions":
+            for emissions in panel.emissions():
+                _show(emissions)
         case "regions":
             from controller.device.board.records import read_tables  # no other request needs a board's modules
 
@@ -82,6 +88,23 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
     return 0
 
 
+def _table(file: Path, name: str) -> dict[str, Any]:
+    """The table [effects.NAME] of a file.
+
+    Raises
+    ------
+    ConfigError
+        If it has none of this name.
+    """
+    from controller.device.board.records import read_tables
+
+    effects = read_tables(file).get("effects")
+    if not isinstance(effects, dict) or not isinstance(effects.get(name), dict):
+        names = ", ".join(effects) if isinstance(effects, dict) else "none"
+        raise ConfigError(f"{file}: no table [effects.{name}]; it has: {names}")
+    return dict(effects[name])
+
+
 def _show(what: Any) -> None:
     say(msgspec.json.encode(what).decode())
     flush()
@@ -104,8 +127,11 @@ def declare_requests(parser: argparse.ArgumentParser) -> None:
     where = play.add_mutually_exclusive_group(required=True)
     where.add_argument("--at", nargs=2, type=float, metavar=("X_MM", "Y_MM"))
     where.add_argument("--finger", type=int, metavar="N", help="as numbered by `touches`")
+    where.add_argument("--region", metavar="R", help="each finger in this region of the scene")
+    play.add_argument("--table", type=Path, metavar="FILE.toml", help="[effects.EFFECT] of this file, as `effect import` writes it")
     play.add_argument("--amplitude", type=float, metavar="A", help="0.1 to 1 (default: the largest that is allowed)")
     commands.add_parser("touches", help="print every touch until Ctrl-C")
+    commands.add_parser("emissions", help="print what is played, and what is not and why, until Ctrl-C")
     regions = commands.add_parser("regions", help="lay the regions of a scene.toml over the scene until Ctrl-C")
     regions.add_argument("file", type=Path, metavar="SCENE.toml")
     regions.add_argument("--once", action="store_true", help="only say what would be refused")

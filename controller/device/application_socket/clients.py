@@ -154,7 +154,7 @@ class Clients:
     def unsubscribe(self, client: Connection) -> None:
         """Have a client receive nothing but answers."""
         self.subscribe(client, touches=False)
-        client.informed = client.described = client.warned = False
+        client.shown_emissions = client.informed = client.described = client.warned = False
 
     def send(self, client: Connection) -> None:
         """Send what is queued for a client; what remains is left to the next turn."""

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 
 from controller.device.application_socket.clients import NOW, Clients
 from controller.device.application_socket.counters import SocketCounters
+from controller.device.application_socket.emission_notices import EmissionNotices
 from controller.device.application_socket.notifications import Notifications
 from controller.device.application_socket.peers import Peer, peer_of
 from controller.device.application_socket.pending_commands import PendingCommands
@@ -57,11 +58,19 @@ class CommandSocket:
         self._clients = Clients(settings, self.counters, peer_of)
         self._pending = PendingCommands(self._clients, settings.max_clients)
         self._notifications = Notifications(self._clients)
+        self._emissions = EmissionNotices(self._clients)
         self._switched_off = SwitchedOff(settings.path)
         self._scene_changed = False
         self._clock_s = clock_s
         self._requests = Requests(
-            board, settings, self._clients, self._pending, self._notifications, self._switched_off, self.counters
+            board,
+            settings,
+            self._clients,
+            self._pending,
+            self._notifications,
+            self._emissions,
+            self._switched_off,
+            self.counters,
         )
 
     @property
@@ -80,7 +89,8 @@ class CommandSocket:
 
     def next_time_s(self) -> float:
         """When to call `serve` although the file is not readable, in s of the host's clock; inf: never."""
-        return self._clients.next_s
+        clients_s, emissions_s = self._clients.next_s, self._emissions.next_s()
+        return clients_s if clients_s < emissions_s else emissions_s
 
     def serve(self, now_s: float, control: PanelControl) -> None:
         """Read what clients sent, a bounded part of it, and answer what can be answered."""
@@ -101,16 +111,19 @@ class CommandSocket:
                 if client.described:
                     self._requests.describe_to(client, control)
                     clients.send(client)
+        self._emissions.serve(now_s, control)
         while clients.gone:
             control.drop_layer(clients.gone.pop(), now_s)
 
     def touches(self, samples: Sequence[TouchSample]) -> None:
         """Send the touch samples of one report to the clients that subscribed to touches."""
         self._notifications.touches(samples)
+        self._emissions.stirred()
 
     def outcome(self, ticket: int, outcome: Outcome, age_s: float) -> None:
         """Answer a command to play, `age_s` after it was given."""
         self._requests.answer_ticket(ticket, outcome.value, age_ms=round(age_s * 1e3, 3))
+        self._emissions.stirred()
 
     def loaded(self, ticket: int, reason: str) -> None:
         """Answer a command to load a scene; an empty reason: the scene is in force."""

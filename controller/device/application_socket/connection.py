@@ -10,6 +10,7 @@ import msgspec
 from controller.device.application_socket.messages import LINE_BYTES, AnyMessage, Farewell, Right
 from controller.device.application_socket.peers import Peer
 from controller.device.application_socket.token_bucket import TokenBucket
+from controller.device.scene.clips import Clip
 
 QUEUE_BYTES = 65536  # messages that the client has not read yet
 LAYER_BURST = 5  # times that a client may replace its regions at once
@@ -51,6 +52,7 @@ class Connection:
         self.rights: tuple[Right, ...] = ()
         self.heard_s = -math.inf  # when its last line arrived, in s of the host's clock
         self.subscribed = False  # to touches
+        self.shown_emissions = False  # subscribed to emissions
         self.informed = False  # subscribed to states
         self.described = False  # subscribed to descriptions
         self.warned = False  # subscribed to faults
@@ -61,6 +63,7 @@ class Connection:
         self.resume_s = -math.inf  # when it is read again, after exceeding its rate
         self.waiting = 0  # commands without an outcome yet
         self.layered = False  # has sent regions
+        self.clips: dict[str, Clip] = {}  # that it has sent under a name
         self.rate = TokenBucket(rate_hz, burst)
         self.layer_rate = TokenBucket(layers_hz, LAYER_BURST)
         self._socket: socket.socket | None = None
@@ -94,12 +97,13 @@ class Connection:
         self.peer, self.rights, self.heard_s = peer, rights, now_s
         self.fd = client.fileno()
         self.serial = serial
-        self.subscribed = self.informed = self.described = self.warned = False
+        self.subscribed = self.shown_emissions = self.informed = self.described = self.warned = False
         self.ended = self.deaf = self.layered = self._skipping = False
         self.leaving_reason = ""
         self.leave_s, self.resume_s = math.inf, -math.inf
         self.watched, self.waiting = UNWATCHED, 0
         self._start = self._end = self._sent = self._queued = 0
+        self.clips = {}
         self._longest = len(self._received) if "regions" in rights else LINE_BYTES
         self.rate.fill(now_s)
         self.layer_rate.fill(now_s)
@@ -120,7 +124,7 @@ class Connection:
     @property
     def listening(self) -> bool:
         """Whether it has subscribed to anything."""
-        return self.subscribed or self.informed or self.described or self.warned
+        return self.subscribed or self.shown_emissions or self.informed or self.described or self.warned
 
     @property
     def silent(self) -> bool:

@@ -23,7 +23,7 @@ Word = Annotated[str, Meta(min_length=1, max_length=64)]
 PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
 Right = Literal["look", "play", "regions", "operate"]
 ShiftMm = Annotated[float, Meta(ge=-MOST_SHIFT_MM, le=MOST_SHIFT_MM)]
-Topic = Literal["touches", "state", "description", "faults"]
+Topic = Literal["touches", "emissions", "state", "description", "faults"]
 Outcome = Literal["played", "merged", "skipped", "refused", "done"]
 
 
@@ -37,23 +37,40 @@ class Request(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag
     id: Id = None
 
 
-class PlayRequest(Request, frozen=True, kw_only=True, tag="play", gc=False):
-    """Play an effect at a point (`x_mm` and `y_mm`), or at a finger as it moves (`finger`, as in `Touch`).
+class Aimed(Request, frozen=True, kw_only=True, gc=False):
+    """A request for a place: a point (`x_mm` and `y_mm`), a finger as it moves (`finger`, as in `Touch`), or each in a `region`.
 
-    `amplitude` is a share of the full amplitude; null: the largest that the board allows to clients.
+    The region is this client's own of that name, else the scene's. `amplitude` is a share of the full amplitude; null: the largest
+    that the board allows to clients.
     """
 
-    effect: Word
     x_mm: float | None = None
     y_mm: float | None = None
     finger: Annotated[int, Meta(ge=0, le=2**53)] | None = None
+    region: Word | None = None
     amplitude: float | None = None
 
 
-class Subscribe(Request, frozen=True, kw_only=True, tag="subscribe", gc=False):
-    """Send every touch or fault from now on, the panel's state or description now and whenever it changes; or several of these."""
+class PlayRequest(Aimed, frozen=True, kw_only=True, tag="play", gc=False):
+    """Play an effect of the scene or the library, or one that this client has sent as a `Clip` with that name."""
 
-    to: Annotated[tuple[Topic, ...], Meta(min_length=1, max_length=4)] = ("touches",)
+    effect: Word
+
+
+class Clip(Aimed, frozen=True, kw_only=True, tag="clip", gc=False):
+    """Play an effect that is sent along, with the keys of a scene's [effects.NAME], or keep it for this client, or both.
+
+    With a `name` it is kept until another one of that name comes, or the client goes; with a place it is played there.
+    """
+
+    effect: Raw
+    name: Word | None = None
+
+
+class Subscribe(Request, frozen=True, kw_only=True, tag="subscribe", gc=False):
+    """Send touches, emissions or faults from now on, state or description of the panel now and at each change."""
+
+    to: Annotated[tuple[Topic, ...], Meta(min_length=1, max_length=5)] = ("touches",)
 
 
 class Unsubscribe(Request, frozen=True, kw_only=True, tag="unsubscribe", gc=False):
@@ -182,6 +199,32 @@ class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc
     size_mm: float
 
 
+class PlayedFocus(Struct, frozen=True, kw_only=True, omit_defaults=True, gc=False):
+    """One focus of an emission that started at `time_s` (CLOCK_MONOTONIC): where it is, how strong, of which region or effect.
+
+    `period_ms` of a fixed emitter: the FPGA repeats it until another emission starts, another scene is in force, or outputs go off.
+    """
+
+    time_s: float
+    x_mm: float
+    y_mm: float
+    amplitude: float
+    of: str
+    finger: int | None = None
+    period_ms: float | None = None
+
+
+class Emissions(Struct, frozen=True, kw_only=True, tag_field="kind", tag="emissions", gc=False):
+    """What was played since the last such message, a thirtieth of a second before or longer, and what was due and was not.
+
+    `skipped` counts the latter by cause, as in the figures; `lost` starts are not among the `foci`, since too many came.
+    """
+
+    foci: tuple[PlayedFocus, ...]
+    skipped: dict[str, int]
+    lost: int
+
+
 class StateAnswer(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc=False):
     """State of the panel: the answer to `AskState` or, with an id of null, a notification to subscribers.
 
@@ -282,11 +325,11 @@ class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field=
     lacks: Right | None = None
 
 
-AnyOrder = PlayRequest | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene
+AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene
 AnyQuestion = Subscribe | Unsubscribe | AskFigures | AskState | Describe | Hello
 AnyRequest = AnyOrder | AnyQuestion
 Data = Greeting | FiguresAnswer | StateAnswer | Description
-AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Farewell
+AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Emissions | Farewell
 
 
 def request_decoder() -> msgspec.json.Decoder[AnyRequest]:

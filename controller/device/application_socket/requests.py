@@ -14,19 +14,22 @@ from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import Connection, LineTooLong, MessageTooLong
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.description import Describer
+from controller.device.application_socket.emission_notices import EmissionNotices
 from controller.device.application_socket.layer_requests import LayerRequests, layer_answer, placement
-from controller.device.application_socket.messages import LINE_BYTES, AnyRequest, Id, PlayRequest, Right
+from controller.device.application_socket.messages import LINE_BYTES, AnyRequest, Clip, Id, PlayRequest, Right
 from controller.device.application_socket.notifications import Notifications
 from controller.device.application_socket.pending_commands import PendingCommands
+from controller.device.application_socket.play_requests import CLIP_LINES, Aim, PlayRequests
 from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.application_socket.tickets import FULL
 from controller.device.board.board import Board
 from controller.device.board.descriptions import type_info
-from controller.device.board.devices import MIN_AMPLITUDE, ApplicationSocket
+from controller.device.board.devices import ApplicationSocket
 from controller.device.board.validation import NO_JSON, explain
 from controller.device.loop.commands import PanelControl
 from controller.device.loop.layer_source import LayerResult
-from controller.errors import ControllerError
+from controller.device.scene import clips
+from controller.errors import ConfigError, ControllerError
 from controller.log import Event, log
 
 FIGURES_S = 1.0  # for which the same figures are sent: collecting them takes the loop milliseconds
@@ -40,11 +43,13 @@ class Requests:
     Parameters
     ----------
     board : Board
-        Its plate limits where effects can be played.
+        What effects can be played on it, and where.
     settings : ApplicationSocket
         What clients may ask for.
     notifications : Notifications
         Holds the panel's condition.
+    emissions : EmissionNotices
+        Sends what is played to the clients that ask for it.
     """
 
     def __init__(
@@ -54,16 +59,19 @@ class Requests:
         clients: Clients,
         pending: PendingCommands,
         notifications: Notifications,
+        emissions: EmissionNotices,
         switched_off: SwitchedOff,
         counters: SocketCounters,
     ) -> None:
         self._board = board
         self._max_amplitude = settings.max_amplitude
+        self._plays = PlayRequests(board, settings)
         self._layers = LayerRequests(settings)
         self.describer = Describer(board, settings, notifications.faults, clients, counters)
         self._clients = clients
         self._pending = pending
         self._notifications = notifications
+        self._emissions = emissions
         self._switched_off = switched_off
         self._counters = counters
         self._decoder = messages.request_decoder()
@@ -157,28 +165,46 @@ class Requests:
             self._refuse_invalid(
                 client, request.id, f"a line of kind {request.__struct_config__.tag} is at most {LINE_BYTES} bytes"
             )
-        elif isinstance(request, PlayRequest):
+        elif isinstance(request, PlayRequest | Clip):
             self._play(client, request, now_s, control)
         else:
             self._do(client, request, now_s, control)
 
-    def _play(self, client: Connection, play: PlayRequest, now_s: float, control: PanelControl) -> None:
+    def _play(self, client: Connection, request: PlayRequest | Clip, now_s: float, control: PanelControl) -> None:
         if "play" not in client.rights:
-            self._not_allowed(client, play.id, "play")
+            self._not_allowed(client, request.id, "play")
             return
-        amplitude = self._max_amplitude if play.amplitude is None else play.amplitude
-        reason = self._why_not(play, amplitude)
-        if reason:
-            self._refuse_invalid(client, play.id, reason)
+        if isinstance(request, Clip) and not client.rate.take(now_s, CLIP_LINES - 1):
+            self._counters.over_rate += 1
+            self._answer(client, request.id, "refused", "rate")
             return
-        ticket = self._ticket(client, play.id)
+        try:
+            aim = self._plays.aim(client, request, control)
+            effect = self._plays.effect(client, request)
+        except ConfigError as error:
+            self._refuse_invalid(client, request.id, str(error)[:REASON_CHARACTERS])
+            return
+        if aim is None:
+            self._answer(client, request.id, "done")
+        elif aim.fingers == ():
+            self._answer(client, request.id, "skipped", f"no finger is in region {request.region!r}")
+        else:
+            self._start(client, request.id, effect, aim, now_s, control)
+
+    def _start(
+        self, client: Connection, number: Id, effect: str | clips.Clip, aim: Aim, now_s: float, control: PanelControl
+    ) -> None:
+        """Play at a point or at fingers; the outcome is that at the first of them."""
+        ticket = self._ticket(client, number)
         if ticket == FULL:
             return
-        x_m, y_m = (play.x_mm or 0.0) * 1e-3, (play.y_mm or 0.0) * 1e-3
         try:
-            control.play(ticket, play.effect, x_m, y_m, play.finger, amplitude, now_s)
+            for finger in aim.fingers or (None,):
+                control.play(ticket, effect, aim.x_m, aim.y_m, finger, aim.amplitude, now_s)
+                ticket = FULL  # nobody waits for the others
         except ControllerError as error:
-            self.answer_ticket(ticket, "refused", reason=str(error))
+            if ticket != FULL:
+                self.answer_ticket(ticket, "refused", reason=str(error))
 
     def _put_regions(
         self, client: Connection, request: messages.Regions, line: memoryview, now_s: float, control: PanelControl
@@ -209,28 +235,13 @@ class Requests:
         else:
             self._answer(client, request.id, "done")
 
-    def _why_not(self, play: PlayRequest, amplitude: float) -> str:
-        """What is wrong with a command to play; empty if nothing is."""
-        if not MIN_AMPLITUDE <= amplitude <= self._max_amplitude:
-            return f"amplitude = {amplitude:g} is not {MIN_AMPLITUDE:g} to {self._max_amplitude:g}"
-        if play.finger is not None:
-            return "" if play.x_mm is None and play.y_mm is None else "either x_mm and y_mm, or finger"
-        if play.x_mm is None or play.y_mm is None:
-            return "either x_mm and y_mm, or finger"
-        plate = self._board.plate
-        if not 0.0 <= play.x_mm <= plate.length_mm:
-            return f"x_mm = {play.x_mm:g} is off the plate (0 to {plate.length_mm:g})"
-        if not 0.0 <= play.y_mm <= plate.width_mm:
-            return f"y_mm = {play.y_mm:g} is off the plate (0 to {plate.width_mm:g})"
-        return ""
-
     def _do(self, client: Connection, request: AnyRequest, now_s: float, control: PanelControl) -> None:
-        """Carry out a request other than `PlayRequest`."""
+        """Carry out a request that plays nothing and lays no regions."""
         rights = self._clients.rights
         match request:
             case messages.Arm() | messages.Disarm() | messages.LoadScene() if "operate" not in client.rights:
                 self._not_allowed(client, request.id, "operate")
-            case messages.Subscribe(to=to) if "touches" in to and "play" not in client.rights:
+            case messages.Subscribe(to=to) if {"touches", "emissions"} & set(to) and "play" not in client.rights:
                 self._not_allowed(client, request.id, "play")
             case messages.Arm() | messages.Disarm() | messages.Stop():
                 on, who = isinstance(request, messages.Arm), rights.called(client.peer)
@@ -259,6 +270,9 @@ class Requests:
                     client.informed = True
                     client.put(self._notifications.state())
                 client.warned |= "faults" in to
+                if "emissions" in to:
+                    client.shown_emissions = True
+                    self._emissions.begin(control)
                 if "description" in to:
                     client.described = True
                     self.describe_to(client, control)

@@ -7,10 +7,13 @@ from enum import Enum
 from typing import Any, Protocol
 
 from controller.device.board.panel_state import Condition
+from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.layer_source import LayerResult
+from controller.device.scene.clips import Clip
 from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene
 from controller.device.touch.source import TouchSample
+from controller.metrics import Skipped
 
 
 class Outcome(Enum):
@@ -23,17 +26,30 @@ class Outcome(Enum):
 
 
 class PanelControl(Protocol):
-    """What commands may ask of the loop."""
+    """What commands may ask of the loop.
 
-    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+    Attributes
+    ----------
+    emissions : EmissionRing
+        The last emissions, noted while they are wanted.
+    skipped : Skipped
+        Counters of what was due and is not played.
+    """
+
+    emissions: EmissionRing
+    skipped: Skipped
+
+    def play(
+        self, ticket: int, effect: str | Clip, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
+    ) -> None:
         """Play an effect at a point, or at a finger wherever it moves; exactly one `CommandSource.outcome` follows.
 
         Parameters
         ----------
         ticket : int
-            Above 0; the outcome is reported with it.
-        effect : str
-            One of `effects`.
+            The outcome is reported with it; 0: nobody waits for it.
+        effect : str or Clip
+            One of `effects`, or one that a client has sent.
         x_m, y_m : float
             Place on the plate; unused with a finger.
         amplitude : float
@@ -45,6 +61,15 @@ class PanelControl(Protocol):
         ------
         ControllerError
             If the outputs are off, or the effect or the finger is unknown. No outcome follows then.
+        """
+
+    def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
+        """Fingers in a region, by its name: of the layer of the client with this number, else of the scene.
+
+        Raises
+        ------
+        ConfigError
+            If neither has a region of this name.
         """
 
     def switch(self, *, on: bool, by: str = "a client") -> None:

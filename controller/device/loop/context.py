@@ -9,6 +9,7 @@ from controller.clocks import NEVER, Clock
 from controller.device.board.board import Board
 from controller.device.fpga.clock_estimate import ClockEstimate
 from controller.device.fpga.session import Session
+from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.layer_source import LayerPreparation
 from controller.device.loop.scene_source import PreparedScene
 from controller.device.loop.trace_ring import TraceRing
@@ -48,6 +49,7 @@ class LoopContext:
         self.clock_estimate = ClockEstimate(board.link.clock_hz)
         self.counters = Counters()
         self.trace = TraceRing()
+        self.emissions = EmissionRing()
         session.counters = self.counters.link
 
 

@@ -10,6 +10,7 @@ from controller.device.loop.outputs import Outputs
 from controller.device.loop.playing.host_timing import HostTiming
 from controller.device.loop.scene_source import SceneChange
 from controller.device.loop.scheduler import Scheduler
+from controller.device.scene.clips import Clip
 from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene
 from controller.errors import ConfigError, FaultError
@@ -40,10 +41,14 @@ class LoopControl:
         self._scheduler = scheduler
         self._clock_estimate = context.clock_estimate
         self._counters = context.counters
+        self.emissions = context.emissions
+        self.skipped = context.counters.skipped
         self._change = change
         self._timing = timing
 
-    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+    def play(
+        self, ticket: int, effect: str | Clip, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
+    ) -> None:
         """Play an effect; see `PanelControl.play`.
 
         Raises
@@ -60,6 +65,10 @@ class LoopControl:
         if not self._outputs.on and not self._outputs.waking:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
         self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
+
+    def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
+        """Fingers in a region; see `PanelControl.fingers_in`."""
+        return self._scheduler.fingers_in(owner, region)
 
     def switch(self, *, on: bool, by: str = "a client") -> None:
         """Arm or disarm the outputs; see `PanelControl.switch`."""

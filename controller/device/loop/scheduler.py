@@ -16,6 +16,7 @@ from controller.device.loop.fixed_emitters import FixedEmitters
 from controller.device.loop.playing.batching import select_batch
 from controller.device.loop.skips import ALL, Skips
 from controller.device.loop.train_phases import moved_s
+from controller.device.scene.clips import Clip
 from controller.device.scene.emission import Emission
 from controller.device.scene.fingers import ActiveEffects
 from controller.device.scene.region_lookup import OUTSIDE
@@ -113,13 +114,15 @@ class Scheduler:
         else:
             self._counters.skipped.between_emissions += 1
 
-    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime) -> None:
+    def play(
+        self, ticket: int, effect: str | Clip, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime
+    ) -> None:
         """Start an effect for a command, at a point or at a finger.
 
         Parameters
         ----------
         ticket : int
-            Above 0; the outcome is reported with it.
+            The outcome is reported with it; 0: nobody waits for it.
         x_m, y_m : float
             Place on the plate; unused with a finger.
         finger : int or None
@@ -143,6 +146,11 @@ class Scheduler:
             self._active[active.owner] = active
         self._make_room(emissions)
         self._add(emissions)
+
+    def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
+        """Fingers in a region; see `PanelControl.fingers_in`."""
+        index = self.scene.named(owner, region)
+        return tuple([active.finger for active in self._active.values() if active.finger is not None and active.region == index])
 
     def advance(self, now_s: FpgaTime, lead_s: float = 0.0) -> None:
         """Collect the pulses of trains that are due within `lead_s`, but none before the pulse before it is due."""

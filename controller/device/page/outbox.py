@@ -1,4 +1,4 @@
-"""What waits to be sent to one page: the newest touch of each finger, the panel's last state; all else is bounded."""
+"""What waits to be sent to one page: the newest touch of each finger, the last emissions and state; all else is bounded."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class TooSlow(Exception):
 
 
 class Outbox:
-    """Lines in the order of their arrival; a newer touch or state takes the place of the one that waits.
+    """Lines in the order of their arrival; a newer touch, state or emissions take the place of the one that waits.
 
     A page that sleeps, as a phone's does, gets no old touches when it wakes.
 
@@ -74,4 +74,5 @@ class Outbox:
             return self._count
         if found.kind == "touch":
             return found.kind, found.finger
-        return found.kind if found.kind == "state" and found.id is None else self._count
+        newest_only = found.kind == "emissions" or (found.kind == "state" and found.id is None)
+        return found.kind if newest_only else self._count

@@ -105,8 +105,10 @@ def refused(message: dict[str, Any], rights: frozenset[str]) -> str:
     needs = RIGHT_OF.get(kind) if isinstance(kind, str) else None
     if needs is None:
         return f"kind = {shown(str(kind))}: must be one of {', '.join(map(repr, RIGHT_OF))}"
-    if kind == "subscribe" and needs in rights and "play" not in rights and "touches" in _topics(message):
-        return "this page's origin may not subscribe to touches: the bridge's settings do not give it the right 'play'"
+    if kind == "subscribe" and needs in rights and "play" not in rights:
+        for topic in ("touches", "emissions"):
+            if topic in _topics(message):
+                return f"this page's origin may not subscribe to {topic}: the bridge's settings do not give it the right 'play'"
     return "" if needs in rights else f"this page's origin may not {kind}: the bridge's settings do not give it the right {needs!r}"
 
 

@@ -20,6 +20,7 @@ import math
 from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
+from controller.device.scene.clips import Clip
 from controller.device.scene.emission import Emission, new_emission
 from controller.device.scene.progress import DistanceProgress, GridProgress
 from controller.device.scene.region_lookup import OUTSIDE
@@ -141,11 +142,13 @@ class ActiveEffects:
         trains = self._scene.regions[self.region].release
         return _at_most_one(self._begin(trains, self.region, time_s, ends_on_leave=True)) if trains else ()
 
-    def start(self, effect: str, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
+    def start(self, effect: str | Clip, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
         """A command plays an effect here.
 
         Parameters
         ----------
+        effect : str or Clip
+            One of the scene's, by its name, or one that a client has sent.
         amplitude : float
             `MIN_AMPLITUDE` to 1, times the effect's own; a product below `MIN_AMPLITUDE` is played at that.
         ticket : int
@@ -161,11 +164,15 @@ class ActiveEffects:
         UnknownEffect
             If there is no effect of this name, or only a moving finger or a fixed emitter can have it.
         """
-        train = self._scene.effects.get(effect)
-        if train is None:
-            playable = ", ".join(sorted(self._scene.effects))
-            raise UnknownEffect(f"no effect {effect!r} that a command can play; there are: {playable}")
-        self._add(ActiveTrain(train, time_s, COMMAND, ends_on_leave=False, gain=amplitude, effect=effect, ticket=ticket))
+        if isinstance(effect, str):
+            train = self._scene.effects.get(effect)
+            if train is None:
+                playable = ", ".join(sorted(self._scene.effects))
+                raise UnknownEffect(f"no effect {effect!r} that a command can play; there are: {playable}")
+            name = effect
+        else:
+            name, train = effect
+        self._add(ActiveTrain(train, time_s, COMMAND, ends_on_leave=False, gain=amplitude, effect=name, ticket=ticket))
         return self.advance(time_s)
 
     def advance(self, until_s: FpgaTime) -> tuple[Emission, ...]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
 from typing import Final
 
@@ -17,16 +19,14 @@ FOREVER_MS: Final = 1e12  # an envelope is constant beyond its last point
 
 def between(points: Sequence[Point], at: float) -> float:
     """Value at a place of points (place, value): linear between them, constant before the first and after the last."""
-    before_at, before = points[0]
-    if at <= before_at:
-        return before
-    for after_at, after in points:
-        if at < after_at:
-            return before + (after - before) * (at - before_at) / (after_at - before_at)
-        before_at, before = after_at, after
-    return before
+    after = bisect_right(points, (at, math.inf))
+    if not after or after == len(points):
+        return points[after and -1][1]
+    (before_at, before), (after_at, value) = points[after - 1], points[after]
+    return before + (value - before) * (at - before_at) / (after_at - before_at)
 
 
+@lru_cache(maxsize=2)  # an effect is asked for it once for each check
 def rhythm_of(effect: EffectTable) -> tuple[Point, ...]:
     """Each pulse (ms, amplitude) of an effect of a rhythm, in order of time, silent ones included; empty: it has none."""
     if effect.pulses is not None:

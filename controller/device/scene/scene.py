@@ -25,6 +25,7 @@ from controller.device.scene.scene_file import CheckedRegion, Shape, emitter_at,
 from controller.device.scene.shapes import Boxes, Rectangle
 from controller.device.scene.spacings import Spacing, spacing_of
 from controller.device.scene.trains import EffectiveAmplitude, Train, train_of
+from controller.errors import ConfigError
 
 MIN_SIDE_M: Final = 1e-9  # of all tiles together: a region may be so thin that it has no width in floating point
 TilesPerM = Annotated[float, Meta(gt=0, le=TILES / MIN_SIDE_M)]
@@ -206,6 +207,26 @@ class Scene:
                 return next((first + at for at, region in enumerate(other.regions) if region.name == name), OUTSIDE)
             first += len(other.regions)
         return first + index if layer is None else OUTSIDE
+
+    def named(self, owner: int, name: str) -> int:
+        """Index of the region of a name: of the layer of this owner, else of the scene without layers.
+
+        Raises
+        ------
+        ConfigError
+            If neither has one.
+        """
+        first = 0
+        for layer in self.layers:
+            if layer.owner == owner:
+                for at, region in enumerate(layer.regions, first):
+                    if region.name == name:
+                        return at
+            first += len(layer.regions)
+        for at in range(first, len(self.regions)):
+            if self.regions[at].name == name:
+                return at
+        raise ConfigError(f"no region {name!r}: neither of this client nor of the scene")
 
     def region_at(self, x_m: float, y_m: float) -> int:
         """Index of the first region that contains the point (x_m, y_m), or OUTSIDE."""

@@ -17,8 +17,10 @@ import pytest
 from controller.device.application_socket import peers
 from controller.device.application_socket.command_socket import CommandSocket
 from controller.device.board.devices import ApplicationSocket
+from controller.device.loop.emission_ring import EmissionRing
 from controller.device.scene.scene import Scene
-from controller.errors import ControllerError
+from controller.errors import ConfigError, ControllerError
+from controller.metrics import Skipped
 
 EFFECTS = ("click", "buzz")
 
@@ -27,19 +29,27 @@ class WritesDown:
     """A `PanelControl` that knows two effects and plays nothing."""
 
     def __init__(self):
+        self.emissions = EmissionRing()
+        self.skipped = Skipped()
         self.plays = []
         self.scenes = []
         self.switched = []
         self.layers = []
         self.scene_in_force = "drums", Scene(())
         self.moves = []
+        self.fingers = {"ok": (3, 7), "nobody's": ()}  # by the region that they are in
         self.dropped = []
         self.times_reported = 0
 
     def play(self, ticket, effect, x_m, y_m, finger, amplitude, now_s):  # noqa: ARG002
-        if effect not in EFFECTS:
+        if isinstance(effect, str) and effect not in EFFECTS:
             raise ControllerError(f"effect {effect!r} is unknown")
         self.plays.append((ticket, effect, x_m, y_m, finger, amplitude))
+
+    def fingers_in(self, owner, region):  # noqa: ARG002
+        if region not in self.fingers:
+            raise ConfigError(f"no region {region!r}: neither of this client nor of the scene")
+        return self.fingers[region]
 
     def switch(self, *, on, by):
         self.switched.append(on)

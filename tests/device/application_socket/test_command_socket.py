@@ -25,8 +25,8 @@ from controller.device.loop.commands import CommandSource, Outcome
 from controller.device.touch.source import TouchSample
 
 KINDS = (
-    "'play', 'regions', 'transform', 'arm', 'disarm', 'stop', 'load_scene', 'subscribe', 'unsubscribe', 'figures', 'state',"
-    " 'describe', 'hello'"
+    "'play', 'clip', 'regions', 'transform', 'arm', 'disarm', 'stop', 'load_scene', 'subscribe', 'unsubscribe', 'figures',"
+    " 'state', 'describe', 'hello'"
 )
 ORDINARY = Peer(50_001, 11, frozenset())  # may play alone
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
@@ -115,10 +115,10 @@ def test_the_very_edges_are_accepted(panel, edge):
         (POINT | {"y_mm": -1}, "y_mm = -1 is off the plate (0 to 148)"),
         (POINT | {"amplitude": 0.0999}, "amplitude = 0.0999 is not 0.1 to 1"),
         (POINT | {"amplitude": -1}, "amplitude = -1 is not 0.1 to 1"),
-        (POINT | {"finger": 3}, "either x_mm and y_mm, or finger"),
-        ({"kind": "play", "effect": "click", "x_mm": 3}, "either x_mm and y_mm, or finger"),
-        ({"kind": "play", "effect": "click", "y_mm": 3}, "either x_mm and y_mm, or finger"),
-        ({"kind": "play", "effect": "click"}, "either x_mm and y_mm, or finger"),
+        (POINT | {"finger": 3}, "either x_mm and y_mm, or finger, or region"),
+        ({"kind": "play", "effect": "click", "x_mm": 3}, "either x_mm and y_mm, or finger, or region"),
+        ({"kind": "play", "effect": "click", "y_mm": 3}, "either x_mm and y_mm, or finger, or region"),
+        ({"kind": "play", "effect": "click"}, "either x_mm and y_mm, or finger, or region"),
         ({"kind": "play", "effect": "click", "finger": -1}, "finger = -1: must be a whole number from 0 to 9007199254740992"),
         (POINT | {"x_mm": "100"}, "x_mm = '100': must be a number in mm"),
         (POINT | {"amplitud": 1}, "amplitud = 1: unknown key; did you mean amplitude?"),
@@ -130,7 +130,7 @@ def test_the_very_edges_are_accepted(panel, edge):
         ),
         (
             {"kind": "subscribe", "to": ["touch"]},
-            "to[0] = 'touch': must be one of 'description', 'faults', 'state', 'touches'; did you mean touches?",
+            "to[0] = 'touch': must be one of 'description', 'emissions', 'faults', 'state', 'touches'; did you mean touches?",
         ),
         (
             {"effect": "click"},

@@ -126,7 +126,7 @@ def test_a_subscriber_stays_where_a_silent_client_gives_way(panel_with, topic):
 def test_the_example_of_the_readme_is_a_description():
     from device.application_socket.test_readme import README
 
-    (block,) = [text.partition("```")[0] for text in README.read_text().split("```json\n")[1:]]
+    block, _ = [text.partition("```")[0] for text in README.read_text().split("```json\n")[1:]]
     said = msgspec.json.decode(block, type=Description)
     assert said.protocol == 1
     assert json.loads(block).keys() == set(Description.__struct_fields__) | {"kind"}

@@ -23,6 +23,7 @@ def protocol_schema() -> dict[str, Any]:
     (request, message, region, effect), found = msgspec.json.schema_components(kinds, ref_template="#/$defs/{name}")
     regions = found["Regions"]["properties"]
     regions["regions"]["items"] = region
+    found["Clip"]["properties"]["effect"] = effect
     regions["effects"] = {"type": "object", "additionalProperties": effect, "default": {}}
     return {
         "$schema": SCHEMA_DIALECT,

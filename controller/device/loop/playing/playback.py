@@ -60,6 +60,7 @@ class Playback:
         self._clock_estimate = context.clock_estimate
         self._counters = context.counters
         self._trace = context.trace
+        self._emissions = context.emissions
         self._played = played
         self._planner = Planner(context, sender, occupancy, timing)
         self._lost = 0  # times that an emission was found not to have begun
@@ -204,6 +205,8 @@ class Playback:
         stages = counters.resident_latency if resident else counters.upload_latency
         wait_ns = round((start_s - accepted.ready_s) * 1e9)
         self._trace.started(accepted, start_s, self._clock_estimate.offset_s)
+        if self._emissions.wanted:
+            self._emissions.started(start_s, plan)
         stages.record(accepted.decide_ns, accepted.frame_ns, accepted.wire_ns, wait_ns, trigger_ns)
         if resident:
             counters.resident += 1

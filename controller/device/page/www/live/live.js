@@ -4,7 +4,7 @@
   const at = (id) => document.getElementById(id);
   const panel = window.HapticPanel;
   const SVG = "http://www.w3.org/2000/svg";
-  const ASK_MS = 1000, KEPT_EVENTS = 50, FOCUS_MS = 350;
+  const ASK_MS = 1000, KEPT_EVENTS = 50, FOCUS_MS = 350, MOST_FOCI = 32;
   const WORDS = { // state: what it means to somebody who sees the panel for the first time; whether outputs are on
     "waiting for FPGA": ["The controller's FPGA does not answer. Outputs are off, or switch off by themselves.", "bad"],
     "no permit": ["The run permit (interlock) is missing: outputs stay off until it is given.", "bad"],
@@ -15,6 +15,10 @@
     idle: ["Nothing was touched for a while: outputs are off until the next touch.", "off"],
     playing: ["Outputs are on, and something is felt.", "on"],
     armed: ["Outputs are on. Touch the plate.", "on"],
+  };
+  const CAUSES = { // of what was due, but not played
+    merged: "replaced by newer ones", no_room: "too many waited", lifted: "finger lifted", outputs_off: "outputs off", refused: "refused by the FPGA",
+    bad_entries: "not in the bank", unconfirmed: "contact not confirmed", scene_changed: "scene changed",
   };
   const fingers = new Map();
   let plate = null, layerRegions = [], before = null, state = "", drawing = 0, asking = 0;
@@ -43,13 +47,14 @@
       button.addEventListener("click", () => playHere(effect));
       return button;
     }));
-    const to = ["state", "description", "faults", ...(panel.rights.includes("play") ? ["touches"] : [])];
+    const to = ["state", "description", "faults", ...(panel.rights.includes("play") ? ["touches", "emissions"] : [])];
     panel.send({ kind: "subscribe", to }).then((answer) => answer.reason && happened(`No touches: ${answer.reason}`));
     happened(`Connected to ${detail.board}, version ${detail.version}.`);
     panel.look();
   });
   panel.addEventListener("close", ({ detail }) => {
     fingers.clear();
+    at("foci").replaceChildren();
     before = null;
     show("no panel", detail || "The panel's program does not answer. This page tries again.", "bad");
     redraw();
@@ -62,6 +67,7 @@
   panel.addEventListener("message", ({ detail }) => {
     if (detail.kind === "state") showState(detail);
     else if (detail.kind === "touch") touched(detail);
+    else if (detail.kind === "emissions") played(detail);
     else if (detail.kind === "figures") figures(detail.figures);
     else if (detail.kind === "description") described(detail);
     else if (detail.kind === "fault") happened(`${detail.state}: ${detail.cause}`);
@@ -69,7 +75,8 @@
   });
 
   // ---- state
-  function showState({ state: word, cause, temperature_c: celsius, panel_present: present }) {
+  function showState({ state: word, cause, temperature_c: celsius, panel_present: present, outputs_on: on }) {
+    if (!on) stopRepeating();
     const [text, kind] = WORDS[word] || ["", "off"];
     const warm = celsius === null ? "" : ` ${celsius.toFixed(1)} °C.`;
     show(word, `${text}${cause ? ` Cause: ${cause}.` : ""}${present ? "" : " The touch panel is missing."}${warm}`, kind);
@@ -129,11 +136,18 @@
     ]));
     for (const fault of faults.slice(-3)) happened(`Earlier: ${fault.state}: ${fault.cause}`);
   }
-  function focus(x_mm, y_mm) {
-    const ring = make("circle", { class: "focus", cx: x_mm, cy: up(y_mm), r: 2.5 });
-    at("foci").append(ring);
-    setTimeout(() => ring.remove(), FOCUS_MS);
+  function played({ foci }) { // as large as the spot that is felt, as thick as it is strong
+    let start = 0;
+    for (const { time_s, x_mm, y_mm, amplitude, of, period_ms } of foci.slice(-MOST_FOCI)) {
+      if (time_s !== start) stopRepeating(); // a new start ends a repetition
+      start = time_s;
+      const ring = make("circle", { class: period_ms ? "focus repeats" : "focus", cx: x_mm, cy: up(y_mm), r: 2.5, "stroke-width": 0.3 + 1.2 * amplitude });
+      ring.append(make("title", {}, `${of}, amplitude ${amplitude}${period_ms ? `, every ${period_ms} ms` : ""}`));
+      at("foci").append(ring);
+      if (!period_ms) setTimeout(() => ring.remove(), FOCUS_MS);
+    }
   }
+  function stopRepeating() { for (const ring of at("foci").querySelectorAll(".repeats")) ring.remove(); }
 
   // ---- figures of the last second: what is counted since the start, less what was a second ago
   function figures(now) {
@@ -142,7 +156,8 @@
     before = now;
     if (!last) return;
     const more = (pick) => Math.max(0, (pick(now) ?? 0) - (pick(last) ?? 0));
-    const skipped = Object.keys(now.skipped || {}).reduce((sum, key) => sum + (/^(no_room|merged|refused|outputs_off|bad_entries)$/.test(key) ? more((f) => f.skipped[key]) : 0), 0);
+    const causes = Object.entries(CAUSES).map(([key, words]) => [more((f) => f.skipped?.[key]), words]).filter(([n]) => n);
+    const skipped = causes.map(([n, words]) => `${n} ${words}`).join(", ") || 0;
     const rows = {
       "emissions accepted": more((f) => f.emissions), "waveforms uploaded": more((f) => f.uploads), "due, but not played": skipped,
       "outages so far": now.outages, "wire errors so far": Object.entries(now.link_counts || {}).reduce((sum, [key, n]) => sum + (/error|crc|bad|lost/.test(key) && typeof n === "number" ? n : 0), 0),
@@ -169,7 +184,6 @@
     const [x_mm, y_mm, amplitude] = ["x", "y", "amplitude"].map((id) => Number(at(id).value));
     panel.send({ kind: "play", effect, x_mm, y_mm, amplitude }).then(({ outcome, reason }) => {
       at("outcome").textContent = reason ? `${effect}: ${outcome}: ${reason}` : `${effect}: ${outcome} at ${x_mm}, ${y_mm} mm`;
-      if (outcome === "played") focus(x_mm, y_mm);
     });
   }
   at("plate").addEventListener("click", ({ clientX, clientY }) => {

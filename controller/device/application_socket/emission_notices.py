@@ -1,0 +1,83 @@
+"""What is played, and what was due and is not, collected and sent to subscribers 30 times a second."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Final
+
+from controller.device.application_socket.clients import Clients
+from controller.device.application_socket.messages import Emissions, PlayedFocus
+from controller.device.loop.commands import PanelControl
+from controller.device.loop.emission_ring import EmissionRing
+from controller.device.loop.playing.records import ENDLESS, Plan
+
+PERIOD_S: Final = 1 / 30
+NEVER: Final = math.inf
+CAUSES: Final = ("merged", "bad_entries", "refused", "outputs_off", "unconfirmed", "no_room", "lifted", "scene_changed")
+
+
+class EmissionNotices:
+    """Sends what the loop has noted, while anybody has subscribed to it.
+
+    Nothing wakes the loop while nothing is touched, commanded or played.
+    """
+
+    def __init__(self, clients: Clients) -> None:
+        self._clients = clients
+        self._ring = EmissionRing()  # that of the loop, once somebody subscribes
+        self._sent = 0  # starts
+        self._sent_s = -NEVER
+        self._skipped: tuple[int, ...] = ()
+        self._stirred = False
+
+    def stirred(self) -> None:
+        """Something was touched, or a command has its outcome: what was skipped may have changed."""
+        self._stirred = self._ring.wanted
+
+    def next_s(self) -> float:
+        """Host time at which to call `serve`; inf: there is nothing to send."""
+        return self._sent_s + PERIOD_S if self._stirred or self._ring.count != self._sent else NEVER
+
+    def begin(self, control: PanelControl) -> None:
+        """Somebody has subscribed: what is played from now on is noted."""
+        ring = control.emissions
+        if not ring.wanted:
+            ring.wanted, self._ring = True, ring
+            self._sent, self._skipped = ring.count, self._causes(control)
+
+    def serve(self, now_s: float, control: PanelControl) -> None:
+        """Send what has happened since, if it is time."""
+        if now_s < self.next_s() or not self._ring.wanted:
+            return
+        subscribers = [client for client in self._clients if client.shown_emissions]
+        starts, skipped = self._ring.since(self._sent), self._causes(control)
+        lost = self._ring.count - self._sent - len(starts)
+        more = {cause: now - before for cause, now, before in zip(CAUSES, skipped, self._skipped, strict=True) if now != before}
+        self._sent, self._sent_s, self._skipped, self._stirred = self._ring.count, now_s, skipped, False
+        if not subscribers:
+            self._ring.wanted = False
+        elif starts or more:
+            notice = Emissions(foci=tuple([focus for start in starts for focus in _foci(*start)]), skipped=more, lost=lost)
+            for client in subscribers:
+                client.put(notice)
+                self._clients.send(client)
+
+    def _causes(self, control: PanelControl) -> tuple[int, ...]:
+        skipped = control.skipped
+        return tuple([getattr(skipped, cause) for cause in CAUSES])
+
+
+def _foci(start_s: float, plan: Plan) -> Iterator[PlayedFocus]:
+    batch = plan.batch
+    period_ms = round(batch.period_s * 1e3, 3) if batch.repetitions == ENDLESS else None
+    for emission, (x_m, y_m, amplitude) in zip(batch.emissions, plan.points, strict=True):
+        yield PlayedFocus(
+            time_s=start_s,
+            x_mm=round(x_m * 1e3, 3),
+            y_mm=round(y_m * 1e3, 3),
+            amplitude=round(amplitude, 3),
+            of=emission.region,
+            finger=emission.finger,
+            period_ms=period_ms,
+        )

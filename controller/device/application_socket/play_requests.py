@@ -1,0 +1,92 @@
+"""What a client asks to be played, and where: checked before anything of it is handed to the loop."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+from controller.device.application_socket.connection import Connection
+from controller.device.application_socket.messages import Aimed, Clip, PlayRequest
+from controller.device.board.board import Board
+from controller.device.board.devices import MIN_AMPLITUDE, ApplicationSocket
+from controller.device.loop.commands import PanelControl
+from controller.device.scene import clips
+from controller.device.scene.clips import read_clip
+from controller.errors import ConfigError
+
+MOST_KEPT: Final = 64  # clips under names, of one client
+CLIP_LINES: Final = 8  # that a clip counts as to its client's rate: checking the largest takes half a millisecond
+UNNAMED: Final = "clip"
+
+
+class Aim(NamedTuple):
+    """Where an effect is to be played, and how strongly: at a point, or at fingers if that is not None."""
+
+    x_m: float
+    y_m: float
+    fingers: tuple[int, ...] | None
+    amplitude: float
+
+
+class PlayRequests:
+    """Reads the requests of one panel's clients.
+
+    Parameters
+    ----------
+    board : Board
+        Its plate limits where effects can be played, its duty limit how fast.
+    settings : ApplicationSocket
+        Its `max_amplitude`.
+    """
+
+    def __init__(self, board: Board, settings: ApplicationSocket) -> None:
+        self._board = board
+        self._max_amplitude = settings.max_amplitude
+
+    def aim(self, client: Connection, request: PlayRequest | Clip, control: PanelControl) -> Aim | None:
+        """Where it is to be played; None: a clip that is only kept.
+
+        Raises
+        ------
+        ConfigError
+            If that is no place on the plate, or the amplitude is not allowed.
+        """
+        places = (request.x_mm is not None or request.y_mm is not None, request.finger is not None, request.region is not None)
+        if isinstance(request, Clip) and request.name is not None and not any(places):
+            return None
+        amplitude = self._max_amplitude if request.amplitude is None else request.amplitude
+        if not MIN_AMPLITUDE <= amplitude <= self._max_amplitude:
+            raise ConfigError(f"amplitude = {amplitude:g} is not {MIN_AMPLITUDE:g} to {self._max_amplitude:g}")
+        if sum(places) != 1:
+            kept = ", or with a name to keep it" if isinstance(request, Clip) else ""
+            raise ConfigError(f"either x_mm and y_mm, or finger, or region{kept}")
+        if request.finger is not None:
+            return Aim(0.0, 0.0, (request.finger,), amplitude)
+        if request.region is not None:
+            return Aim(0.0, 0.0, control.fingers_in(client.serial, request.region), amplitude)
+        return Aim(*self._point_m(request), None, amplitude)
+
+    def effect(self, client: Connection, request: PlayRequest | Clip) -> str | clips.Clip:
+        """What is to be played: a name of the scene's, or a clip, which is kept if it has a name.
+
+        Raises
+        ------
+        ConfigError
+            If the clip is invalid, or one too many.
+        """
+        if isinstance(request, PlayRequest):
+            return client.clips.get(request.effect, request.effect)
+        clip = read_clip(request.name or UNNAMED, request.effect, self._board)
+        if request.name is not None:
+            if request.name not in client.clips and len(client.clips) >= MOST_KEPT:
+                raise ConfigError(f"{MOST_KEPT} clips are kept for this client already: use one of their names again")
+            client.clips[request.name] = clip
+        return clip
+
+    def _point_m(self, request: Aimed) -> tuple[float, float]:
+        plate = self._board.plate
+        if request.x_mm is None or request.y_mm is None:
+            raise ConfigError("either x_mm and y_mm, or finger, or region")
+        for key, at_mm, most_mm in (("x_mm", request.x_mm, plate.length_mm), ("y_mm", request.y_mm, plate.width_mm)):
+            if not 0.0 <= at_mm <= most_mm:
+                raise ConfigError(f"{key} = {at_mm:g} is off the plate (0 to {most_mm:g})")
+        return request.x_mm * 1e-3, request.y_mm * 1e-3
