@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from controller.commands.common.output import Declare
     from controller.device.page.settings import PageSettings
 
+FINGERS = 4  # of the demonstration
 END_S = 5.0  # that the simulated panel may take to ramp down
 
 
@@ -90,7 +91,7 @@ def _serve(settings: PageSettings, file: Path | None) -> int:
 def _simulated_panel(socket: str) -> Iterator[None]:
     """`haptic-panel serve` as another process, which plays by now, and ends with this one."""
     read_end, write_end = os.pipe()
-    command = [sys.executable, "-m", "controller", "serve", "--ready-fd", str(write_end), "--", socket]
+    command = [sys.executable, "-m", "controller", "serve", "--fingers", str(FINGERS), "--ready-fd", str(write_end), "--", socket]
     with os.fdopen(read_end, "rb") as answer:
         panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(write_end,), start_new_session=True)
         os.close(write_end)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,7 @@ from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.console import tell
 from controller.device.board.board import Board, on_other_plate, simulated
+from controller.device.board.panel_status import FOLDER as RUNTIME_FOLDER
 from controller.device.board.paths import state_folder
 from controller.device.scene.edge_rate import edge_warnings
 from controller.device.scene.scene import load_scene
@@ -133,6 +135,10 @@ def _application_socket(board: Board) -> Callable[[], OperatorCommands] | None:
         return None
     if not is_installed("device.application_socket"):
         tell("board.toml: [application_socket] is not served: this installation has no controller/device/application_socket")
+        return None
+    folder = Path(board.application_socket.path).parent
+    if folder == RUNTIME_FOLDER and "RUNTIME_DIRECTORY" not in os.environ and not folder.is_dir():
+        tell(f"board.toml: [application_socket] is not served: the service has {folder}, a run by hand needs another path")
         return None
     from controller.device.application_socket.command_socket import CommandSocket
 

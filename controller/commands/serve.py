@@ -26,7 +26,7 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     command = declare(
         example="haptic-panel serve /tmp/panel.sock",
         description="Simulate a panel in real time with an application socket, to develop a user interface against. Loop, scene, "
-        "bank and socket are those of a device; the FPGA is its model, and two fingers move back and forth. Ctrl-C or SIGTERM ends "
+        "bank and socket are those of a device; the FPGA is its model, and fingers move to and fro. Ctrl-C or SIGTERM ends "
         "it.",
     )
     command.add_argument("socket", metavar="SOCKET", help="path of the application socket to create")
@@ -35,6 +35,7 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--touched-s", type=float, default=3600.0, metavar="S", help="for how long fingers are down (default: 3600)"
     )
+    command.add_argument("--fingers", type=int, default=2, choices=range(5), metavar="N", help="that move, 0 to 4 (default: 2)")
     command.add_argument("--background", action="store_true", help="return once the panel plays; it runs until it is ended")
     command.add_argument(
         "--ready-fd",
@@ -78,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
         tell(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
         started_s = time.monotonic()
         with Bank.open(path, board) as bank:
-            serve(board, settings, bank, options.touched_s, ready)
+            serve(board, settings, bank, options.touched_s, ready, options.fingers)
     tell(f"served for {time.monotonic() - started_s:.0f} s")
     return 0
 
@@ -98,6 +99,7 @@ def _in_background(options: argparse.Namespace) -> int:
     """
     command = [sys.executable, "-m", "controller", "serve", "--board", options.board]
     command += ["--commands-per-s", str(options.commands_per_s), "--touched-s", str(options.touched_s)]
+    command += ["--fingers", str(options.fingers)]
     read_end, write_end = os.pipe()
     with os.fdopen(read_end, "rb") as answer, tempfile.TemporaryFile() as said:
         command += ["--ready-fd", str(write_end), "--", options.socket]

@@ -153,7 +153,7 @@ def seven_inches(text):
         text, count = re.subn(rf"^{key} = \S+", f"{key} = {value}", text, flags=re.MULTILINE)
         assert count == 1, key
     text = panel_board.table(text, "link", LINK)
-    return f'{text}\n[application_socket]\npath = "{SOCKET}"\n'
+    return panel_board.table(text, "application_socket", f'path = "{SOCKET}"\n')
 
 
 def step(wanted):

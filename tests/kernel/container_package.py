@@ -2,6 +2,7 @@
 
 import contextlib
 import grp
+import json
 import os
 import pwd
 import re
@@ -9,12 +10,15 @@ import shutil
 import signal
 import subprocess
 import time
+import urllib.request
 from pathlib import Path
 
 from serial_finger import SerialPanel
 from slow_form import slow
 from the_package import ENVIRONMENT, PACKAGES, done, install, package
 from the_service import CHECKOUT, UNIT, journal, main_pid, shown, wait_for
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
 
 from controller.device.application_socket.client import PanelClient
 
@@ -127,6 +131,57 @@ def test_the_service_starts_and_plays_on_the_board_of_the_release():
     done("systemctl", "enable", "--now", UNIT)
     wait_for("the socket", Path("/run/haptic-panel/panel.sock").exists)
     assert plays()
+
+
+@contextlib.contextmanager
+def page(origin="http://127.0.0.1:8750"):
+    """A page of the bridge, as a browser would open it: a function that sends a message and returns its answer."""
+    with connect("ws://127.0.0.1:8750/panel", origin=origin, open_timeout=120) as socket:
+        assert json.loads(socket.recv(timeout=120))["kind"] == "page"
+
+        def ask(**message):
+            socket.send(json.dumps({**message, "id": "asked"}))
+            while (answer := json.loads(socket.recv(timeout=120))).get("id") != "asked":
+                pass
+            return answer
+
+        yield ask
+
+
+def bridge_is_there():
+    """Whether a page can be fetched."""
+    with contextlib.suppress(OSError), urllib.request.urlopen("http://127.0.0.1:8750/") as answer:
+        return b"Haptic panel" in answer.read()
+    return False
+
+
+def test_a_page_of_the_bridge_lays_regions_plays_and_stops_the_panel():
+    text = (CHECKOUT / "systemd/README.md").read_text()
+    for line in re.search(r"^## Web pages\n.*?^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL)[1].splitlines():
+        done("sh", "-c", line)
+    wait_for("the live page", bridge_is_there)
+    assert set(done("id", "-nG", "haptic-page").split()) == {"haptic-page", "haptic-play"}
+    with page() as ask:
+        region = {"name": "ok", "shape": "rectangle", "x_mm": 20, "y_mm": 30, "width_mm": 40, "height_mm": 12, "effects": ["click"]}
+        laid = ask(kind="regions", regions=[region])
+        assert (laid["kind"], laid["regions"]) == ("layer", 1), laid
+        wait_for("a click", lambda: ask(kind="play", effect="click", x_mm=100, y_mm=70)["outcome"] == "played")
+        assert "may not arm" in ask(kind="arm")["reason"]
+        assert ask(kind="stop")["outcome"] == "done"
+        wait_for("outputs that are off", lambda: not ask(kind="state")["outputs_on"])
+        assert "haptic-page" in ask(kind="state")["cause"]
+    status = 101
+    try:
+        with page("http://elsewhere.example"):
+            pass
+    except InvalidStatus as refused:
+        status = refused.response.status_code
+    assert status == 403, "a page of another origin"
+    with PanelClient("/run/haptic-panel/panel.sock") as panel:
+        panel.arm()
+        wait_for("outputs that are on", lambda: panel.state().outputs_on)
+    assert plays()
+    done("systemctl", "disable", "--now", "haptic-panel-page")
 
 
 def test_the_same_package_again_changes_nothing_and_the_panel_plays_on():

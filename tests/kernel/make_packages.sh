@@ -31,6 +31,8 @@ from repository_fixture import Publisher
 work = Path(sys.argv[1])
 panel_board.BOARD = work / "panel/board.toml"
 panel_board.write('kind = "serial_panel"\ndevice = "/run/touch"')
+for_pages = '[application_socket]\ngroup = "haptic-play"\nmode = "660"\nregions_group = "haptic-play"\noperate_group = "haptic-operate"\n'
+panel_board.BOARD.write_text(panel_board.BOARD.read_text().replace("[application_socket]\n", for_pages))
 (work / "root.json").write_bytes(Publisher(work / "owner").root)
 P
   "$python" -m controller bank build --board "$board" --scene scene --out "$work/panel.bank" --json >/dev/null 2>&1

@@ -17,7 +17,7 @@ _shtab_haptic_panel_update_subparsers=(check download install status rollback ju
 _shtab_haptic_panel_subparsers=(run serve status client doctor board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)
 
 _shtab_haptic_panel_run_option_strings=(-h --help --board --json --replay --scene --bank --link --speed --plate --drift-percent --drift --sensor --plot --verbose)
-_shtab_haptic_panel_serve_option_strings=(-h --help --board --commands-per-s --touched-s --background --ready-fd)
+_shtab_haptic_panel_serve_option_strings=(-h --help --board --commands-per-s --touched-s --fingers --background --ready-fd)
 _shtab_haptic_panel_status_option_strings=(-h --help --json --file)
 _shtab_haptic_panel_client_play_option_strings=(-h --help --at --finger --region --table --amplitude)
 _shtab_haptic_panel_client_touches_option_strings=(-h --help)
@@ -129,6 +129,7 @@ _shtab_haptic_panel_trace_pos_0_COMPGEN=_shtab_compgen_files
 _shtab_haptic_panel_run___link_choices=(model rtl)
 _shtab_haptic_panel_run___speed_choices=(1 max)
 _shtab_haptic_panel_run___sensor_choices=(board assumed none)
+_shtab_haptic_panel_serve___fingers_choices=(0 1 2 3 4)
 _shtab_haptic_panel_client_pos_0_choices=(play touches emissions regions load stop disarm arm state figures describe faults hello)
 _shtab_haptic_panel_board_pos_0_choices=(check reference schema)
 _shtab_haptic_panel_gateware_check___link_choices=(model rtl)

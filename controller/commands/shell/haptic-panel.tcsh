@@ -15,6 +15,7 @@ complete haptic-panel \
         'c/--drift=/f/' \
         'c/--sensor=/(board assumed none)/' \
         'c/--plot=/f/' \
+        'c/--fingers=/(0 1 2 3 4)/' \
         'c/--file=/f/' \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
@@ -32,7 +33,7 @@ complete haptic-panel \
         'c/--passphrase-file=/f/' \
         'c/--role=/(root targets snapshot timestamp)/' \
         'c/--settings=/f/' \
-        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm commands-per-s counter dask date dead decay-time-ms delay-us demo density-kg-m3 device drift drift-percent drive drop duration-ms figures file finger finger-load finger-mg flash follow from full-scale gateware ghosts grid help high-hz host idle-figures inductance-h inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc no-chirps no-pictures no-skip no-timing noise once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port power publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm role root same-as scattered scene seconds seed seeds sensor serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold top touched-s v-per-m v-per-m-s v-per-m-s2 verbose version wheels when width-mm work workers write www yes young-modulus-pa)/' \
+        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm commands-per-s counter dask date dead decay-time-ms delay-us demo density-kg-m3 device drift drift-percent drive drop duration-ms figures file finger finger-load finger-mg fingers flash follow from full-scale gateware ghosts grid help high-hz host idle-figures inductance-h inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc no-chirps no-pictures no-skip no-timing noise once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port power publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm role root same-as scattered scene seconds seed seeds sensor serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold top touched-s v-per-m v-per-m-s v-per-m-s2 verbose version wheels when width-mm work workers write www yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -41,6 +42,7 @@ complete haptic-panel \
         'n/--drift/f/' \
         'n/--sensor/(board assumed none)/' \
         'n/--plot/f/' \
+        'n/--fingers/(0 1 2 3 4)/' \
         'n/--file/f/' \
         'n/--out/f/' \
         'n/--optimise/(contrast quiet balanced)/' \

@@ -1,6 +1,6 @@
 """A simulated panel in real time with an application socket, to develop a user interface against.
 
-Loop, scene, bank, socket and scheduling are those of the device. The FPGA is its model; two fingers move back and forth.
+Loop, scene, bank, socket and scheduling are those of the device. The FPGA is its model; up to four fingers move.
 """
 
 from __future__ import annotations
@@ -30,13 +30,20 @@ from controller.log import Priority, log
 from controller.workshop.gateware.simulated_link import open_simulated
 
 REPORT_S = 1 / 60
-FINGERS_MM = ((60.0, 50.0), (150.0, 95.0))  # centres of their movement
-SWING_MM, SWING_S = 20.0, 4.0
+SWING_S = 4.0
+SWINGS_MM = (  # of each finger its centre, x and y, and how far it goes along x, with the sine, and y, with the cosine
+    (60.0, 50.0, 20.0, 0.0),
+    (150.0, 95.0, 20.0, 0.0),
+    (55.0, 108.0, 16.0, 16.0),
+    (168.0, 42.0, 0.0, 20.0),
+)
 AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0 0 0\n"  # tenths of a millimetre on the plate
 DRAIN_S = 1.0  # interval at which the captured pins are discarded
 
 
-def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: float, ready: Callable[[], None]) -> None:
+def serve(
+    board: Board, settings: ApplicationSocket, bank: Bank, touched_s: float, ready: Callable[[], None], fingers: int = 2
+) -> None:
     """Run the simulated panel until SIGTERM or SIGINT.
 
     Parameters
@@ -46,9 +53,11 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     bank : Bank
         Bank of the whole plate.
     touched_s : float
-        How long the two fingers are down.
+        How long the fingers are down.
     ready : callable
         Called once the outputs are on.
+    fingers : int
+        How many, at most `len(SWINGS_MM)`.
 
     Raises
     ------
@@ -59,7 +68,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     scene = load_scene(find_scene(board), board)
     populate(bank, scene, board.scene)
     layers = LayerPreparer(board, bank, cells_of(bank, scene, board.scene))
-    recording = Recording(_back_and_forth(touched_s), "two fingers that move back and forth")
+    recording = Recording(_moving(touched_s, fingers), "fingers that move to and fro")
     commands = CommandSocket(board, settings)
     link = open_simulated(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
@@ -96,14 +105,15 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
         link.close()
 
 
-def _back_and_forth(seconds: float) -> str:
-    """Recording of two fingers that stay down and move back and forth."""
+def _moving(seconds: float, fingers: int) -> str:
+    """Recording of fingers that stay down and move to and fro, or round and round."""
     lines = [AXES]
     for number in range(math.ceil(seconds / REPORT_S)):
         at_s = number * REPORT_S
-        swing_mm = SWING_MM * math.sin(2 * math.pi * at_s / SWING_S)
-        for slot, (x_mm, y_mm) in enumerate(FINGERS_MM):
-            events = [(0x2F, slot), *([(0x39, slot)] if number == 0 else []), (0x35, 10 * (x_mm + swing_mm)), (0x36, 10 * y_mm)]
+        angle = 2 * math.pi * at_s / SWING_S
+        for slot, (centre_x_mm, centre_y_mm, along_x_mm, along_y_mm) in enumerate(SWINGS_MM[:fingers]):
+            x_mm, y_mm = centre_x_mm + along_x_mm * math.sin(angle), centre_y_mm + along_y_mm * math.cos(angle)
+            events = [(0x2F, slot), *([(0x39, slot)] if number == 0 else []), (0x35, 10 * x_mm), (0x36, 10 * y_mm)]
             lines += [f"E: {at_s:.6f} 0003 {code:04x} {round(value):04d}\n" for code, value in events]
         lines.append(f"E: {at_s:.6f} 0000 0000 0000\n")
     return "".join(lines)
