@@ -27,7 +27,8 @@ class Served:
 
     def begin(self):
         """Return once it plays."""
-        command = [sys.executable, "-m", "controller", "serve", "--background", "--commands-per-s", "5000", self.socket]
+        command = [sys.executable, "-m", "controller", "serve", "--background", "--fingers", "4"]
+        command += ["--commands-per-s", "5000", self.socket]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         self._pid = int(re.search(r"`kill (\d+)`", done.stderr)[1])

@@ -125,6 +125,8 @@ def test_calls_play_at_places_elements_and_pointers_and_stop(elements):
         assert elements.value(f"HapticPanel.play('tick', {where})")["outcome"] == "played"
     assert elements.value("HapticPanel.play('click', 77)")["reason"] == "no such place"
     assert elements.value("HapticPanel.play('nothing', {x: 500, y: 350})")["outcome"] == "refused"
+    assert elements.value("HapticPanel.play({pulses: [[0, 1], [40, 0.5]]}, {x: 500, y: 350})")["outcome"] == "played"
+    assert "is no effect" in elements.value("HapticPanel.play({effect: 'nothing'}, {x: 500, y: 350})")["reason"]
     point = [{"x": 300, "y": 300, "id": 1}]
     elements.value("addEventListener('pointerdown', (event) => window.pointer = event.pointerId); 0")
     elements.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=point)
@@ -140,8 +142,9 @@ def test_the_live_page(page, bridge_with, asks, tmp_path):
     page.size(1280, 900)
     page.dark("light")
     page.open(f"{bridge.address}live/")
-    page.until("document.querySelectorAll('.region').length >= 4 && document.querySelectorAll('.finger').length === 2")
+    page.until("document.querySelectorAll('.region').length >= 4 && document.querySelectorAll('.finger').length === 4")
     page.until("document.body.dataset.state === 'on' && document.querySelectorAll('#figures dd').length")
+    page.until("document.querySelectorAll('.focus').length")
     page.picture(folder / "live_page.png")
     page.value("[...document.querySelectorAll('#effects button')].find((one) => one.textContent === 'click').click(); 0")
     page.until("document.getElementById('outcome').textContent.startsWith('click: played')")

@@ -310,7 +310,7 @@
     if (!at || !m) return Promise.resolve({ kind: "answer", outcome: "refused", reason: m ? "no such place" : "the page's place on the plate is unknown" });
     const [name, own] = NAMES[effect] || [effect, 1];
     const [x_mm, y_mm] = onto(m, at.x, at.y);
-    return send({ kind: name === effect + "" ? "play" : "clip", effect: name, x_mm, y_mm, amplitude: Math.max(LEAST, Math.min(plate.max_amplitude, amplitude * own)) });
+    return send({ kind: typeof name === "string" ? "play" : "clip", effect: name, x_mm, y_mm, amplitude: Math.max(LEAST, Math.min(plate.max_amplitude, amplitude * own)) });
   }
   /** As navigator.vibrate: milliseconds on, off, on …, at the point touched last. */
   function vibrate(pattern) {
