@@ -19,10 +19,12 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from controller.device.board.paths import state_folder
 from controller.device.page.files import Served, served
 from controller.device.page.permissions import Permissions, Refusal
 from controller.device.page.relay import relay
 from controller.device.page.requests import FRAME_BYTES
+from controller.device.page.screen import Screen
 from controller.device.page.settings import PageSettings
 from controller.errors import ConfigError, ControllerError
 from controller.log import Priority, log
@@ -56,7 +58,7 @@ class Bridge:
     Raises
     ------
     ConfigError
-        If the token, the certificate or the folder of files cannot be read.
+        If the token, the certificate or the folder of files cannot be read, or there is no folder for what is kept.
     """
 
     def __init__(self, settings: PageSettings, file: Path | None) -> None:
@@ -65,6 +67,7 @@ class Bridge:
         self._www = Path(settings.www) if settings.www else None
         if self._www is not None and not self._www.is_dir():
             raise ConfigError(f"www = {settings.www!r}: there is no such folder")
+        self._screen = Screen(settings, state_folder() / "screen.json")
         self._token = _token(Path(settings.token_file)) if settings.token_file else ""
         self._tls = _tls(settings)
         self._connections = 0
@@ -172,7 +175,7 @@ class Bridge:
         assert isinstance(connection, PageConnection)
         self._pages += 1
         try:
-            await relay(connection, connection.rights, self._settings)
+            await relay(connection, connection.rights, self._settings, self._screen)
         finally:
             self._pages -= 1
 

@@ -28,9 +28,10 @@ RIGHT_OF: Final = {
     "arm": "operate",
     "disarm": "operate",
     "load_scene": "operate",
+    "screen": "screen",  # which the bridge itself answers
 }
 # A right that brings another: whoever may operate may do all, as at the socket.
-BRINGS: Final = {"operate": ("play", "regions")}
+BRINGS: Final = {"operate": ("play", "regions", "screen")}
 
 
 class Refusal(NamedTuple):

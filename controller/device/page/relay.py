@@ -11,13 +11,15 @@ from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 
+from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.outbox import Outbox, TooSlow
-from controller.device.page.requests import Rate, judged
+from controller.device.page.requests import judged
+from controller.device.page.screen import Screen, ScreenPlace
 from controller.device.page.settings import PageSettings
 
 LINE_BYTES_MAX: Final = 1 << 20  # of the panel, whose figures are the longest
 SLOW_S: Final = 10.0  # that a frame may wait for a page to read
-PAUSE_S: Final = 0.005  # after each message that is refused: a page that floods is read slowly
+PAUSE_S: Final = 0.005  # after each message that is not passed on: a page that floods is read slowly
 PANEL_S: Final = 5.0  # that the panel's socket may take to accept
 
 
@@ -29,8 +31,14 @@ class Ended(Exception):
         self.code = code
 
 
-async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSettings) -> None:
-    """Pass messages on until page or panel ends the connection; the other side is then ended too."""
+async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSettings, screen: Screen) -> None:
+    """Pass messages on until page or panel ends the connection; the other side is then ended too.
+
+    Parameters
+    ----------
+    screen : Screen
+        Where the screen lies on the plate: the page is greeted with it, and again when it changes.
+    """
     try:
         async with asyncio.timeout(PANEL_S):
             from_panel, to_panel = await asyncio.open_unix_connection(settings.socket, limit=LINE_BYTES_MAX)
@@ -39,10 +47,17 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
         await page.close(CloseCode.TRY_AGAIN_LATER, _short(reason))
         return
     outbox, news = Outbox(), asyncio.Event()
-    outbox.put(greeting(rights, settings))
-    news.set()
+
+    def greet() -> None:
+        with contextlib.suppress(TooSlow):  # which whatever comes from the panel finds out, too
+            outbox.put(greeting(rights, screen.place))
+        news.set()
+
+    greet()
+    forget = screen.watch(greet)
+    judge = _Judge(rights, TokenBucket(settings.messages_per_s, settings.burst), screen)
     tasks = [
-        asyncio.create_task(_requests(page, to_panel, outbox, news, rights, settings)),
+        asyncio.create_task(_requests(page, to_panel, outbox, news, judge)),
         asyncio.create_task(_lines(from_panel, outbox, news)),
         asyncio.create_task(_frames(page, outbox, news)),
     ]
@@ -50,21 +65,36 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         await _end(page, next(task.exception() for task in done))
     finally:
+        forget()
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
         to_panel.transport.abort()  # what it has not read was of a page that is gone
 
 
-def greeting(rights: frozenset[str], settings: PageSettings) -> bytes:
+def greeting(rights: frozenset[str], place: ScreenPlace | None) -> bytes:
     """The first line that a page gets: its rights, and how the screen's pixels lie on the plate, null where nobody has said."""
     message = {
         "kind": "page",
         "rights": sorted(rights),
-        "x_mm_from_pixels": settings.x_mm_from_pixels,
-        "y_mm_from_pixels": settings.y_mm_from_pixels,
+        "x_mm_from_pixels": None if place is None else place.x_mm_from_pixels,
+        "y_mm_from_pixels": None if place is None else place.y_mm_from_pixels,
     }
     return msgspec.json.encode(message)
+
+
+class _Judge:
+    """Judges the frames of one page."""
+
+    def __init__(self, rights: frozenset[str], rate: TokenBucket, screen: Screen) -> None:
+        self._rights = rights
+        self._rate = rate
+        self._clock = asyncio.get_running_loop().time
+        self._own = {"screen": screen.keep}
+        rate.fill(self._clock())
+
+    def __call__(self, frame: str) -> tuple[bytes, str]:
+        return judged(frame, self._rights, self._rate, self._clock(), self._own)
 
 
 async def _requests(
@@ -72,20 +102,17 @@ async def _requests(
     to_panel: asyncio.StreamWriter,
     outbox: Outbox,
     news: asyncio.Event,
-    rights: frozenset[str],
-    settings: PageSettings,
+    judge: _Judge,
 ) -> None:
-    clock = asyncio.get_running_loop().time
-    rate = Rate(settings.messages_per_s, settings.burst, clock())
     async for frame in page:
         if not isinstance(frame, str):
             raise Ended(CloseCode.UNSUPPORTED_DATA, "a frame has to be text: one JSON object")
-        line, refusal = judged(frame, rights, rate, clock())
+        line, answer = judge(frame)
         if line:
             to_panel.write(line)
             await to_panel.drain()
         else:
-            outbox.put(refusal.encode())
+            outbox.put(answer.encode())
             news.set()
             await asyncio.sleep(PAUSE_S)
 

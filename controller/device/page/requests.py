@@ -2,44 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Any, Final
 
 import msgspec
 
 from controller.device.application_socket.messages import LINE_BYTES
+from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.permissions import refused
 
 FRAME_BYTES: Final = 65536  # of regions; a page's share of `layer_bytes`
 _decoder: Final = msgspec.json.Decoder()
 _encoder: Final = msgspec.json.Encoder()
+NOTHING: Final[Mapping[str, Any]] = {}
 
 
-class Rate:
-    """Messages that one page may send: an average rate, and so many at once.
-
-    Parameters
-    ----------
-    per_s, burst : float
-        Average rate, and the largest number at once.
-    now_s : float
-        Time of the first.
-    """
-
-    def __init__(self, per_s: float, burst: float, now_s: float) -> None:
-        self._per_s, self._burst = per_s, burst
-        self._left, self._at_s = burst, now_s
-
-    def takes(self, now_s: float, lines: int = 1) -> bool:
-        """Whether one more is within the rate; a long one counts as several lines."""
-        self._left = min(self._burst, self._left + (now_s - self._at_s) * self._per_s)
-        self._at_s = now_s
-        if self._left < lines:
-            return False
-        self._left -= lines
-        return True
+OwnKinds = Mapping[str, Callable[[dict[str, Any]], str]]
 
 
-def judged(frame: str, rights: frozenset[str], rate: Rate, now_s: float) -> tuple[bytes, str]:
+def judged(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, own: OwnKinds = NOTHING) -> tuple[bytes, str]:
     """A line for the panel, or an answer to the page; one of the two is empty.
 
     A request to stop is always within the rate.
@@ -50,6 +31,8 @@ def judged(frame: str, rights: frozenset[str], rate: Rate, now_s: float) -> tupl
         One JSON object.
     rights : frozenset of str
         Of the page.
+    own : mapping
+        What carries out the kinds of messages that are for the bridge, and says why it does not.
     """
     try:
         message = _decoder.decode(frame)
@@ -66,12 +49,15 @@ def judged(frame: str, rights: frozenset[str], rate: Rate, now_s: float) -> tupl
     longest = FRAME_BYTES if message["kind"] == "regions" else LINE_BYTES
     if len(line) > longest:
         return b"", answer(message.get("id"), f"longer than {longest} bytes")
-    if message["kind"] != "stop" and not rate.takes(now_s, 1 + len(line) // LINE_BYTES):
+    if message["kind"] != "stop" and not rate.take(now_s, 1 + len(line) // LINE_BYTES):
         return b"", answer(message.get("id"), "rate")
+    if message["kind"] in own:
+        return b"", answer(message.get("id"), own[message["kind"]](message))
     return line, ""
 
 
 def answer(number: Any, reason: str) -> str:
-    """Answer to a request that the bridge refuses, as the panel's own."""
+    """Answer to a request that the bridge refuses for this reason, or has carried out if there is none, as the panel's own."""
     known = number if isinstance(number, int) or (isinstance(number, str) and len(number) <= 64) else None
-    return _encoder.encode({"kind": "answer", "id": known, "outcome": "refused", "reason": reason}).decode()
+    became = {"outcome": "refused", "reason": reason} if reason else {"outcome": "done"}
+    return _encoder.encode({"kind": "answer", "id": known} | became).decode()

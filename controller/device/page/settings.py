@@ -14,7 +14,7 @@ from controller.device.board.records import Record, load_toml
 from controller.device.page.addresses import SELF, authority, origin_of
 
 DEFAULT_PORT: Final = 8750
-RIGHTS: Final = ("play", "regions", "operate")
+RIGHTS: Final = ("play", "regions", "screen", "operate")
 Row = tuple[float, float, float]
 
 # Everything comes from the bridge itself, and no other site shows its pages in a frame.

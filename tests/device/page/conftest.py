@@ -50,7 +50,11 @@ class Bridge:
         self._said = tempfile.TemporaryFile("w+")  # noqa: SIM115
         command = [sys.executable, "-m", "controller", "page", "--settings", str(self.settings), "--port", "0", "--socket", socket]
         self.process = subprocess.Popen(
-            [*command, *(["--www", str(www)] if www else [])], stdout=subprocess.PIPE, stderr=self._said, text=True
+            [*command, *(["--www", str(www)] if www else [])],
+            stdout=subprocess.PIPE,
+            stderr=self._said,
+            text=True,
+            env=os.environ | {"STATE_DIRECTORY": str(folder / "state")},
         )
         self.address = self.process.stdout.readline().strip()
         assert self.address, self.said()

@@ -4,12 +4,19 @@ What the page has sent is compared with the browser's own hit test: at random po
 that of the element that a touch at this point would meet.
 """
 
+import itertools
+import json
 import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from chromium import PROGRAM, browser
+from kernel.serial_finger import LARGEST, SerialPanel
+from patience import wait_for
 
 pytestmark = [
     pytest.mark.slow,
@@ -132,6 +139,60 @@ def test_calls_play_at_places_elements_and_pointers_and_stop(elements):
     elements.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=point)
     assert elements.value("HapticPanel.play('click', pointer)")["outcome"] == "played"
     elements.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+
+
+@pytest.fixture
+def touched_panel(board, bank_file, folder, tmp_path):
+    """`haptic-panel run` with a touch panel at a serial port, and an FPGA that is not there: the panel, and the socket."""
+    panel, socket, copy = SerialPanel(), folder / "touched.sock", tmp_path / "touched"
+    shutil.copytree(board.folder, copy)
+    head, tail = (copy / "board.toml").read_text().split("[touch]\n")
+    link = tail.partition("[link]\n")[2].replace(
+        'kind = "simulated"', f'kind = "serial"\ndevice = "{tmp_path / "fpga"}"\nbaud = 12_000_000'
+    )
+    touch = (
+        f'[touch]\nkind = "serial_panel"\ndevice = "{panel.device}"\nx_mm_from_axes = [210.0, 0.0, 0.0]\n'
+        f'y_mm_from_axes = [0.0, 148.0, 0.0]\n\n[application_socket]\npath = "{socket}"\n\n'
+        "[realtime]\npriority = 0\nlock_memory = false\n\n"
+    )
+    (copy / "board.toml").write_text(f"{head}{touch}[link]\n{link}")
+    command = [sys.executable, "-m", "controller", "run", "--board", copy, "--bank", bank_file]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as service:
+        wait_for("its socket", socket.exists)
+        yield panel, str(socket)
+        service.terminate()
+
+
+def test_four_taps_say_where_the_screen_lies(page, bridge_with, touched_panel, tmp_path):
+    """A screen that is turned, smaller than the plate and not at its corner, with two device pixels to one of CSS."""
+    panel, socket = touched_panel
+    bridge = bridge_with('[origins]\nself = ["screen", "play"]', socket=socket)
+    truth = np.array([[0.0805, 0.0012, 11.0], [0.0011, -0.0795, 139.0]])  # mm from device pixels
+    page.said.clear()
+    page.size(1000, 700, 2)
+    page.open(f"{bridge.address}live/screen.html")
+    page.until("!document.getElementById('begin').disabled")
+    page.value("document.getElementById('begin').click(); 0")
+    page.value(
+        "reports = 0; lifted = false; HapticPanel.addEventListener('message', ({detail: {kind, contact}}) =>"
+        " { if (kind === 'touch') [reports, lifted] = contact ? [reports + 1, false] : [0, true]; }); 0"
+    )
+    for number in range(1, 5):
+        page.until(f"document.getElementById('say').textContent.startsWith('Touch cross {number}')")
+        left, top = page.value("['left', 'top'].map((side) => parseFloat(document.getElementById('cross').style[side]))")
+        x_mm, y_mm = truth @ [2 * left, 2 * top, 1]
+        with panel.finger(itertools.repeat((round(x_mm / 210 * LARGEST), round(y_mm / 148 * LARGEST)))):
+            page.until("reports")
+        page.until("lifted")
+    page.until("document.getElementById('say').textContent.startsWith('Found')")
+    page.picture((Path(PICTURES) if PICTURES else tmp_path) / "screen_found.png")
+    page.value("document.getElementById('keep').click(); 0")
+    page.until("document.getElementById('say').textContent.startsWith('Kept')")
+    kept = json.loads((tmp_path / "state/screen.json").read_text())
+    found = np.array([kept["x_mm_from_pixels"], kept["y_mm_from_pixels"]])
+    corners = np.array([[0, 0, 1], [2000, 0, 1], [0, 1400, 1], [2000, 1400, 1]])
+    assert np.abs(corners @ (found - truth).T).max() < 0.1
+    assert all("requestFullscreen" in said for said in page.said), "it was no gesture of a person"
 
 
 def test_the_live_page(page, bridge_with, asks, tmp_path):

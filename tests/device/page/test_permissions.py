@@ -81,7 +81,7 @@ def test_a_refusal_names_the_line_of_the_file_that_allows_it():
         ("https://app.example:444", "localhost:8750", None),
         ("http://app.example", "localhost:8750", None),
         ("https://app.example.evil.com", "localhost:8750", None),
-        ("https://staff.example", "localhost:8750", {"look", "play", "regions", "operate"}),
+        ("https://staff.example", "localhost:8750", {"look", "play", "regions", "screen", "operate"}),
         ("https://looks.example", "localhost:8750", {"look"}),
         ("", "localhost:8750", None),
         ("http://localhost:8750/path", "localhost:8750", None),

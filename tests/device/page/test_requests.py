@@ -8,15 +8,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.device.application_socket.messages import LINE_BYTES
+from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.outbox import Outbox, TooSlow
-from controller.device.page.requests import FRAME_BYTES, Rate, judged
+from controller.device.page.requests import FRAME_BYTES, judged
 
 ALL = frozenset({"look", "play", "regions", "operate"})
 PLAYS = frozenset({"look", "play"})
 
 
+def full(per_s, burst):
+    bucket = TokenBucket(per_s, burst)
+    bucket.fill(0.0)
+    return bucket
+
+
 def judge(frame, rights=ALL):
-    line, answer = judged(frame, rights, Rate(1000, 1000, 0.0), 0.0)
+    line, answer = judged(frame, rights, full(1000, 1000), 0.0)
     assert bool(line) != bool(answer)
     return line or json.loads(answer)
 
@@ -88,7 +95,7 @@ def test_ids_come_back_where_they_are_valid():
 
 
 def test_the_rate_is_refused_beyond_its_burst_and_never_for_a_stop():
-    rate = Rate(10, 3, 0.0)
+    rate = full(10, 3)
     outcomes = [bool(judged('{"kind": "state"}', ALL, rate, 0.0)[0]) for _ in range(5)]
     assert outcomes == [True, True, True, False, False]
     assert judged('{"kind": "stop"}', ALL, rate, 0.0)[0]
@@ -99,8 +106,10 @@ def test_the_rate_is_refused_beyond_its_burst_and_never_for_a_stop():
 
 def test_a_long_line_counts_as_several():
     long = json.dumps({"kind": "regions", "regions": ["x" * (3 * LINE_BYTES)]})
-    assert not judged(long, ALL, Rate(10, 3, 0.0), 0.0)[0]
-    assert judged(long, ALL, Rate(10, 4, 0.0), 0.0)[0]
+    for burst in (3, 4, 5):  # of a smaller one it takes all
+        rate = full(1, burst)
+        assert judged(long, ALL, rate, 0.0)[0]
+        assert bool(judged('{"kind": "state"}', ALL, rate, 0.0)[0]) == (burst == 5)
 
 
 def touch(finger, x_mm, contact=True):

@@ -47,7 +47,8 @@
   function receive(message) {
     if (message.kind === "page") {
       greeting = message;
-      send({ kind: "hello" }).then((hello) => {
+      if (plate) look(); // it says where the screen lies by now
+      else send({ kind: "hello" }).then((hello) => {
         if (hello.kind !== "hello") return;
         plate = hello;
         tell("open", hello);
