@@ -1,5 +1,6 @@
 """The lines of the README's "Try it", pasted one after the other into a shell."""
 
+import json
 import os
 import re
 import signal
@@ -9,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from controller.device.application_socket.protocol.conformance import CONVERSATION, steps_of
+
 README = Path(__file__).parents[3] / "controller" / "device" / "application_socket" / "README.md"
 
 PROGRAMS = {"python": sys.executable, "haptic-panel": f"{sys.executable} -m controller"}
@@ -17,7 +20,8 @@ PROGRAMS = {"python": sys.executable, "haptic-panel": f"{sys.executable} -m cont
 @pytest.fixture
 def lines(tmp_path):
     """As written, with the interpreter that runs the tests and a socket of their own."""
-    block = re.search(r"^## Try it\n.*?^```sh\n(.*?)^```", README.read_text(), re.MULTILINE | re.DOTALL)[1]
+    section = re.search(r"^## Try it\n(.*?)^## ", README.read_text(), re.MULTILINE | re.DOTALL)[1]
+    block = "".join(re.findall(r"^```sh.*?\n(.*?)^```", section, re.MULTILINE | re.DOTALL))
     own = re.sub(r"^\.venv/bin/(haptic-panel|python)", lambda m: PROGRAMS[m[1]], block, flags=re.MULTILINE)
     text = own.replace("/tmp/panel.sock", str(tmp_path / "panel.sock"))
     return text.splitlines()
@@ -27,8 +31,8 @@ def shell(line):
     return subprocess.run(["sh", "-c", line], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
 
 
-def test_each_line_works_when_it_is_pasted(lines):
-    first, second, third = lines
+def test_each_line_works_when_it_is_pasted(lines, tmp_path):
+    first, second, third, conformance = lines
     begun = shell(first)  # which reads both pipes to their end: the panel that goes on does not hold them
     text = begun.stderr
     assert begun.returncode == 0, text
@@ -41,6 +45,14 @@ def test_each_line_works_when_it_is_pasted(lines):
         with subprocess.Popen(["sh", "-c", f"exec {third}"], stdout=subprocess.PIPE, text=True) as touches:
             assert '"kind":"touch"' in touches.stdout.readline()
             touches.terminate()
+        done = shell(conformance)
+        assert (done.returncode, done.stderr) == (0, ""), done.stdout
+        assert done.stdout.endswith(f"{len(steps_of(CONVERSATION))} steps, all as recorded\n")
+        wrong = tmp_path / "wrong.json"
+        wrong.write_text(json.dumps({"steps": [{"say": {"kind": "hello", "id": 1}, "answer": {"length_mm": 211.0}}]}))
+        done = shell(f"{conformance} --conversation {wrong}")
+        assert done.returncode == 1
+        assert 'step 1: {"kind": "hello", "id": 1}: answered with' in done.stderr
     finally:
         os.kill(pid, signal.SIGTERM)
 

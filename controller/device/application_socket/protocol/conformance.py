@@ -1,0 +1,126 @@
+"""A recorded conversation, held with a running panel: what a client in any language has to be able to say and to read.
+
+`python -m controller.device.application_socket.protocol.conformance --socket S` holds `conversation.json` with a panel of
+`haptic-panel serve`. A client's own tests hold the same file with the same panel: each step's `say` (or `line`, as it is) is sent,
+its answer has to have what is in `answer`, and before the next step a message comes that has what is in `await`. `…` is any value;
+`call` gives names to values of that message, for later steps.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import socket
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+from controller.console import program, say
+from controller.errors import ControllerError, LinkError
+from controller.regular_file import read_regular
+
+CONVERSATION: Final = Path(__file__).with_name("conversation.json")
+ANYTHING: Final = "…"
+TIMEOUT_S: Final = 30.0
+BYTES_MAX: Final = 1 << 20
+
+
+@program
+def main(arguments: list[str] | None = None) -> int:
+    """Command line: a line for each step, 0 if all were as recorded, 1 at the first that was not."""
+    parser = argparse.ArgumentParser(
+        prog="python -m controller.device.application_socket.protocol.conformance",
+        description="Hold a recorded conversation with a running panel (`haptic-panel serve --background SOCKET`).",
+    )
+    parser.add_argument("--socket", required=True, metavar="S", help="the panel's socket")
+    parser.add_argument("--conversation", type=Path, default=CONVERSATION, metavar="FILE.json", help="default: the one shipped")
+    options = parser.parse_args(arguments)
+    count = 0
+    for count, step in enumerate(held(options.socket, steps_of(options.conversation)), 1):
+        say(f"PASS {count}: {step}")
+    say(f"{count} steps, all as recorded")
+    return 0
+
+
+def steps_of(file: Path) -> list[dict[str, Any]]:
+    """Steps of a conversation.
+
+    Raises
+    ------
+    ControllerError
+        If the file cannot be read.
+    """
+    try:
+        steps: list[dict[str, Any]] = json.loads(read_regular(file, BYTES_MAX))["steps"]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ControllerError(f"{file}: cannot be read as a conversation: {error}") from error
+    return steps
+
+
+def held(path: str, steps: list[dict[str, Any]]) -> Iterator[str]:
+    """Hold a conversation; each step in words, once it was as recorded.
+
+    Raises
+    ------
+    LinkError
+        If there is no panel, or it does not answer.
+    ControllerError
+        If it answers otherwise than recorded, with step, answer and what was recorded.
+    """
+    names: dict[str, Any] = {}
+    try:
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as panel:
+            panel.settimeout(TIMEOUT_S)
+            panel.connect(path)
+            with panel.makefile("rb") as lines:
+                for number, step in enumerate(steps, 1):
+                    yield _hold(panel, (json.loads(line) for line in lines), step, number, names)
+    except OSError as error:  # TimeoutError among them
+        raise LinkError(f"{path}: no panel, or it does not answer ({error})") from error
+
+
+def _hold(panel: socket.socket, messages: Iterator[Any], step: dict[str, Any], number: int, names: dict[str, Any]) -> str:
+    """One step."""
+    if "await" in step:
+        told = next((message for message in messages if has(message, step["await"])), None)
+        if told is None:
+            raise LinkError(f"step {number}: the panel has ended the connection")
+        names |= {name: told[key] for name, key in step.get("call", {}).items()}
+        return f"told {step['await'].get('kind')}"
+    request = named(step["say"], names) if "say" in step else None
+    line = step["line"] if request is None else json.dumps(request)
+    panel.sendall(line.encode() + b"\n")
+    wanted = None if request is None else request["id"]
+    answer = next((message for message in messages if "id" in message and message["id"] == wanted and not is_notice(message)), None)
+    if answer is None:
+        raise LinkError(f"step {number}: the panel has ended the connection")
+    if not has(answer, step["answer"]):
+        raise ControllerError(f"step {number}: {line}: answered with {json.dumps(answer)}; recorded: {json.dumps(step['answer'])}")
+    return str(step.get("about") or line)
+
+
+def is_notice(message: dict[str, Any]) -> bool:
+    """Whether it is told without a request: a state or a description without an id; touches, emissions and faults have none."""
+    return message["id"] is None and message["kind"] in ("state", "description")
+
+
+def has(value: Any, wanted: Any) -> bool:
+    """Whether a message has what is wanted, and perhaps more; lists are as long as wanted."""
+    if wanted == ANYTHING:
+        return True
+    if isinstance(wanted, dict):
+        return isinstance(value, dict) and all(key in value and has(value[key], inner) for key, inner in wanted.items())
+    if isinstance(wanted, list):
+        return isinstance(value, list) and len(value) == len(wanted) and all(map(has, value, wanted))
+    return type(value) is type(wanted) and bool(value == wanted)
+
+
+def named(value: Any, names: dict[str, Any]) -> Any:
+    """A request with the values that have names."""
+    if isinstance(value, dict):
+        return {key: named(inner, names) for key, inner in value.items()}
+    return names.get(value, value) if isinstance(value, str) else value
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

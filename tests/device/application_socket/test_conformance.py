@@ -1,0 +1,70 @@
+"""How a recorded conversation is compared with what a panel says; and that the recorded one has every kind of request."""
+
+import json
+
+import pytest
+from device.application_socket.test_protocol_schema import fits
+from hypothesis import given
+from hypothesis import strategies as st
+
+from controller.device.application_socket.protocol.conformance import CONVERSATION, has, main, named, steps_of
+from controller.device.application_socket.protocol.schema import protocol_schema
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers(-9, 9) | st.text(max_size=3),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=2), inner, max_size=3),
+    max_leaves=8,
+)
+
+
+@given(JSON)
+def test_whatever_is_said_has_itself_and_anything(value):
+    assert has(value, value)
+    assert has(value, "…")
+
+
+@pytest.mark.parametrize(
+    ("value", "wanted", "found"),
+    [
+        ({"a": 1, "b": 2}, {"a": 1}, True),
+        ({"b": 2}, {"a": "…"}, False),
+        ({"a": 1}, {"a": True}, False),
+        ({"a": 1}, {"a": 1.0}, False),
+        ([{"a": 1}], [{"a": 1}, {"a": 1}], False),
+        ([{"a": 1, "b": 2}], [{"a": "…"}], True),
+        ("a", {"a": 1}, False),
+        (None, {}, False),
+    ],
+)
+def test_what_a_message_has(value, wanted, found):
+    assert has(value, wanted) is found
+
+
+def test_names_stand_for_what_was_called_so():
+    assert named({"finger": "FINGER", "place": {"x": "X"}, "list": ["FINGER"]}, {"FINGER": 7}) == {
+        "finger": 7,
+        "place": {"x": "X"},
+        "list": ["FINGER"],
+    }
+
+
+def test_the_recorded_conversation_asks_for_all_there_is():
+    steps = steps_of(CONVERSATION)
+    kinds = {step["say"]["kind"] for step in steps if "say" in step}
+    every = {name.rpartition("/")[2] for name in protocol_schema()["$defs"]["Request"]["discriminator"]["mapping"]}
+    assert kinds - {"plai"} == every - {"disarm"}, "which is as stop"
+    for step in steps:
+        if step.get("answer", {}).get("outcome") in ("played", "done"):
+            assert fits("Request", {**step["say"], "finger": 1} if "finger" in step["say"] else step["say"])
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"steps"', json.dumps({"step": []})])
+def test_a_file_that_is_none_is_one_line(tmp_path, text, capsys):
+    (tmp_path / "mine.json").write_text(text)
+    assert main(["--socket", "x", "--conversation", str(tmp_path / "mine.json")]) == 1
+    assert f"{tmp_path / 'mine.json'}: cannot be read as a conversation" in capsys.readouterr().err
+
+
+def test_without_a_panel_it_says_so(tmp_path, capsys):
+    assert main(["--socket", str(tmp_path / "none.sock")]) == 69
+    assert "no panel" in capsys.readouterr().err
