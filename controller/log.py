@@ -11,11 +11,14 @@ import os
 import select
 import socket
 import sys
+import time
+from collections import deque
 from enum import Enum, IntEnum
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 JOURNAL: Final = Path("/run/systemd/journal/socket")
+LAST_LINES: Final = 50  # kept, for those who ask later
 MAX_LINE_BYTES = 2048  # a pipe that polls writable takes at least a page in one write
 
 
@@ -57,6 +60,14 @@ class Event(Enum):
         self.priority = priority
 
 
+class Line(NamedTuple):
+    """A line of the log: when it was written (CLOCK_MONOTONIC), its priority, its text."""
+
+    time_s: float
+    priority: Priority
+    text: str
+
+
 class Log:
     """Lines to standard error.
 
@@ -64,10 +75,16 @@ class Log:
     ----------
     lost : int
         Lines dropped so far because standard error was full or closed.
+    count : int
+        Lines so far, those included.
+    last : deque of Line
+        The last of them, the oldest first.
     """
 
     def __init__(self) -> None:
         self.lost = 0
+        self.count = 0
+        self.last: deque[Line] = deque(maxlen=LAST_LINES)
         self._unreported = 0
 
     def write(self, message: str, about: Priority | Event = Priority.INFO) -> None:
@@ -82,6 +99,9 @@ class Log:
         about : Priority or Event
             What it tells of, which has a priority; or the priority alone.
         """
+        priority = about.priority if isinstance(about, Event) else about
+        self.last.append(Line(time.monotonic(), priority, " ".join(message.splitlines())[:MAX_LINE_BYTES]))
+        self.count += 1
         if self._unreported and _written(f"{self._unreported} lines before this one were lost: the log was full", Event.LINES_LOST):
             self._unreported = 0
         if not _written(message, about):

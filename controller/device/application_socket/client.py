@@ -36,6 +36,7 @@ from controller.device.application_socket.messages import (
     FiguresAnswer,
     Greeting,
     LayerAnswer,
+    LogLine,
     StateAnswer,
     Touch,
     Transform,
@@ -47,7 +48,7 @@ DEFAULT_PATH = "/run/haptic-panel/panel.sock"
 RECEIVE_BYTES = 65536
 MAX_KEPT = 1000  # of each kind that arrive while an answer is awaited; older ones are dropped
 
-Notice = Touch | Emissions | StateAnswer | FaultNotice | Description
+Notice = Touch | Emissions | StateAnswer | FaultNotice | Description | LogLine
 Reply = Answer | LayerAnswer | Data
 
 
@@ -228,6 +229,16 @@ class PanelClient:
     def descriptions(self) -> Iterator[Description]:
         """Description of the panel now and whenever another scene is in force, until the iterator is closed, as for `states`."""
         return self._subscribed(Description, "description")
+
+    def log(self) -> Iterator[LogLine]:
+        """The last lines of the service's log, and every one from then on, until the iterator is closed, as for `states`.
+
+        Raises
+        ------
+        ControllerError
+            If this user does not have the right to operate.
+        """
+        return self._subscribed(LogLine, "log")
 
     def _subscribed(self, kind: type[T], topic: messages.Topic) -> Iterator[T]:
         self._done(messages.Subscribe(id=self._new_id(), to=(topic,)))

@@ -83,6 +83,9 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
         case "faults":
             for fault in panel.faults():
                 _show(fault)
+        case "log":
+            for line in panel.log():
+                _show(line)
         case "hello":
             _show(panel.hello())
     return 0
@@ -145,4 +148,5 @@ def declare_requests(parser: argparse.ArgumentParser) -> None:
     describe = commands.add_parser("describe", help="print plate, patches, axes, scene, effects, limits, versions, last faults")
     describe.add_argument("--follow", action="store_true", help="and whenever another scene is in force, until Ctrl-C")
     commands.add_parser("faults", help="print every fault until Ctrl-C")
+    commands.add_parser("log", help="print the last lines of the service's log, and each one from then on, until Ctrl-C")
     commands.add_parser("hello", help="print version, board, extents, effects and your rights")

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 
 import msgspec
 
-from controller.device.application_socket.connection import UNWATCHED, Connection
+from controller.device.application_socket.connection import NOT_LOGGED, UNWATCHED, Connection
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.messages import Farewell, Right
 from controller.device.application_socket.peers import Peer, Rights
@@ -155,6 +155,7 @@ class Clients:
         """Have a client receive nothing but answers."""
         self.subscribe(client, touches=False)
         client.shown_emissions = client.informed = client.described = client.warned = False
+        client.lines_sent = NOT_LOGGED
 
     def send(self, client: Connection) -> None:
         """Send what is queued for a client; what remains is left to the next turn."""

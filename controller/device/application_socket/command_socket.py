@@ -89,6 +89,8 @@ class CommandSocket:
 
     def next_time_s(self) -> float:
         """When to call `serve` although the file is not readable, in s of the host's clock; inf: never."""
+        if self._notifications.has_lines:
+            return NOW
         clients_s, emissions_s = self._clients.next_s, self._emissions.next_s()
         return clients_s if clients_s < emissions_s else emissions_s
 
@@ -112,6 +114,7 @@ class CommandSocket:
                     self._requests.describe_to(client, control)
                     clients.send(client)
         self._emissions.serve(now_s, control)
+        self._notifications.lines()
         while clients.gone:
             control.drop_layer(clients.gone.pop(), now_s)
 

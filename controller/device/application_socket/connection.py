@@ -17,6 +17,7 @@ LAYER_BURST = 5  # times that a client may replace its regions at once
 FAREWELL_BYTES = 512  # reserved behind them for the farewell
 CLOSED = -1
 UNWATCHED = -1
+NOT_LOGGED = -1
 NEWLINE = 10
 NOBODY = Peer(-1, -1, frozenset())
 
@@ -56,6 +57,7 @@ class Connection:
         self.informed = False  # subscribed to states
         self.described = False  # subscribed to descriptions
         self.warned = False  # subscribed to faults
+        self.lines_sent = NOT_LOGGED  # of the log, for a subscriber to it
         self.ended = False  # the client sends no more
         self.deaf = False  # the client reads no more
         self.leaving_reason = ""
@@ -98,6 +100,7 @@ class Connection:
         self.fd = client.fileno()
         self.serial = serial
         self.subscribed = self.shown_emissions = self.informed = self.described = self.warned = False
+        self.lines_sent = NOT_LOGGED
         self.ended = self.deaf = self.layered = self._skipping = False
         self.leaving_reason = ""
         self.leave_s, self.resume_s = math.inf, -math.inf
@@ -124,7 +127,14 @@ class Connection:
     @property
     def listening(self) -> bool:
         """Whether it has subscribed to anything."""
-        return self.subscribed or self.shown_emissions or self.informed or self.described or self.warned
+        return (
+            self.subscribed
+            or self.shown_emissions
+            or self.informed
+            or self.described
+            or self.warned
+            or self.lines_sent != NOT_LOGGED
+        )
 
     @property
     def silent(self) -> bool:

@@ -23,7 +23,7 @@ Word = Annotated[str, Meta(min_length=1, max_length=64)]
 PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
 Right = Literal["look", "play", "regions", "operate"]
 ShiftMm = Annotated[float, Meta(ge=-MOST_SHIFT_MM, le=MOST_SHIFT_MM)]
-Topic = Literal["touches", "emissions", "state", "description", "faults"]
+Topic = Literal["touches", "emissions", "state", "description", "faults", "log"]
 Outcome = Literal["played", "merged", "skipped", "refused", "done"]
 
 
@@ -68,9 +68,12 @@ class Clip(Aimed, frozen=True, kw_only=True, tag="clip", gc=False):
 
 
 class Subscribe(Request, frozen=True, kw_only=True, tag="subscribe", gc=False):
-    """Send touches, emissions or faults from now on, state or description of the panel now and at each change."""
+    """Send touches, emissions or faults from now on, state or description of the panel now and at each change, the log from now on.
 
-    to: Annotated[tuple[Topic, ...], Meta(min_length=1, max_length=5)] = ("touches",)
+    The log's last 50 lines come first. It is for operators; touches and emissions are for who may play.
+    """
+
+    to: Annotated[tuple[Topic, ...], Meta(min_length=1, max_length=6)] = ("touches",)
 
 
 class Unsubscribe(Request, frozen=True, kw_only=True, tag="unsubscribe", gc=False):
@@ -292,6 +295,14 @@ class FaultNotice(Struct, frozen=True, kw_only=True, tag_field="kind", tag="faul
     cause: str
 
 
+class LogLine(Struct, frozen=True, kw_only=True, tag_field="kind", tag="log", gc=False):
+    """A line of the service's log: when it was written (CLOCK_MONOTONIC), its priority as of syslog(3), its text."""
+
+    time_s: float
+    priority: int
+    text: str
+
+
 class Description(Struct, frozen=True, kw_only=True, tag_field="kind", tag="description", gc=False):
     """The panel: the answer to `Describe` or, with an id of null, a notification to subscribers.
 
@@ -329,7 +340,7 @@ AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | Lo
 AnyQuestion = Subscribe | Unsubscribe | AskFigures | AskState | Describe | Hello
 AnyRequest = AnyOrder | AnyQuestion
 Data = Greeting | FiguresAnswer | StateAnswer | Description
-AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Emissions | Farewell
+AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Emissions | LogLine | Farewell
 
 
 def request_decoder() -> msgspec.json.Decoder[AnyRequest]:

@@ -6,9 +6,11 @@ from collections.abc import Sequence
 
 from controller.device.application_socket import messages
 from controller.device.application_socket.clients import Clients
+from controller.device.application_socket.connection import NOT_LOGGED
 from controller.device.application_socket.description import Faults
 from controller.device.board.panel_state import Condition
 from controller.device.touch.source import TouchSample
+from controller.log import LOG
 
 
 class Notifications:
@@ -26,6 +28,7 @@ class Notifications:
         self.condition = Condition()
         self.faults = Faults()
         self._clients = clients
+        self._lines_sent = 0
 
     def touches(self, samples: Sequence[TouchSample]) -> None:
         """Send the touch samples of one report, lengths in mm."""
@@ -59,6 +62,21 @@ class Notifications:
             if client.informed:
                 client.put(self.state())
                 self._clients.send(client)
+
+    def lines(self) -> None:
+        """Send lines of the log to the clients that subscribed to them."""
+        for client in self._clients.places:
+            if NOT_LOGGED < client.lines_sent < LOG.count:
+                for line in list(LOG.last)[client.lines_sent - LOG.count :]:
+                    client.put(messages.LogLine(time_s=line.time_s, priority=int(line.priority), text=line.text))
+                client.lines_sent = LOG.count
+                self._clients.send(client)
+        self._lines_sent = LOG.count
+
+    @property
+    def has_lines(self) -> bool:
+        """Whether lines were logged since `lines`."""
+        return self._lines_sent != LOG.count
 
     def state(self, number: messages.Id = None) -> messages.StateAnswer:
         """The condition as a message: the answer to the request with id `number`, or with None a notification."""

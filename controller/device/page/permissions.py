@@ -30,6 +30,7 @@ RIGHT_OF: Final = {
     "load_scene": "operate",
     "screen": "screen",  # which the bridge itself answers
 }
+TOPICS: Final = {"touches": "play", "emissions": "play", "log": "operate"}  # that need another right than to look
 # A right that brings another: whoever may operate may do all, as at the socket.
 BRINGS: Final = {"operate": ("play", "regions", "screen")}
 
@@ -106,10 +107,10 @@ def refused(message: dict[str, Any], rights: frozenset[str]) -> str:
     needs = RIGHT_OF.get(kind) if isinstance(kind, str) else None
     if needs is None:
         return f"kind = {shown(str(kind))}: must be one of {', '.join(map(repr, RIGHT_OF))}"
-    if kind == "subscribe" and needs in rights and "play" not in rights:
-        for topic in ("touches", "emissions"):
-            if topic in _topics(message):
-                return f"this page's origin may not subscribe to {topic}: the bridge's settings do not give it the right 'play'"
+    if kind == "subscribe" and needs in rights:
+        for topic, right in TOPICS.items():
+            if topic in _topics(message) and right not in rights:
+                return f"this page's origin may not subscribe to {topic}: the bridge's settings do not give it the right {right!r}"
     return "" if needs in rights else f"this page's origin may not {kind}: the bridge's settings do not give it the right {needs!r}"
 
 

@@ -206,6 +206,7 @@ def test_the_live_page(page, bridge_with, asks, tmp_path):
     page.until("document.querySelectorAll('.region').length >= 4 && document.querySelectorAll('.finger').length === 4")
     page.until("document.body.dataset.state === 'on' && document.querySelectorAll('#figures dd').length")
     page.until("document.querySelectorAll('.focus').length")
+    page.until("document.getElementById('log-lines').children.length")
     page.picture(folder / "live_page.png")
     page.value("[...document.querySelectorAll('#effects button')].find((one) => one.textContent === 'click').click(); 0")
     page.until("document.getElementById('outcome').textContent.startsWith('click: played')")

@@ -4,7 +4,7 @@
   const at = (id) => document.getElementById(id);
   const panel = window.HapticPanel;
   const SVG = "http://www.w3.org/2000/svg";
-  const ASK_MS = 1000, KEPT_EVENTS = 50, FOCUS_MS = 350, MOST_FOCI = 32;
+  const ASK_MS = 1000, KEPT_EVENTS = 50, FOCUS_MS = 350, MOST_FOCI = 32, INFO = 6;
   const WORDS = { // state: what it means to somebody who sees the panel for the first time; whether outputs are on
     "waiting for FPGA": ["The controller's FPGA does not answer. Outputs are off, or switch off by themselves.", "bad"],
     "no permit": ["The run permit (interlock) is missing: outputs stay off until it is given.", "bad"],
@@ -47,7 +47,9 @@
       button.addEventListener("click", () => playHere(effect));
       return button;
     }));
-    const to = ["state", "description", "faults", ...(panel.rights.includes("play") ? ["touches", "emissions"] : [])];
+    const to = ["state", "description", "faults", ...(panel.rights.includes("play") ? ["touches", "emissions"] : []), ...(panel.rights.includes("operate") ? ["log"] : [])];
+    at("log").hidden = !to.includes("log");
+    at("log-lines").replaceChildren();
     panel.send({ kind: "subscribe", to }).then((answer) => answer.reason && happened(`No touches: ${answer.reason}`));
     happened(`Connected to ${detail.board}, version ${detail.version}.`);
     panel.look();
@@ -70,6 +72,7 @@
     else if (detail.kind === "emissions") played(detail);
     else if (detail.kind === "figures") figures(detail.figures);
     else if (detail.kind === "description") described(detail);
+    else if (detail.kind === "log") listed("log-lines", detail.text).classList.toggle("warning", detail.priority < INFO);
     else if (detail.kind === "fault") happened(`${detail.state}: ${detail.cause}`);
     else if (detail.kind === "farewell") happened(`The panel ended the connection: ${detail.reason}`);
   });
@@ -90,11 +93,16 @@
     state = said;
   }
   function happened(text) {
-    const line = document.createElement("li"), time = document.createElement("time");
+    const time = document.createElement("time");
     time.textContent = new Date().toLocaleTimeString();
-    line.append(time, text);
-    at("events").prepend(line);
-    while (at("events").children.length > KEPT_EVENTS) at("events").lastChild.remove();
+    listed("events", time, text);
+  }
+  function listed(list, ...what) {
+    const line = document.createElement("li");
+    line.append(...what);
+    at(list).prepend(line);
+    while (at(list).children.length > KEPT_EVENTS) at(list).lastChild.remove();
+    return line;
   }
 
   // ---- drawing, when something has changed
