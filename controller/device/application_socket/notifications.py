@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from controller.device.application_socket import messages
 from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import NOT_LOGGED
+from controller.device.application_socket.connection import NOT_LOGGED, Connection
 from controller.device.application_socket.description import Faults
 from controller.device.board.panel_state import Condition
 from controller.device.touch.source import TouchSample
-from controller.log import LOG
+from controller.log import LAST_LINES, LOG
 
 
 class Notifications:
@@ -28,7 +28,8 @@ class Notifications:
         self.condition = Condition()
         self.faults = Faults()
         self._clients = clients
-        self._lines_sent = 0
+        self._lines_sent = NOT_LOGGED
+        self._logged_to = False  # whether anybody has subscribed to the log
 
     def touches(self, samples: Sequence[TouchSample]) -> None:
         """Send the touch samples of one report, lengths in mm."""
@@ -65,7 +66,11 @@ class Notifications:
 
     def lines(self) -> None:
         """Send lines of the log to the clients that subscribed to them."""
+        if not self.has_lines:
+            return
+        self._logged_to = False
         for client in self._clients.places:
+            self._logged_to |= client.lines_sent != NOT_LOGGED
             if NOT_LOGGED < client.lines_sent < LOG.count:
                 for line in list(LOG.last)[client.lines_sent - LOG.count :]:
                     client.put(messages.LogLine(time_s=line.time_s, priority=int(line.priority), text=line.text))
@@ -75,8 +80,14 @@ class Notifications:
 
     @property
     def has_lines(self) -> bool:
-        """Whether lines were logged since `lines`."""
-        return self._lines_sent != LOG.count
+        """Whether there are lines to send: where nobody has subscribed to them, the loop is not woken for any."""
+        return self._logged_to and self._lines_sent != LOG.count
+
+    def log_to(self, client: Connection) -> None:
+        """Have a client receive the last lines of the log, and each one from now on."""
+        if client.lines_sent == NOT_LOGGED:
+            client.lines_sent = max(LOG.count - LAST_LINES, 0)
+            self._logged_to, self._lines_sent = True, NOT_LOGGED
 
     def state(self, number: messages.Id = None) -> messages.StateAnswer:
         """The condition as a message: the answer to the request with id `number`, or with None a notification."""

@@ -11,7 +11,7 @@ import msgspec
 from controller import __version__
 from controller.device.application_socket import messages
 from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import NOT_LOGGED, Connection, LineTooLong, MessageTooLong
+from controller.device.application_socket.connection import Connection, LineTooLong, MessageTooLong
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.description import Describer
 from controller.device.application_socket.emission_notices import EmissionNotices
@@ -30,7 +30,7 @@ from controller.device.loop.commands import PanelControl
 from controller.device.loop.layer_source import LayerResult
 from controller.device.scene import clips
 from controller.errors import ConfigError, ControllerError
-from controller.log import LAST_LINES, LOG, Event, log
+from controller.log import Event, log
 
 FIGURES_S = 1.0  # for which the same figures are sent: collecting them takes the loop milliseconds
 REASON_CHARACTERS = 200
@@ -272,8 +272,8 @@ class Requests:
                     client.informed = True
                     client.put(self._notifications.state())
                 client.warned |= "faults" in to
-                if "log" in to and client.lines_sent == NOT_LOGGED:
-                    client.lines_sent = max(LOG.count - LAST_LINES, 0)
+                if "log" in to:
+                    self._notifications.log_to(client)
                 if "emissions" in to:
                     client.shown_emissions = True
                     self._emissions.begin(control)

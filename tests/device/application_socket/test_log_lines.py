@@ -1,6 +1,7 @@
 """The service's log for operators: the last lines, then each one once, in order; for nobody else."""
 
 import grp
+import math
 
 import pytest
 
@@ -34,6 +35,22 @@ def test_operators_get_the_last_lines_and_then_each_one(panel):
     panel.ask(client, {"kind": "unsubscribe"})
     log("after")
     assert panel.ask(client) == []
+
+
+def test_nobody_is_woken_for_lines_that_nobody_reads(panel):
+    client = panel.connect(OPERATOR)
+    panel.ask(client)
+    log("read by nobody")
+    assert panel.socket.next_time_s() == math.inf
+    panel.ask(client, SUBSCRIBE)
+    log("read")
+    assert panel.socket.next_time_s() == -math.inf
+    client.close()
+    panel.settle()
+    log("read by nobody")
+    panel.settle()
+    log("read by nobody again")
+    assert panel.socket.next_time_s() == math.inf
 
 
 def test_more_lines_at_once_than_are_kept_are_the_last_ones(panel):
