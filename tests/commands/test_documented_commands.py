@@ -35,7 +35,7 @@ def code(page):
 
 def command(text):
     """Up to a comment, the next command, or where its output goes."""
-    return re.split(r"  +#| && | >| \| |\)$| …", text)[0].strip()
+    return re.split(r"  +#| && | &$| >| \| |\)$| …", text)[0].strip()
 
 
 def complaint(words, parser_of=parser):
