@@ -276,6 +276,16 @@ class PanelClient:
         """
         self._done(messages.Disarm(id=self._new_id()))
 
+    def write_trace(self) -> None:
+        """Have the service write what its loop did in the last seconds; its log names the file, `haptic-panel trace` explains it.
+
+        Raises
+        ------
+        ControllerError
+            If this user does not have the right to operate.
+        """
+        self._done(messages.WriteTrace(id=self._new_id()))
+
     def stop(self) -> None:
         """As `disarm`, whatever this user's rights are."""
         self._done(messages.Stop(id=self._new_id()))

@@ -66,6 +66,8 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
             panel.arm()
         case "disarm":
             panel.disarm()
+        case "trace":
+            panel.write_trace()
         case "stop":
             panel.stop()
         case "state" if options.follow:
@@ -144,6 +146,7 @@ def declare_requests(parser: argparse.ArgumentParser) -> None:
     commands.add_parser("arm", help="switch the outputs on as soon as the FPGA allows it")
     state = commands.add_parser("state", help="print the panel's state")
     state.add_argument("--follow", action="store_true", help="and after each change, until Ctrl-C")
+    commands.add_parser("trace", help="have written what the loop did in the last seconds; the log says where")
     commands.add_parser("figures", help="print counters and latencies")
     describe = commands.add_parser("describe", help="print plate, patches, axes, scene, effects, limits, versions, last faults")
     describe.add_argument("--follow", action="store_true", help="and whenever another scene is in force, until Ctrl-C")

@@ -124,6 +124,10 @@ class Stop(Request, frozen=True, kw_only=True, tag="stop", gc=False):
     """As `Disarm`, for every client, whatever its rights and its rate: outputs off, and off they stay."""
 
 
+class WriteTrace(Request, frozen=True, kw_only=True, tag="trace", gc=False):
+    """Write what the loop did in the last seconds to a file of the service's folder, which its log names."""
+
+
 class AskState(Request, frozen=True, kw_only=True, tag="state", gc=False):
     """Request the panel's state, as `StateAnswer`."""
 
@@ -336,7 +340,7 @@ class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field=
     lacks: Right | None = None
 
 
-AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene
+AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene | WriteTrace
 AnyQuestion = Subscribe | Unsubscribe | AskFigures | AskState | Describe | Hello
 AnyRequest = AnyOrder | AnyQuestion
 Data = Greeting | FiguresAnswer | StateAnswer | Description

@@ -239,7 +239,9 @@ class Requests:
         """Carry out a request that plays nothing and lays no regions."""
         rights = self._clients.rights
         match request:
-            case messages.Arm() | messages.Disarm() | messages.LoadScene() if "operate" not in client.rights:
+            case messages.Arm() | messages.Disarm() | messages.LoadScene() | messages.WriteTrace() if (
+                "operate" not in client.rights
+            ):
                 self._not_allowed(client, request.id, "operate")
             case messages.Subscribe(to=to) if "log" in to and "operate" not in client.rights:
                 self._not_allowed(client, request.id, "operate")
@@ -255,6 +257,8 @@ class Requests:
                 self._answer(client, request.id, "done")
             case messages.MoveRegions():
                 self._move_regions(client, request, control)
+            case messages.WriteTrace():
+                self._write_trace(client, request.id, control)
             case messages.AskState(id=number):
                 self._reply(client, self._notifications.state(number))
             case messages.LoadScene(id=number, name=name):
@@ -303,6 +307,14 @@ class Requests:
             self.loaded(ticket, str(error))
         else:
             log(f"{self._clients.rights.called(client.peer)} loads the scene {name!r}", Event.OPERATED)
+
+    def _write_trace(self, client: Connection, number: Id, control: PanelControl) -> None:
+        try:
+            control.write_trace(f"{self._clients.rights.called(client.peer)} asked for it")
+        except ControllerError as error:
+            self._answer(client, number, "refused", str(error))
+        else:
+            self._answer(client, number, "done")
 
     def _all_figures(self, now_s: float, control: PanelControl) -> dict[str, Any]:
         if now_s >= self._figures_until_s:

@@ -83,6 +83,15 @@ class PanelControl(Protocol):
             Who wants it, for the cause of the panel's state.
         """
 
+    def write_trace(self, reason: str) -> None:
+        """Have written what the loop did in the last seconds, with the reason; the log says where.
+
+        Raises
+        ------
+        ConfigError
+            If nothing writes it.
+        """
+
     def load_scene(self, ticket: int, name: str) -> None:
         """Prepare another scene outside the loop and take it over; `CommandSource.loaded` follows.
 

@@ -42,6 +42,7 @@ class LoopControl:
         self._clock_estimate = context.clock_estimate
         self._counters = context.counters
         self.emissions = context.emissions
+        self._trace = context.trace
         self.skipped = context.counters.skipped
         self._change = change
         self._timing = timing
@@ -73,6 +74,12 @@ class LoopControl:
     def switch(self, *, on: bool, by: str = "a client") -> None:
         """Arm or disarm the outputs; see `PanelControl.switch`."""
         self._outputs.switch(on=on, by=by)
+
+    def write_trace(self, reason: str) -> None:
+        """Have the trace written; see `PanelControl.write_trace`."""
+        if not self._trace.is_written:
+            raise ConfigError("this panel writes no traces: it has no folder for them, as the service has")
+        self._trace.asked(reason, by_hand=True)
 
     def load_scene(self, ticket: int, name: str) -> None:
         """Prepare another scene; see `PanelControl.load_scene`.

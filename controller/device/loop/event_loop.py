@@ -180,7 +180,7 @@ class EventLoop:
 
     def _explain(self) -> None:
         """Have the trace written."""
-        self._trace.asked("it was asked for (SIGUSR1)")
+        self._trace.asked("it was asked for (SIGUSR1)", by_hand=True)
         if self._wakeup is not None:
             self._wakeup.clear()
 

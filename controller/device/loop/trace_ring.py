@@ -6,9 +6,9 @@ called once something is asked to be explained.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from struct import Struct
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, Protocol
 
 from controller.clocks import FPGA_NEVER, ClockOffset
 from controller.device.loop.playing.records import Accepted
@@ -81,19 +81,32 @@ class StartRecord(NamedTuple):
         return self.start_s - self.due_s
 
 
+class Asked(Protocol):
+    """Takes note that the ring is to be written."""
+
+    def __call__(self, reason: str, *, by_hand: bool = False) -> None:
+        """See `TraceRing.asked`."""
+
+
 class TraceRing:
     """Records of turns and starts.
 
     Attributes
     ----------
     asked : callable
-        Called with the reason when the ring is to be written; not more than it has to be, as it is called on the hot path.
+        Called with the reason when the ring is to be written, and with `by_hand` where somebody wants it now; not more than it has
+        to be, as it is called on the hot path.
     """
 
     def __init__(self, records: int = RECORDS) -> None:
         self.bytes = bytearray(records * RECORD_BYTES)
-        self.asked: Callable[[str], None] = _nobody
+        self.asked: Asked = _nobody
         self.at = 0  # of the next record, in bytes
+
+    @property
+    def is_written(self) -> bool:
+        """Whether anything writes it when that is asked for."""
+        return self.asked is not _nobody
 
     def turn(self, began_s: float, ended_s: float, report_ns: int, due: int, *, started: bool) -> None:
         """Note a turn; `report_ns` as in `Turn`."""
@@ -151,5 +164,5 @@ def records_of(data: bytes | bytearray, at: int) -> Iterator[TurnRecord | StartR
             yield StartRecord(due_s, ready_s, start_s, decide_s, frame_s, wire_s, foci, is_pulse, is_resident, by_clock)
 
 
-def _nobody(_reason: str) -> None:
+def _nobody(reason: str, *, by_hand: bool = False) -> None:
     """In place of a writer."""

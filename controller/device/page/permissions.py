@@ -28,6 +28,7 @@ RIGHT_OF: Final = {
     "arm": "operate",
     "disarm": "operate",
     "load_scene": "operate",
+    "trace": "operate",
     "screen": "screen",  # which the bridge itself answers
 }
 TOPICS: Final = {"touches": "play", "emissions": "play", "log": "operate"}  # that need another right than to look

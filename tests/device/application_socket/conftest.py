@@ -33,6 +33,7 @@ class WritesDown:
         self.skipped = Skipped()
         self.plays = []
         self.scenes = []
+        self.traces = []
         self.switched = []
         self.layers = []
         self.scene_in_force = "drums", Scene(())
@@ -54,6 +55,9 @@ class WritesDown:
     def switch(self, *, on, by):
         self.switched.append(on)
         self.switched_by = by
+
+    def write_trace(self, reason):
+        self.traces.append(reason)
 
     def load_scene(self, ticket, name):
         if name == "broken":

@@ -29,7 +29,7 @@ GUEST = Peer(50_002, 12, frozenset({50_002, PLAY_GROUP.gr_gid}))
 OPERATOR = Peer(50_003, 13, frozenset({50_003, OPERATE_GROUP.gr_gid}))
 STRANGER = Peer(50_004, 14, frozenset({50_004}))
 PLAY = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
-OPERATIONS = ({"kind": "arm"}, {"kind": "disarm"}, {"kind": "load_scene", "name": "drums"})
+OPERATIONS = ({"kind": "arm"}, {"kind": "disarm"}, {"kind": "load_scene", "name": "drums"}, {"kind": "trace"})
 
 
 @pytest.fixture
@@ -54,7 +54,13 @@ def test_an_operator_arms_disarms_and_loads_and_the_journal_says_who(panel, caps
     answers = panel.ask(
         client, *({**request, "id": number} for number, request in enumerate(OPERATIONS)), {"kind": "hello", "id": 9}
     )
-    assert [(answer["id"], answer.get("outcome", answer["kind"])) for answer in answers] == [(0, "done"), (1, "done"), (9, "hello")]
+    assert [(answer["id"], answer.get("outcome", answer["kind"])) for answer in answers] == [
+        (0, "done"),
+        (1, "done"),
+        (3, "done"),
+        (9, "hello"),
+    ]
+    assert panel.control.traces == ["uid 50003 (pid 13) asked for it"]
     assert answers[-1]["rights"] == ["play", "regions", "operate"]
     assert panel.control.switched == [True, False]
     assert [name for _, name in panel.control.scenes] == ["drums"]

@@ -98,7 +98,7 @@ class TraceFile(SpareTime):
         self._emission_s = emission_s
         self._ring: TraceRing | None = None
         self._copy = bytearray()
-        self._reason = ""
+        self._reason, self._by_hand = "", False
         self._asked_s = -NEVER  # when the last one was begun
         self._number = 0
         self._file = -1
@@ -118,10 +118,10 @@ class TraceFile(SpareTime):
             self._copy = bytearray(len(ring.bytes))
             ring.asked = self.ask
 
-    def ask(self, reason: str) -> None:
-        """Have the ring written soon, unless it is being written."""
+    def ask(self, reason: str, *, by_hand: bool = False) -> None:
+        """Have the ring written soon, unless it is being written; `by_hand`: however soon after another one."""
         if not self._reason:
-            self._reason = reason
+            self._reason, self._by_hand = reason, by_hand
             self.due_s = 0.0
 
     def use(self, now_s: float, next_s: float) -> None:
@@ -155,8 +155,7 @@ class TraceFile(SpareTime):
     def _wanted(self, now_s: float) -> bool:
         """Whether the time has come to copy the ring."""
         if self.due_s == 0.0:
-            by_itself = "SIGUSR1" not in self._reason
-            if by_itself and now_s - self._asked_s < APART_S:
+            if not self._by_hand and now_s - self._asked_s < APART_S:
                 self._reason, self.due_s = "", NEVER
                 return False
             self.due_s = now_s + AFTER_S

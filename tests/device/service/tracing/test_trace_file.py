@@ -90,7 +90,7 @@ def test_what_nobody_asked_for_is_written_once_a_minute_and_the_newest_stay(tmp_
         assert trace.due_s == NEVER
         now_s += APART_S + 1.0
     assert {file.name for file in tmp_path.iterdir()} == {f"trace-{number}.json" for number in range(1, FILES + 1)}
-    trace.ask("it was asked for (SIGUSR1)")
+    trace.ask("it was asked for (SIGUSR1)", by_hand=True)
     used(trace, now_s - APART_S)
     assert trace.due_s < NEVER, "at once, whenever the one before was"
 
@@ -110,7 +110,7 @@ def test_a_folder_that_takes_nothing_costs_a_line_and_the_trace(tmp_path):
     trace.use(1.0, 2.0)
     trace.use(1.0 + AFTER_S, 2.0)
     assert trace.due_s == NEVER
-    trace.ask("it was asked for (SIGUSR1)")
+    trace.ask("it was asked for (SIGUSR1)", by_hand=True)
     trace.close(5.0)
 
 
