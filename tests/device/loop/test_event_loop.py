@@ -996,7 +996,7 @@ def test_a_trace_is_asked_for_by_a_signal_but_not_by_a_good_run(board, bank_file
             sent = list(signals)
             watch = Watch(lambda now_s, sent=sent: os.kill(os.getpid(), sent.pop()) if sent and now_s > 0.2 else None)
             link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), reports, evemu_text, watch=watch)
-            loop._trace.asked = reasons.append
+            loop._trace.asked = lambda reason, **_: reasons.append(reason)
             loop.run()
             link.close()
             assert reasons == ["it was asked for (SIGUSR1)"] * number
@@ -1007,7 +1007,7 @@ def test_a_fault_leaves_a_trace(board, bank_file, tmp_path, cell, evemu_text):
     with Bank.open(bank_file, board) as bank:
         reports = [(0.0, {0: cell[1]}), (0.5, {0: None})]
         link, counters, loop = loop_of(board, bank, tmp_path, StallingClock([(0.25, 0.4)]), reports, evemu_text)
-        loop._trace.asked = reasons.append
+        loop._trace.asked = lambda reason, **_: reasons.append(reason)
         loop.run()
         link.close()
     assert counters.host_silent == 1
