@@ -18,6 +18,8 @@ from chromium import PROGRAM, browser
 from kernel.serial_finger import LARGEST, SerialPanel
 from patience import wait_for
 
+from controller.device.scene.scene import load_scene
+
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(PROGRAM is None, reason="no browser: apt-get install chromium"),
@@ -193,6 +195,43 @@ def test_four_taps_say_where_the_screen_lies(page, bridge_with, touched_panel, t
     corners = np.array([[0, 0, 1], [2000, 0, 1], [0, 1400, 1], [2000, 1400, 1]])
     assert np.abs(corners @ (found - truth).T).max() < 0.1
     assert all("requestFullscreen" in said for said in page.said), "it was no gesture of a person"
+
+
+def test_what_is_drawn_is_felt_and_saved_as_a_scene(page, bridge_with, board, tmp_path):
+    bridge = bridge_with()
+    page.said.clear()
+    page.size(1280, 900)
+    page.open(f"{bridge.address}live/editor.html")
+    page.value("layers = []; HapticPanel.addEventListener('layer', ({detail}) => layers.push(detail)); 0")
+    page.until("document.getElementById('effect').options.length > 5")
+    left, top, width, height = page.value("(({x, y, width, height}) => [x, y, width, height])(plate.getBoundingClientRect())")
+
+    def drag(*shares):
+        for kind, (x, y) in zip(("mousePressed", *["mouseMoved"] * (len(shares) - 2), "mouseReleased"), shares, strict=True):
+            place = {"x": left + x * width, "y": top + y * height}
+            page.call("Input.dispatchMouseEvent", type=kind, button="left", buttons=1, clickCount=1, **place)
+
+    drag((0.1, 0.1), (0.2, 0.2), (0.3, 0.5), (0.3, 0.5))
+    drag((0.5, 0.5), (0.6, 0.9), (0.6, 0.9))
+    page.value(
+        "for (const [id, value] of [['effect', 'texture'], ['amplitude', '0.5'], ['name', 'so \"called\"']])"
+        " { const one = document.getElementById(id); one.value = value; one.dispatchEvent(new Event('change')); } 0"
+    )
+    page.until("layers.length && layers.at(-1).answer.regions === 2 && layers.at(-1).regions[0].effects[0].effect === 'texture'")
+    page.picture((Path(PICTURES) if PICTURES else tmp_path) / "editor.png")
+    (tmp_path / "drawn.toml").write_text(page.value("document.getElementById('toml').textContent"))
+    scene = load_scene(tmp_path / "drawn.toml", board)
+    assert [region.name for region in scene.regions] == ['so "called"', "region 1"]
+    newest, first = (np.array(region.shape.bounds) for region in scene.regions)
+    plate = np.array([board.plate.length_m, board.plate.width_m, board.plate.length_m, board.plate.width_m])
+    assert newest == pytest.approx([0.5, 0.1, 0.6, 0.5] * plate, abs=0.6e-3)
+    assert first == pytest.approx([0.1, 0.5, 0.3, 0.9] * plate, abs=0.6e-3)
+    assert scene.regions[0].spacings[0].amplitude == 0.5
+    page.value("document.getElementById('delete').click(); 0")
+    page.until("layers.at(-1).answer.regions === 1")
+    page.value("document.getElementById('add').click(); 0")
+    page.until("layers.at(-1).answer.regions === 2")
+    assert page.said == []
 
 
 def test_the_live_page(page, bridge_with, asks, tmp_path):
