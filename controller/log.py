@@ -119,7 +119,7 @@ def _written(message: str, about: Priority | Event) -> bool:
     priority = about.priority if isinstance(about, Event) else about
     if _is_journal() and (sent := _sent(message, priority, about)) is not None:
         return sent
-    whole = line(message, priority).encode(errors="backslashreplace")[: MAX_LINE_BYTES - 1] + b"\n"
+    whole = _cut(line(message, priority)) + b"\n"
     poll = select.poll()
     try:
         fd = sys.stderr.fileno()
@@ -137,7 +137,7 @@ def _written(message: str, about: Priority | Event) -> bool:
 
 def _sent(message: str, priority: Priority, about: Priority | Event) -> bool | None:
     """Whether the journal took the line at once; None: it has no socket here."""
-    text = f"haptic-panel: {' '.join(message.splitlines())}".encode(errors="backslashreplace")[: MAX_LINE_BYTES - 1]
+    text = _cut(f"haptic-panel: {' '.join(message.splitlines())}")
     fields = [b"MESSAGE=" + text, b"PRIORITY=%d" % priority, b"SYSLOG_IDENTIFIER=haptic-panel"]
     if isinstance(about, Event):
         fields.append(f"MESSAGE_ID={about.message_id}".encode())
@@ -149,6 +149,11 @@ def _sent(message: str, priority: Priority, about: Priority | Event) -> bool | N
     except OSError:
         return None
     return True
+
+
+def _cut(text: str) -> bytes:
+    """A line as UTF-8, cut off between two characters where it is too long."""
+    return text.encode(errors="backslashreplace")[: MAX_LINE_BYTES - 1].decode(errors="ignore").encode()
 
 
 def _is_journal() -> bool:

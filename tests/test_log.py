@@ -4,6 +4,8 @@ import contextlib
 import os
 import re
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -155,3 +157,11 @@ def test_the_catalogue_explains_every_event_once():
     of_script = re.findall(r"^[A-Z_]+=([0-9a-f]{32})$", script, re.MULTILINE)
     assert len(of_script) > 5
     assert sorted([*(event.message_id for event in Event), *of_script]) == sorted(explained)
+
+
+@pytest.mark.parametrize("before", range(4))
+def test_a_line_that_is_too_long_is_cut_between_two_characters(before):
+    code = f"from controller.log import log; log('x' * {before} + '\\N{{GRINNING FACE}}' * 4096)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
+    assert len(done.stderr) <= MAX_LINE_BYTES
+    assert done.stderr.decode().startswith("haptic-panel: ")

@@ -5,7 +5,7 @@
 #    source ~/.local/share/bash_completion/haptic-panel
 # See also: https://github.com/scop/bash-completion/blob/main/doc/configuration.md
 
-_shtab_haptic_panel_client_subparsers=(play touches emissions regions load stop disarm arm state trace figures describe faults log hello)
+_shtab_haptic_panel_client_subparsers=(play touches emissions regions load stop disarm arm state test-channel trace figures describe faults log hello)
 _shtab_haptic_panel_board_subparsers=(check reference schema)
 _shtab_haptic_panel_gateware_subparsers=(check build info load)
 _shtab_haptic_panel_bank_subparsers=(build choices info verify)
@@ -28,6 +28,7 @@ _shtab_haptic_panel_client_stop_option_strings=(-h --help)
 _shtab_haptic_panel_client_disarm_option_strings=(-h --help)
 _shtab_haptic_panel_client_arm_option_strings=(-h --help)
 _shtab_haptic_panel_client_state_option_strings=(-h --help --follow)
+_shtab_haptic_panel_client_test_channel_option_strings=(-h --help)
 _shtab_haptic_panel_client_trace_option_strings=(-h --help)
 _shtab_haptic_panel_client_figures_option_strings=(-h --help)
 _shtab_haptic_panel_client_describe_option_strings=(-h --help --follow)
@@ -132,7 +133,7 @@ _shtab_haptic_panel_run___link_choices=(model rtl)
 _shtab_haptic_panel_run___speed_choices=(1 max)
 _shtab_haptic_panel_run___sensor_choices=(board assumed none)
 _shtab_haptic_panel_serve___fingers_choices=(0 1 2 3 4)
-_shtab_haptic_panel_client_pos_0_choices=(play touches emissions regions load stop disarm arm state trace figures describe faults log hello)
+_shtab_haptic_panel_client_pos_0_choices=(play touches emissions regions load stop disarm arm state test-channel trace figures describe faults log hello)
 _shtab_haptic_panel_board_pos_0_choices=(check reference schema)
 _shtab_haptic_panel_gateware_check___link_choices=(model rtl)
 _shtab_haptic_panel_gateware_pos_0_choices=(check build info load)
@@ -186,6 +187,8 @@ _shtab_haptic_panel_client_arm___help_nargs=0
 _shtab_haptic_panel_client_state__h_nargs=0
 _shtab_haptic_panel_client_state___help_nargs=0
 _shtab_haptic_panel_client_state___follow_nargs=0
+_shtab_haptic_panel_client_test_channel__h_nargs=0
+_shtab_haptic_panel_client_test_channel___help_nargs=0
 _shtab_haptic_panel_client_trace__h_nargs=0
 _shtab_haptic_panel_client_trace___help_nargs=0
 _shtab_haptic_panel_client_figures__h_nargs=0

@@ -276,6 +276,10 @@ class PanelClient:
         """
         self._done(messages.Disarm(id=self._new_id()))
 
+    def test_channel(self, channel: int) -> Answer:
+        """Play a chirp on one channel alone, and wait for the outcome, as of `play`; for operators."""
+        return self._answer(self._ask(messages.ChannelTest(id=self._new_id(), channel=channel)))
+
     def write_trace(self) -> None:
         """Have the service write what its loop did in the last seconds; its log names the file, `haptic-panel trace` explains it.
 

@@ -124,6 +124,12 @@ class Stop(Request, frozen=True, kw_only=True, tag="stop", gc=False):
     """As `Disarm`, for every client, whatever its rights and its rate: outputs off, and off they stay."""
 
 
+class ChannelTest(Request, frozen=True, kw_only=True, tag="test_channel", gc=False):
+    """Play a chirp on one channel alone, which moves its patch and no other; answered as `PlayRequest`."""
+
+    channel: Annotated[int, Meta(ge=0, le=31)]
+
+
 class WriteTrace(Request, frozen=True, kw_only=True, tag="trace", gc=False):
     """Write what the loop did in the last seconds to a file of the service's folder, which its log names."""
 
@@ -340,7 +346,7 @@ class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field=
     lacks: Right | None = None
 
 
-AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene | WriteTrace
+AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene | ChannelTest | WriteTrace
 AnyQuestion = Subscribe | Unsubscribe | AskFigures | AskState | Describe | Hello
 AnyRequest = AnyOrder | AnyQuestion
 Data = Greeting | FiguresAnswer | StateAnswer | Description

@@ -33,7 +33,7 @@ from controller.errors import ConfigError, ControllerError
 from controller.log import Event, log
 
 FIGURES_S = 1.0  # for which the same figures are sent: collecting them takes the loop milliseconds
-REASON_CHARACTERS = 200
+REASON_CHARACTERS = 250
 STOP = b'"stop"'
 
 
@@ -239,7 +239,7 @@ class Requests:
         """Carry out a request that plays nothing and lays no regions."""
         rights = self._clients.rights
         match request:
-            case messages.Arm() | messages.Disarm() | messages.LoadScene() | messages.WriteTrace() if (
+            case messages.Arm() | messages.Disarm() | messages.LoadScene() | messages.ChannelTest() | messages.WriteTrace() if (
                 "operate" not in client.rights
             ):
                 self._not_allowed(client, request.id, "operate")
@@ -257,6 +257,8 @@ class Requests:
                 self._answer(client, request.id, "done")
             case messages.MoveRegions():
                 self._move_regions(client, request, control)
+            case messages.ChannelTest(id=number, channel=channel):
+                self._test_channel(client, number, channel, now_s, control)
             case messages.WriteTrace():
                 self._write_trace(client, request.id, control)
             case messages.AskState(id=number):
@@ -307,6 +309,19 @@ class Requests:
             self.loaded(ticket, str(error))
         else:
             log(f"{self._clients.rights.called(client.peer)} loads the scene {name!r}", Event.OPERATED)
+
+    def _test_channel(self, client: Connection, number: Id, channel: int, now_s: float, control: PanelControl) -> None:
+        patch = next((actuator for actuator in self._board.actuators if actuator.channel == channel), None)
+        if patch is None:
+            self._refuse_invalid(client, number, f"channel {channel} drives no actuator of board {self._board.name!r}")
+            return
+        ticket = self._ticket(client, number)
+        if ticket == FULL:
+            return
+        try:
+            control.test_channel(ticket, channel, patch.x_mm * 1e-3, patch.y_mm * 1e-3, now_s)
+        except ControllerError as error:
+            self.answer_ticket(ticket, "refused", reason=str(error))
 
     def _write_trace(self, client: Connection, number: Id, control: PanelControl) -> None:
         try:

@@ -63,6 +63,20 @@ class PanelControl(Protocol):
             If the outputs are off, or the effect or the finger is unknown. No outcome follows then.
         """
 
+    def test_channel(self, ticket: int, channel: int, x_m: float, y_m: float, now_s: float) -> None:
+        """Play a chirp on one channel alone; exactly one `CommandSource.outcome` follows.
+
+        Parameters
+        ----------
+        x_m, y_m : float
+            Place of its actuator.
+
+        Raises
+        ------
+        ControllerError
+            If the outputs are off. No outcome follows then.
+        """
+
     def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
         """Fingers in a region, by its name: of the layer of the client with this number, else of the scene.
 

@@ -59,13 +59,28 @@ class LoopControl:
         ConfigError
             If the effect or the finger is unknown.
         """
+        self._require_on()
+        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
+
+    def test_channel(self, ticket: int, channel: int, x_m: float, y_m: float, now_s: float) -> None:
+        """Play a chirp on one channel; see `PanelControl.test_channel`."""
+        self._require_on()
+        self._scheduler.test_channel(ticket, channel, x_m, y_m, self._clock_estimate.fpga_s(now_s))
+
+    def _require_on(self) -> None:
+        """Wake outputs that idle.
+
+        Raises
+        ------
+        FaultError
+            If they are off, with the cause.
+        """
         if not self._outputs.wanted:
             raise FaultError("the outputs are off: the panel is disarmed; a client that may operate it has to arm it")
         if self._outputs.idle:
             self._outputs.wake()
         if not self._outputs.on and not self._outputs.waking:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
-        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
 
     def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
         """Fingers in a region; see `PanelControl.fingers_in`."""

@@ -147,6 +147,13 @@ class Scheduler:
         self._make_room(emissions)
         self._add(emissions)
 
+    def test_channel(self, ticket: int, channel: int, x_m: float, y_m: float, now_s: FpgaTime) -> None:
+        """Have a channel tested, for a command: as an emission at the place of its actuator."""
+        name = f"channel {channel}"
+        emission = Emission(now_s, x_m, y_m, None, name, owner=f"command {ticket}", ticket=ticket, alternate=True, channel=channel)
+        self._make_room((emission,))
+        self._add((emission,))
+
     def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
         """Fingers in a region; see `PanelControl.fingers_in`."""
         index = self.scene.named(owner, region)

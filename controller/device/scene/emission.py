@@ -35,6 +35,8 @@ class Emission(NamedTuple):
         It is to be played alone, in turn with others, not composed with them.
     nulled : bool
         Other fingers are to be kept still meanwhile.
+    channel : int
+        No focus, but the test of this channel, alone; below 0: a focus.
     """
 
     time_s: FpgaTime
@@ -49,9 +51,10 @@ class Emission(NamedTuple):
     period_s: float = 0.0
     alternate: bool = False
     nulled: bool = False
+    channel: int = -1
 
 
-_Fields = tuple[FpgaTime, float, float, int | None, str, float, int | str, int, int, float, bool, bool]
+_Fields = tuple[FpgaTime, float, float, int | None, str, float, int | str, int, int, float, bool, bool, int]
 new_emission: Final[Callable[[_Fields], Emission]] = partial(tuple.__new__, Emission)
 """An `Emission` of a tuple of all its fields, at a third of the instructions: without the function that its class has for it."""
 

@@ -125,7 +125,7 @@ class ActiveEffects:
             if not amplitude:
                 return ()
             inside = scene.regions[index]
-            at = time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, 0, 0, 0.0, inside.alternate, inside.nulled
+            at = time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, 0, 0, 0.0, inside.alternate, inside.nulled, -1
             return (new_emission(at),)
         self._enter(index)
         emission = None
@@ -276,7 +276,7 @@ class ActiveEffects:
         period_s, ticket = train.train.period_s, train.ticket
         train.ticket = 0
         time_s = train.first_s + train.train.after_s(pulse)
-        at = time_s, self.x_m, self.y_m, self.finger, name, amplitude, self.owner, ticket, pulse, period_s, alternate, nulled
+        at = time_s, self.x_m, self.y_m, self.finger, name, amplitude, self.owner, ticket, pulse, period_s, alternate, nulled, -1
         return new_emission(at)
 
     def _add(self, train: ActiveTrain) -> None:

@@ -18,6 +18,7 @@ from controller.device.bank.reader import Bank
 from controller.device.fpga.frames import ReadyFrames, Waveform
 from controller.device.kernel import MAX_NULLS
 from controller.device.waveforms.amplitude import AMPLITUDES, amplitude_step
+from controller.device.waveforms.channel_test import chirp_words
 from controller.device.waveforms.composition import Composer, Point
 from controller.errors import BankError
 
@@ -28,6 +29,7 @@ REUSE_RADIUS_M: Final = 0.4e-3  # a waveform for a place this near serves as wel
 LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
 Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice
 NULL: Final = -1  # in place of a step of amplitude: a place that is kept still
+CHANNEL: Final = -2  # in its place: no focus, but the test of the channel that stands in place of x
 NULL_APART_M: Final = 5e-3  # a place nearer to a focus than this cannot be kept still, at least not for a bearable loss
 
 
@@ -127,6 +129,10 @@ class Selection:
         still = lattice_key([(x_m, y_m, 1.0) for _, x_m, y_m in apart[:MAX_NULLS]], self.lattice_m)
         return (*lattice_key(points, self.lattice_m), *[(x, y, NULL) for x, y, _ in still])
 
+    def channel_key(self, channel: int) -> Key:
+        """Name of the waveform that tests a channel."""
+        return ((channel, 0, CHANNEL),)
+
     def waveform(self, key: Key) -> Waveform:
         """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
 
@@ -140,6 +146,8 @@ class Selection:
         """
         if isinstance(key, int):
             return ReadyFrames(*self._bank.drive.frames(key))
+        if key[0][2] == CHANNEL:
+            return chirp_words(key[0][0], self._bank.samples, self._bank.header.bit_clock_hz, self._idle_word)
         if key in self._compositions:
             with contextlib.suppress(BankError):
                 return ReadyFrames(*self._bank.drive.composed(key))
@@ -185,7 +193,7 @@ class Selection:
         """Place (x_m, y_m) and amplitude step of a key of a single point; None for a key of several."""
         if isinstance(key, int):
             return (*self._bank.grid.place(key), 0)
-        if len(key) != 1:
+        if len(key) != 1 or key[0][2] == CHANNEL:
             return None
         x, y, step = key[0]
         return x * self.lattice_m, y * self.lattice_m, step

@@ -34,6 +34,7 @@ class WritesDown:
         self.plays = []
         self.scenes = []
         self.traces = []
+        self.tests = []
         self.switched = []
         self.layers = []
         self.scene_in_force = "drums", Scene(())
@@ -55,6 +56,9 @@ class WritesDown:
     def switch(self, *, on, by):
         self.switched.append(on)
         self.switched_by = by
+
+    def test_channel(self, ticket, channel, x_m, y_m, now_s):  # noqa: ARG002
+        self.tests.append((ticket, channel, x_m, y_m))
 
     def write_trace(self, reason):
         self.traces.append(reason)

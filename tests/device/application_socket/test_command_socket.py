@@ -25,8 +25,8 @@ from controller.device.loop.commands import CommandSource, Outcome
 from controller.device.touch.source import TouchSample
 
 KINDS = (
-    "'play', 'clip', 'regions', 'transform', 'arm', 'disarm', 'stop', 'load_scene', 'trace', 'subscribe', 'unsubscribe',"
-    " 'figures', 'state', 'describe', 'hello'"
+    "'play', 'clip', 'regions', 'transform', 'arm', 'disarm', 'stop', 'load_scene', 'test_channel', 'trace', 'subscribe',"
+    " 'unsubscribe', 'figures', 'state', 'describe', 'hello'"
 )
 ORDINARY = Peer(50_001, 11, frozenset())  # may play alone
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}

@@ -29,7 +29,8 @@ GUEST = Peer(50_002, 12, frozenset({50_002, PLAY_GROUP.gr_gid}))
 OPERATOR = Peer(50_003, 13, frozenset({50_003, OPERATE_GROUP.gr_gid}))
 STRANGER = Peer(50_004, 14, frozenset({50_004}))
 PLAY = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
-OPERATIONS = ({"kind": "arm"}, {"kind": "disarm"}, {"kind": "load_scene", "name": "drums"}, {"kind": "trace"})
+TEST = {"kind": "test_channel", "channel": 5}
+OPERATIONS = ({"kind": "arm"}, {"kind": "disarm"}, {"kind": "load_scene", "name": "drums"}, {"kind": "trace"}, TEST)
 
 
 @pytest.fixture
@@ -69,6 +70,19 @@ def test_an_operator_arms_disarms_and_loads_and_the_journal_says_who(panel, caps
         "haptic-panel: uid 50003 (pid 13) disarms the panel",
         "haptic-panel: uid 50003 (pid 13) loads the scene 'drums'",
     ]
+
+
+def test_a_channel_is_tested_at_the_place_of_its_patch_and_answered_as_a_play(panel, board):
+    client = panel.connect(OPERATOR)
+    assert panel.ask(client, {**TEST, "id": 1}) == []
+    patch = next(actuator for actuator in board.actuators if actuator.channel == 5)
+    ((ticket, channel, x_m, y_m),) = panel.control.tests
+    assert (channel, x_m, y_m) == (5, pytest.approx(patch.x_mm * 1e-3), pytest.approx(patch.y_mm * 1e-3))
+    panel.socket.outcome(ticket, Outcome.PLAYED, 2e-3)
+    assert panel.ask(client) == [{"kind": "answer", "id": 1, "outcome": "played", "age_ms": 2.0}]
+    for wrong in (-1, 32, 5.5, "5", None):
+        (answer,) = panel.ask(client, {**TEST, "channel": wrong, "id": 2})
+        assert (answer["outcome"], answer["reason"][:10]) == ("refused", "channel = ")
 
 
 def test_one_who_may_do_nothing_is_informed_and_takes_no_place(panel):

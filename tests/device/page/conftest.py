@@ -15,7 +15,10 @@ import pytest
 from patience import wait_for
 from websockets.sync.client import connect
 
+from controller.device.application_socket.client import PanelClient
+
 PATIENCE_S = 60.0
+PLAYS = ("armed", "playing")
 
 
 class Served:
@@ -120,8 +123,12 @@ def another_panel(folder):
 
 @pytest.fixture
 def bridge_with(served, tmp_path):
-    """A bridge with the given settings."""
+    """A bridge with the given settings, to a panel that plays, whatever the test before has left."""
     bridges = []
+    with PanelClient(served.socket, timeout_s=PATIENCE_S) as panel:
+        if panel.state().state not in PLAYS:
+            panel.arm()
+            next(state for state in panel.states() if state.state in PLAYS)
 
     def make(text="", www=None, socket=served.socket):
         bridges.append(Bridge(tmp_path, socket, text, www))

@@ -249,6 +249,9 @@ def test_the_live_page(page, bridge_with, asks, tmp_path):
     page.picture(folder / "live_page.png")
     page.value("[...document.querySelectorAll('#effects button')].find((one) => one.textContent === 'click').click(); 0")
     page.until("document.getElementById('outcome').textContent.startsWith('click: played')")
+    page.value("document.getElementById('channel').value = 13; document.getElementById('chirp').click(); 0")
+    page.until("document.getElementById('outcome').textContent.startsWith('channel 13: played')")
+    page.until("document.querySelectorAll('#patch-13.tested').length")
     page.size(390, 844, 2, mobile=True)
     page.dark()
     assert page.value("document.documentElement.scrollWidth") == 390

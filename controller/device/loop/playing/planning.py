@@ -44,6 +44,8 @@ class Planner:
         sender, emissions = self._sender, batch.emissions
         start_s, missed = self._start(batch, begun_s, self._timing.command)
         aimed = self._aim(emissions, start_s, predicted=predicted) if points is None else points
+        if emissions[0].channel >= 0:
+            return self._test(batch, aimed, start_s, begun_s)
         nulled = False
         for emission in emissions:
             nulled = nulled or emission.nulled
@@ -62,6 +64,14 @@ class Planner:
         elif batch.at_s is not None:
             start_ticks = self._clock_estimate.ticks(start_s)
         return Plan(batch, aimed, key, resident, start_s, start_ticks)
+
+    def _test(self, batch: Batch, points: list[Point], start_s: FpgaTime, begun_s: float) -> Plan:
+        """Plan the test of a channel."""
+        key = self._sender.selection.channel_key(batch.emissions[0].channel)
+        resident = self._sender.slots.find(key)
+        if resident is None:
+            start_s, _ = self._start(batch, begun_s, self._timing.upload)
+        return Plan(batch, points, key, resident, start_s, None)
 
     def _start(self, batch: Batch, begun_s: float, delivery: DeliveryTime) -> tuple[FpgaTime, bool]:
         """Earliest start of what begins to go out now; whether that misses a pulse, which is played on arrival then."""

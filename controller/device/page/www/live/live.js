@@ -4,7 +4,7 @@
   const at = (id) => document.getElementById(id);
   const panel = window.HapticPanel;
   const SVG = "http://www.w3.org/2000/svg";
-  const ASK_MS = 1000, KEPT_EVENTS = 50, FOCUS_MS = 350, MOST_FOCI = 32, INFO = 6;
+  const ASK_MS = 1000, KEPT_EVENTS = 50, FOCUS_MS = 350, MOST_FOCI = 32, INFO = 6, TESTED_MS = 1500;
   const WORDS = { // state: what it means to somebody who sees the panel for the first time; whether outputs are on
     "waiting for FPGA": ["The controller's FPGA does not answer. Outputs are off, or switch off by themselves.", "bad"],
     "no permit": ["The run permit (interlock) is missing: outputs stay off until it is given.", "bad"],
@@ -139,9 +139,12 @@
       return drawn;
     }));
     at("patches").replaceChildren(...patches.flatMap(({ channel, x_mm: x, y_mm: y, size_mm: size }) => [
-      make("rect", { class: "patch", x: x - size / 2, y: up(y) - size / 2, width: size, height: size }),
+      make("rect", { class: "patch", id: `patch-${channel}`, x: x - size / 2, y: up(y) - size / 2, width: size, height: size }),
       make("text", { class: "patch-number", x, y: up(y) + 1 }, channel),
     ]));
+    at("channels").hidden = !panel.rights.includes("operate");
+    const before = at("channel").value;
+    at("channel").replaceChildren(...patches.map(({ channel }) => new Option(channel, channel, false, String(channel) === before)));
     for (const fault of faults.slice(-3)) happened(`Earlier: ${fault.state}: ${fault.cause}`);
   }
   function played({ foci }) { // as large as the spot that is felt, as thick as it is strong
@@ -194,6 +197,14 @@
       at("outcome").textContent = reason ? `${effect}: ${outcome}: ${reason}` : `${effect}: ${outcome} at ${x_mm}, ${y_mm} mm`;
     });
   }
+  at("chirp").addEventListener("click", () => {
+    const channel = Number(at("channel").value), patch = at(`patch-${channel}`);
+    panel.send({ kind: "test_channel", channel }).then(({ outcome, reason }) => {
+      at("outcome").textContent = reason ? `channel ${channel}: ${outcome}: ${reason}` : `channel ${channel}: ${outcome}: its patch alone has moved`;
+      if (outcome === "played") patch.classList.add("tested");
+      setTimeout(() => patch.classList.remove("tested"), TESTED_MS);
+    });
+  });
   at("plate").addEventListener("click", ({ clientX, clientY }) => {
     const place = panel.toPlate(clientX, clientY);
     if (place) [at("x").value, at("y").value] = place.map((mm) => mm.toFixed(1));
