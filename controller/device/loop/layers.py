@@ -45,7 +45,7 @@ class Layers:
     preparation : LayerPreparation or None
         Checks layers; None: there are none.
     commands : CommandSource or None
-        Is told what became of each layer.
+        What became of each layer is reported to it.
 
     Attributes
     ----------

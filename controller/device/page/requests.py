@@ -1,4 +1,4 @@
-"""Frames of a page: judged, and written anew for the panel, so that what it reads is what was judged."""
+"""Frames of a page: judged, and encoded again for the panel, so that what it reads is what was judged."""
 
 from __future__ import annotations
 

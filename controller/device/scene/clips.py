@@ -62,7 +62,7 @@ def read_clip(name: str, line: bytes | memoryview | msgspec.Raw, board: Board) -
 
 
 def _require_few(effect: EffectTable) -> None:
-    """Refuse a train of changing rate with so many pulses that the loop would notice, before they are found."""
+    """Refuse a train of changing rate with more pulses than the loop has time to find."""
     if effect.rate_envelope is None or effect.duration_ms is None:
         return
     pulses = effect.duration_ms * 1e-3 * max(hz for _, hz in effect.rate_envelope)

@@ -82,11 +82,11 @@ def held(path: str, steps: list[dict[str, Any]]) -> Iterator[str]:
 def _hold(panel: socket.socket, messages: Iterator[Any], step: dict[str, Any], number: int, names: dict[str, Any]) -> str:
     """One step."""
     if "await" in step:
-        told = next((message for message in messages if has(message, step["await"])), None)
-        if told is None:
+        notice = next((message for message in messages if has(message, step["await"])), None)
+        if notice is None:
             raise LinkError(f"step {number}: the panel has ended the connection")
-        names |= {name: told[key] for name, key in step.get("call", {}).items()}
-        return f"told {step['await'].get('kind')}"
+        names |= {name: notice[key] for name, key in step.get("call", {}).items()}
+        return f"reported: {step['await'].get('kind')}"
     request = named(step["say"], names) if "say" in step else None
     line = step["line"] if request is None else json.dumps(request)
     panel.sendall(line.encode() + b"\n")
@@ -100,7 +100,7 @@ def _hold(panel: socket.socket, messages: Iterator[Any], step: dict[str, Any], n
 
 
 def is_notice(message: dict[str, Any]) -> bool:
-    """Whether it is told without a request: a state or a description without an id; touches, emissions and faults have none."""
+    """Whether it is sent without a request: a state or a description without an id; touches, emissions and faults have none."""
     return message["id"] is None and message["kind"] in ("state", "description")
 
 

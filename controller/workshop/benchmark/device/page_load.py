@@ -63,7 +63,7 @@ async def page(address: str, rate_hz: float, seconds: float, times_s: list[float
 
 
 async def measured(address: str, pid: int, pages: int, rate_hz: float, seconds: float) -> str:
-    """One row: what so many pages at this rate cost."""
+    """One row: what this number of pages at this rate costs."""
     before_s, times_s = processor_s(pid), list[float]()
     touches = await asyncio.gather(*(page(address, rate_hz, seconds, times_s) for _ in range(pages)))
     used = (processor_s(pid) - before_s) / seconds
