@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from controller.device.application_socket.clients import Clients
+from controller.device.application_socket.connection import MessageTooLong
 from controller.device.application_socket.messages import Emissions, PlayedFocus
 from controller.device.loop.commands import PanelControl
 from controller.device.loop.emission_ring import EmissionRing
@@ -60,7 +61,10 @@ class EmissionNotices:
         elif starts or more:
             notice = Emissions(foci=tuple([focus for start in starts for focus in _foci(*start)]), skipped=more, lost=lost)
             for client in subscribers:
-                client.put(notice)
+                try:
+                    client.put(notice)
+                except MessageTooLong:  # of many foci in regions with long names, after a stall
+                    client.put(Emissions(foci=(), skipped=more, lost=lost + len(starts)))
                 self._clients.send(client)
 
     def _causes(self, control: PanelControl) -> tuple[int, ...]:

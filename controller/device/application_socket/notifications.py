@@ -74,8 +74,8 @@ class Notifications:
             if NOT_LOGGED < client.lines_sent < LOG.count:
                 for line in list(LOG.last)[client.lines_sent - LOG.count :]:
                     client.put(messages.LogLine(time_s=line.time_s, priority=int(line.priority), text=line.text))
+                    self._clients.send(client)  # each at once: all of them may be more than the queue takes
                 client.lines_sent = LOG.count
-                self._clients.send(client)
         self._lines_sent = LOG.count
 
     @property

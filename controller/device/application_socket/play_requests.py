@@ -14,6 +14,7 @@ from controller.device.scene.clips import read_clip
 from controller.errors import ConfigError
 
 MOST_KEPT: Final = 64  # clips under names, of one client
+MOST_KEPT_POINTS: Final = 8000  # of them all: a megabyte
 CLIP_LINES: Final = 8  # that a clip counts as to its client's rate: checking the largest takes half a millisecond
 UNNAMED: Final = "clip"
 
@@ -77,10 +78,17 @@ class PlayRequests:
             return client.clips.get(request.effect, request.effect)
         clip = read_clip(request.name or UNNAMED, request.effect, self._board)
         if request.name is not None:
-            if request.name not in client.clips and len(client.clips) >= MOST_KEPT:
-                raise ConfigError(f"{MOST_KEPT} clips are kept for this client already: use one of their names again")
-            client.clips[request.name] = clip
+            self._keep(client, request.name, clip)
         return clip
+
+    def _keep(self, client: Connection, name: str, clip: clips.Clip) -> None:
+        others = [kept for other, kept in client.clips.items() if other != name]
+        if len(others) >= MOST_KEPT:
+            raise ConfigError(f"{MOST_KEPT} clips are kept for this client already: use one of their names again")
+        points = sum(len(kept.train.rhythm) + len(kept.train.envelope) for kept in (*others, clip))
+        if points > MOST_KEPT_POINTS:
+            raise ConfigError(f"the clips kept for this client would have {points:,} points: at most {MOST_KEPT_POINTS:,}")
+        client.clips[name] = clip
 
     def _point_m(self, request: Aimed) -> tuple[float, float]:
         plate = self._board.plate

@@ -7,7 +7,7 @@ from device.application_socket.test_with_the_loop import serve  # noqa: F401
 
 from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.application_socket.peers import Peer
-from controller.device.application_socket.play_requests import CLIP_LINES, MOST_KEPT
+from controller.device.application_socket.play_requests import CLIP_LINES, MOST_KEPT, MOST_KEPT_POINTS
 from controller.device.scene.clips import MOST_PULSES
 from controller.device.scene.layers import UNMOVED, Layer
 from controller.device.scene.scene import Region, Scene, SpatialIndex
@@ -58,6 +58,16 @@ def test_no_more_than_so_many_are_kept(panel_with):
     assert [answer["outcome"] for answer in answers] == ["done"] * MOST_KEPT + ["refused"]
     assert "kept for this client already" in answers[-1]["reason"]
     assert panel.ask(client, clip(HEART, name="name 0"))[0]["outcome"] == "done"
+
+
+def test_nor_more_points_than_a_megabyte(panel_with):
+    panel = panel_with(burst=1000)
+    client = panel.connect()
+    long = {"pulses": [[index * 10, 0.5] for index in range(500)]}
+    answers = [panel.ask(client, clip(long, name=f"name {number}"))[0] for number in range(MOST_KEPT_POINTS // 500 + 1)]
+    assert [answer["outcome"] for answer in answers] == ["done"] * (len(answers) - 1) + ["refused"]
+    assert answers[-1]["reason"].endswith(f"at most {MOST_KEPT_POINTS:,}")
+    assert panel.ask(client, clip(long, name="name 0"))[0]["outcome"] == "done", "in place of another one"
 
 
 def test_at_a_region_it_is_played_at_each_finger_in_it_with_one_outcome(panel):

@@ -72,6 +72,17 @@ def test_more_than_fit_are_counted(panel):
     assert told["lost"] == 3
 
 
+def test_what_no_message_can_hold_is_counted(panel):
+    client, ring = panel.connect(), panel.control.emissions
+    panel.ask(client, SUBSCRIBE)
+    for number in range(SLOTS):
+        points = [(0.01 * focus, 0.07, 0.5) for focus in range(1, 11)]
+        emissions = [Emission(0.0, x_m, y_m, None, "a region with a long name " * 4) for x_m, y_m, _ in points]
+        ring.started(float(number), Plan(Batch(emissions), points, None, None, 0.0, None))
+    (notice,) = panel.ask(client)
+    assert (notice["foci"], notice["lost"]) == ([], SLOTS)
+
+
 def test_what_is_not_played_is_said_with_its_cause_also_where_nothing_is(panel):
     client = panel.connect()
     panel.control.skipped.merged = 7
