@@ -12,6 +12,7 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from device.page.test_screen import PLACE, SCREEN
 from patience import wait_for
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
@@ -181,18 +182,19 @@ def test_a_page_that_floods_is_refused_by_its_rate_and_others_are_served(bridge,
 def test_places_are_bounded_and_free_again(bridge_with):
     bridge = bridge_with("max_pages = 2")
 
-    def opens():
+    def opened():
+        """A page's socket; None: there is no place, or one that was given up is still being cleared."""
         try:
-            with bridge.open():
-                return 101
+            return bridge.open()
         except InvalidStatus as refused:
-            return refused.response.status_code
+            assert refused.response.status_code == 503
+            return None
 
     with bridge.open():
-        assert opens() == 101
         with bridge.open():
-            assert opens() == 503
-        wait_for("a place", lambda: opens() == 101)
+            assert opened() is None
+        with wait_for("the place that is free again", opened):
+            assert opened() is None
 
 
 def test_half_open_connections_and_noise_take_no_page_its_place(bridge, asks):
@@ -341,3 +343,15 @@ def test_a_port_that_is_taken_is_one_line(bridge):
     )
     assert done.returncode == 1
     assert f"port {bridge.port}" in done.stderr
+
+
+def test_pages_are_greeted_with_where_the_screen_lies_and_again_when_that_changes(bridge_with, asks):
+    bridge = bridge_with('[origins]\nself = ["screen"]\n"https://app.example" = ["play"]')
+    with bridge.open() as page, bridge.open(origin="https://app.example") as other:
+        assert json.loads(other.recv())["x_mm_from_pixels"] is None
+        assert "right 'screen'" in asks(other, **SCREEN)["reason"]
+        assert asks(page, **SCREEN) == {"kind": "answer", "id": "test", "outcome": "done"}
+        greeting = json.loads(other.recv())
+        assert (greeting["kind"], greeting["x_mm_from_pixels"]) == ("page", PLACE["x_mm_from_pixels"])
+    with bridge.open() as page:
+        assert json.loads(page.recv())["y_mm_from_pixels"] == PLACE["y_mm_from_pixels"]

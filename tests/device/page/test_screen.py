@@ -83,15 +83,3 @@ def test_a_damaged_file_counts_as_none_and_is_reported(tmp_path, text, capsys):
 def test_what_cannot_be_written_is_refused(tmp_path):
     tmp_path.chmod(0o500)
     assert "cannot be written" in Screen(PageSettings(), tmp_path / "screen.json").keep(SCREEN)
-
-
-def test_pages_are_greeted_with_it_and_again_when_it_changes(bridge_with, asks):
-    bridge = bridge_with('[origins]\nself = ["screen"]\n"https://app.example" = ["play"]')
-    with bridge.open() as page, bridge.open(origin="https://app.example") as other:
-        assert json.loads(other.recv())["x_mm_from_pixels"] is None
-        assert "right 'screen'" in asks(other, **SCREEN)["reason"]
-        assert asks(page, **SCREEN) == {"kind": "answer", "id": "test", "outcome": "done"}
-        greeting = json.loads(other.recv())
-        assert (greeting["kind"], greeting["x_mm_from_pixels"]) == ("page", PLACE["x_mm_from_pixels"])
-    with bridge.open() as page:
-        assert json.loads(page.recv())["y_mm_from_pixels"] == PLACE["y_mm_from_pixels"]
