@@ -187,7 +187,8 @@ def test_places_are_bounded_and_free_again(bridge_with):
         try:
             return bridge.open()
         except InvalidStatus as refused:
-            assert refused.response.status_code == 503
+            if refused.response.status_code != 503:
+                raise
             return None
 
     with bridge.open():
