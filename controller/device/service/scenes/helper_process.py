@@ -51,7 +51,10 @@ class HelperProcess:
 
     def start(self) -> None:
         """Start a helper; on failure there is none. fork does not wait for the new process; vfork and posix_spawn do."""
-        ours, theirs = socket.socketpair()
+        try:
+            ours, theirs = socket.socketpair()
+        except OSError:  # no file is left: the loop goes on without
+            return
         folder = str(Path(__file__).resolve().parents[4])
         command = [sys.executable, "-I", "-c", PROGRAM.format(folder), *self._arguments]
         files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
