@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -98,6 +99,8 @@ def serve(
         If the FPGA has switched off because of a fault that the host must not clear.
     """
     with ExitStack() as stack:
+        # Before there is a loop whose trace it asks for, it would end the process.
+        stack.callback(signal.signal, signal.SIGUSR1, signal.signal(signal.SIGUSR1, signal.SIG_IGN))
         notifier = stack.enter_context(Notifier.from_environment())
         status = stack.enter_context(closing(StatusFile.from_environment(board.name)))
         trace = TraceFile.from_environment(board.name, board.waveform.duration_s)

@@ -19,7 +19,7 @@ def no_file_left():
     resource.setrlimit(resource.RLIMIT_NOFILE, before)
 
 
-def test_without_a_file_there_is_no_helper_and_nothing_is_raised(no_file_left):  # noqa: ARG001
+def test_without_a_file_there_is_no_helper_and_nothing_is_raised(no_file_left):
     helper = HelperProcess("layers", 1.0)
     helper.start()
     assert helper.fileno() is None

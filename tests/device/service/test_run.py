@@ -369,6 +369,18 @@ def test_panel_and_socket_are_read_only_when_the_selector_says_so(folder, panel,
     assert (touch_needlessly, commands_needlessly) == (0, 0)
 
 
+ASKED_EARLY = (
+    "import os, signal; from controller.device.service import run; enter = run.enter_realtime; "
+    "run.enter_realtime = lambda *how: (os.kill(os.getpid(), signal.SIGUSR1), enter(*how))[1]; "
+)
+
+
+def test_a_trace_that_is_asked_for_before_the_loop_runs_ends_nothing(folder, panel, bank):
+    service = Service(folder, bank, before=ASKED_EARLY)
+    service.says("the outputs are on")
+    assert service.end()[1] == 0
+
+
 def test_a_command_is_played_and_answered(service):
     with service.client() as client:
         assert client.play("click", at_mm=(100, 70)).outcome == "played"
