@@ -13,7 +13,9 @@ case $extra in
 esac
 echo "haptic-panel: Debian packages, then Python packages (about $megabytes MB): 1 to 4 minutes"
 missing= as_root=
-for package in $packages; do dpkg -s "$package" >/dev/null 2>&1 || missing="$missing $package"; done
+for package in $packages; do # of a package that was removed dpkg still has the settings, and knows its name
+  [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing="$missing $package"
+done
 if ! command -v apt-get >/dev/null; then
   echo "no apt-get here; needed are a C compiler, and Python 3.11 or later with its headers and venv" >&2
 elif [ "$missing" ]; then

@@ -151,10 +151,10 @@ def test_the_three_lines_of_the_readme_are_short_and_whole():
 
 
 def set_up(folder, extra, missing=False, user=0, programs=("apt-get", "sudo")):
-    """Lines that `set_up.sh` prints, with `dpkg`, `apt-get` and Python replaced by programs that print how they are called."""
+    """Lines that `set_up.sh` prints, with `dpkg-query`, `apt-get` and Python replaced by programs that print their calls."""
     said = "#!/bin/sh\necho $(basename $0) $@\n"
     own = {
-        "dpkg": missing if isinstance(missing, str) else f"#!/bin/sh\nexit {int(missing)}\n",
+        "dpkg-query": missing if isinstance(missing, str) else f"#!/bin/sh\necho {'config-files' if missing else 'installed'}\n",
         "id": f"#!/bin/sh\necho {user}\n",
         "python3": said,
     }
@@ -202,7 +202,7 @@ def test_who_may_install_nothing_gets_one_line_with_what_to_ask_the_administrato
     if sudo:
         (tmp_path / "bin" / "sudo").write_text(sudo)
         (tmp_path / "bin" / "sudo").chmod(0o755)
-    there = "#!/bin/sh\ncase $2 in python3-*) exit 0 ;; esac\nexit 1\n"
+    there = "#!/bin/sh\ncase $4 in python3-*) echo installed ;; *) exit 1 ;; esac\n"
     done = set_up(tmp_path, ["test"], missing=there, user=1000, programs=("apt-get",))
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1

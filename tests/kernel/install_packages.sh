@@ -2,12 +2,15 @@
 # Installs those Debian packages that are missing, as root or by sudo; a second run waits for the first, as apt itself would not.
 # usage: install_packages.sh PACKAGE...
 set -euo pipefail
-dpkg -s "$@" >/dev/null 2>&1 && exit
+are_installed() { # a package that was removed may have left its settings: dpkg knows it, too
+  for package; do [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || return; done
+}
+are_installed "$@" && exit
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/haptic-panel
 mkdir -p "$cache"
 exec 8>"$cache/install.lock"
 flock 8
-dpkg -s "$@" >/dev/null 2>&1 && exit
+are_installed "$@" && exit
 as_root=(env DEBIAN_FRONTEND=noninteractive)
 [ "$(id -u)" = 0 ] || as_root=(sudo "${as_root[@]}")
 # In containers apt's own user may lack what checking a signature needs: root checks it.

@@ -5,7 +5,10 @@ import subprocess
 from pathlib import Path
 
 SCRIPT = Path(__file__).parent / "install_packages.sh"
-DPKG = '#!/bin/sh\necho >>"$STATE/asked"\n[ -e "$STATE/installed" ]\n'
+DPKG = """#!/bin/sh
+echo >>"$STATE/asked"
+if [ -e "$STATE/installed" ]; then echo installed; else echo config-files; fi
+"""
 APT = """#!/bin/sh
 mkdir "$STATE/lock" || { echo "Could not get lock" >&2; exit 100; }
 until [ "$(wc -l <"$STATE/asked")" -ge 3 ]; do :; done
@@ -16,7 +19,7 @@ rmdir "$STATE/lock"
 
 
 def test_who_comes_while_another_one_installs_waits_and_finds_it_done(tmp_path):
-    for name, text in (("dpkg", DPKG), ("apt-get", APT)):
+    for name, text in (("dpkg-query", DPKG), ("apt-get", APT)):
         (tmp_path / name).write_text(text)
         (tmp_path / name).chmod(0o755)
     places = {"STATE": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path / "cache"), "PATH": f"{tmp_path}:{os.environ['PATH']}"}

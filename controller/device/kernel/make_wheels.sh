@@ -8,7 +8,9 @@ set -eu
 folder=$(realpath -m "${1:-build/wheels}")
 cd "$(dirname "$0")/../../.."
 packages='gcc libc6-dev gcc-aarch64-linux-gnu libc6-dev-arm64-cross python3-dev python3-venv'
-if ! dpkg -s $packages >/dev/null 2>&1; then
+missing=
+for package in $packages; do [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing=1; done
+if [ "$missing" ]; then
   as_root=$([ "$(id -u)" = 0 ] || echo sudo)
   $as_root apt-get update -q >&2
   $as_root apt-get install -y -q --no-install-recommends $packages >&2

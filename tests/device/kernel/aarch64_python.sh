@@ -3,7 +3,9 @@
 # beside it as wheels. usage: aarch64_python.sh PYTHON FOLDER     FOLDER/root is the root folder, FOLDER/packages goes into PYTHONPATH
 set -euo pipefail
 python=$1
-if ! dpkg -s qemu-user-static unzip >/dev/null 2>&1; then
+missing=
+for package in qemu-user-static unzip; do [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing=1; done
+if [ "$missing" ]; then
   as_root=$([ "$(id -u)" = 0 ] || echo sudo)
   $as_root apt-get update -q
   $as_root apt-get install -y -q --no-install-recommends qemu-user-static unzip
