@@ -53,8 +53,8 @@ class _Fpga:
 
     def _begin(self, parameters):
         self._clock_hz = parameters.clock_hz
-        self._start_s = time.monotonic()
         self._panel = UartPanel(GatewareModel(parameters), self._clock_hz, self._board.link.baud, time.monotonic)
+        self._start_s = self._panel.start_s  # one clock: by a later one a frame could begin in the past
         self._hv = 0
 
     def receive(self, data):

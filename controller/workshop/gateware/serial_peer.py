@@ -38,6 +38,11 @@ class UartPanel:
         Clock and baud rate of the gateware; a byte takes the time of ten bits, whenever the terminal delivers it.
     now_s : callable
         Clock that the gateware's clock follows; tick 0 is its present value.
+
+    Attributes
+    ----------
+    start_s : float
+        Time of tick 0.
     """
 
     def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:
@@ -45,7 +50,7 @@ class UartPanel:
         self._clock_hz = clock_hz
         self._byte_ticks = BITS_PER_BYTE * clock_hz / baud
         self._now_s = now_s
-        self._start_s = now_s()
+        self.start_s = now_s()
         self._tick = 0.0  # when the last byte had come
         self._answer_until = 0.0  # a frame that begins earlier is not answered
         self._line = bytearray()
@@ -56,7 +61,7 @@ class UartPanel:
 
     def receive(self, data: bytes) -> bytes:
         """Receive `data`; returns the bytes of the answers."""
-        self._tick = max(self._tick, (self._now_s() - self._start_s) * self._clock_hz)
+        self._tick = max(self._tick, (self._now_s() - self.start_s) * self._clock_hz)
         answers = bytearray()
         for byte in data:
             self._tick += self._byte_ticks
