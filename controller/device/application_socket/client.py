@@ -12,7 +12,7 @@ The same from a shell: `python -m controller.device.application_socket.client --
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import msgspec
 from msgspec import Raw
@@ -21,7 +21,6 @@ from controller.device.application_socket import messages
 from controller.device.application_socket.client_link import PanelLink
 from controller.device.application_socket.messages import (
     Answer,
-    Data,
     Description,
     Emissions,
     FaultNotice,
@@ -34,13 +33,7 @@ from controller.device.application_socket.messages import (
     Transform,
 )
 
-T = TypeVar("T", bound="Notice")
 DEFAULT_PATH = "/run/haptic-panel/panel.sock"
-RECEIVE_BYTES = 65536
-MAX_KEPT = 1000  # of each kind that arrive while an answer is awaited; older ones are dropped
-
-Notice = Touch | Emissions | StateAnswer | FaultNotice | Description | LogLine
-Reply = Answer | LayerAnswer | Data
 
 
 class PanelClient:

@@ -1,6 +1,8 @@
 """How a recorded conversation is compared with what a panel says; and that the recorded one has every kind of request."""
 
 import json
+import socket
+import threading
 
 import pytest
 from device.application_socket.test_protocol_schema import fits
@@ -50,15 +52,17 @@ def test_names_stand_for_what_was_called_so():
 
 def test_the_recorded_conversation_asks_for_all_there_is():
     steps = steps_of(CONVERSATION)
-    kinds = {step["say"]["kind"] for step in steps if "say" in step}
+    kinds = {step.say["kind"] for step in steps if step.say}
     every = {name.rpartition("/")[2] for name in protocol_schema()["$defs"]["Request"]["discriminator"]["mapping"]}
     assert kinds - {"plai"} == every - {"disarm"}, "which is as stop"
     for step in steps:
-        if step.get("answer", {}).get("outcome") in ("played", "done"):
-            assert fits("Request", {**step["say"], "finger": 1} if "finger" in step["say"] else step["say"])
+        if step.answer.get("outcome") in ("played", "done"):
+            assert fits("Request", {**step.say, "finger": 1} if "finger" in step.say else step.say)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"steps"', json.dumps({"step": []})])
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", '{"steps"', json.dumps({"step": []}), json.dumps({"steps": [{"says": 1}]}), json.dumps({"steps": [7]})]
+)
 def test_a_file_that_is_none_is_one_line(tmp_path, text, capsys):
     (tmp_path / "mine.json").write_text(text)
     assert main(["--socket", "x", "--conversation", str(tmp_path / "mine.json")]) == 1
@@ -68,3 +72,20 @@ def test_a_file_that_is_none_is_one_line(tmp_path, text, capsys):
 def test_without_a_panel_it_says_so(tmp_path, capsys):
     assert main(["--socket", str(tmp_path / "none.sock")]) == 69
     assert "no panel" in capsys.readouterr().err
+
+
+def test_what_answers_in_another_language_is_one_line(tmp_path, capsys):
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(str(tmp_path / "s"))
+        listener.listen()
+
+        def answer():
+            with listener.accept()[0] as client:
+                client.recv(1000)
+                client.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+
+        thread = threading.Thread(target=answer)
+        thread.start()
+        assert main(["--socket", str(tmp_path / "s")]) == 69
+        thread.join()
+    assert "what answers is no panel" in capsys.readouterr().err

@@ -4,7 +4,9 @@ import json
 
 import pytest
 
+from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.loop.commands import Outcome
+from controller.device.scene.clips import MOST_PULSES, read_clip
 from controller.device.touch.source import TouchSample
 
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70, "id": 123_456, "amplitude": 0.5}
@@ -49,3 +51,17 @@ def test_a_touch_for_one_subscriber(panel, benchmark):
         client.recv(4096)
 
     benchmark(tell)
+
+
+LARGEST = {
+    "pulses": {"pulses": [[index * 10, 0.5] for index in range(620)]},
+    "sweep": {"rate_envelope": [[index * 9, 100] for index in range(620)], "duration_ms": 10 * MOST_PULSES},
+    "envelope": {"rate_hz": 100, "duration_ms": 9990, "envelope": [[index * 9, 0.5] for index in range(620)]},
+}
+
+
+@pytest.mark.parametrize("kind", LARGEST)
+def test_the_largest_clips(board, benchmark, kind):
+    line = json.dumps(LARGEST[kind]).encode()
+    assert 0.8 * LINE_BYTES < len(line) < LINE_BYTES
+    benchmark(read_clip, "largest", line, board)

@@ -15,6 +15,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
 
+import msgspec
+
 from controller.console import program, say
 from controller.errors import ControllerError, LinkError
 from controller.regular_file import read_regular
@@ -42,7 +44,25 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def steps_of(file: Path) -> list[dict[str, Any]]:
+class Step(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One step: what is said and what its answer has, or what a message has that comes by itself."""
+
+    about: str = ""
+    say: dict[str, Any] | None = None
+    line: str = ""
+    answer: dict[str, Any] = {}
+    awaited: dict[str, Any] | None = msgspec.field(default=None, name="await")
+    call: dict[str, str] = {}
+
+
+class Conversation(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The whole file."""
+
+    steps: tuple[Step, ...]
+    title: str = ""
+
+
+def steps_of(file: Path) -> tuple[Step, ...]:
     """Steps of a conversation.
 
     Raises
@@ -51,13 +71,12 @@ def steps_of(file: Path) -> list[dict[str, Any]]:
         If the file cannot be read.
     """
     try:
-        steps: list[dict[str, Any]] = json.loads(read_regular(file, BYTES_MAX))["steps"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        return msgspec.json.decode(read_regular(file, BYTES_MAX), type=Conversation).steps
+    except (OSError, ValueError) as error:  # msgspec's among them
         raise ControllerError(f"{file}: cannot be read as a conversation: {error}") from error
-    return steps
 
 
-def held(path: str, steps: list[dict[str, Any]]) -> Iterator[str]:
+def held(path: str, steps: tuple[Step, ...]) -> Iterator[str]:
     """Hold a conversation; each step in words, once it was as recorded.
 
     Raises
@@ -73,35 +92,38 @@ def held(path: str, steps: list[dict[str, Any]]) -> Iterator[str]:
             panel.settimeout(TIMEOUT_S)
             panel.connect(path)
             with panel.makefile("rb") as lines:
+                messages = (msgspec.json.decode(line, type=dict[str, Any]) for line in lines)
                 for number, step in enumerate(steps, 1):
-                    yield _hold(panel, (json.loads(line) for line in lines), step, number, names)
+                    yield _hold(panel, messages, step, number, names)
     except OSError as error:  # TimeoutError among them
         raise LinkError(f"{path}: no panel, or it does not answer ({error})") from error
+    except msgspec.DecodeError as error:
+        raise LinkError(f"{path}: what answers is no panel ({error})") from error
 
 
-def _hold(panel: socket.socket, messages: Iterator[Any], step: dict[str, Any], number: int, names: dict[str, Any]) -> str:
+def _hold(panel: socket.socket, messages: Iterator[dict[str, Any]], step: Step, number: int, names: dict[str, Any]) -> str:
     """One step."""
-    if "await" in step:
-        notice = next((message for message in messages if has(message, step["await"])), None)
+    if step.awaited is not None:
+        notice = next((message for message in messages if has(message, step.awaited)), None)
         if notice is None:
             raise LinkError(f"step {number}: the panel has ended the connection")
-        names |= {name: notice[key] for name, key in step.get("call", {}).items()}
-        return f"reported: {step['await'].get('kind')}"
-    request = named(step["say"], names) if "say" in step else None
-    line = step["line"] if request is None else json.dumps(request)
+        names |= {name: notice.get(key) for name, key in step.call.items()}
+        return f"reported: {step.awaited.get('kind')}"
+    request = None if step.say is None else named(step.say, names)
+    line = step.line if request is None else json.dumps(request)
     panel.sendall(line.encode() + b"\n")
-    wanted = None if request is None else request["id"]
+    wanted = None if request is None else request.get("id")
     answer = next((message for message in messages if "id" in message and message["id"] == wanted and not is_notice(message)), None)
     if answer is None:
         raise LinkError(f"step {number}: the panel has ended the connection")
-    if not has(answer, step["answer"]):
-        raise ControllerError(f"step {number}: {line}: answered with {json.dumps(answer)}; recorded: {json.dumps(step['answer'])}")
-    return str(step.get("about") or line)
+    if not has(answer, step.answer):
+        raise ControllerError(f"step {number}: {line}: answered with {json.dumps(answer)}; recorded: {json.dumps(step.answer)}")
+    return step.about or line
 
 
 def is_notice(message: dict[str, Any]) -> bool:
     """Whether it is sent without a request: a state or a description without an id; touches, emissions and faults have none."""
-    return message["id"] is None and message["kind"] in ("state", "description")
+    return message["id"] is None and message.get("kind") in ("state", "description")
 
 
 def has(value: Any, wanted: Any) -> bool:

@@ -14,6 +14,7 @@
     document.body.dataset.step = step < 0 ? "start" : step < CROSSES.length ? "tap" : "done";
     if (step < 0 || step >= CROSSES.length) return;
     const [x, y] = cross();
+    at("cross").dataset.number = step + 1;
     [at("cross").style.left, at("cross").style.top] = [`${x}px`, `${y}px`];
     say(`Touch cross ${step + 1} of ${CROSSES.length}, and lift the finger.`);
   }
