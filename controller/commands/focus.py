@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.commands.common.arguments import natural
@@ -15,6 +16,7 @@ from controller.errors import ConfigError, UsageError
 
 if TYPE_CHECKING:
     from controller.commands.common.output import Declare
+    from controller.device.board.board import Board
 
 FINGER_MOST = (10e3, 1e3, 1e7)  # mg, N s/m, N/m
 
@@ -54,6 +56,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         help="also the amplitudes with a finger on each focus, and with one elsewhere: mass, damping in N s/m, stiffness in N/m",
     )
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T, and the first focus over time (.png, .svg, .pdf)")
+    point.add_argument(
+        "--field-out", metavar="FILE", help="write the file from which the live page shows the field of any point, instead"
+    )
     add_movie(point)
     point.set_defaults(command=focus)
 
@@ -67,6 +72,8 @@ def focus(options: argparse.Namespace) -> int:
     if options.finger_load and not options.at:
         raise UsageError("--finger-load is of a focus: give --at X_MM Y_MM too")
     board = load_board(find_board(options.board))
+    if options.field_out:
+        return _write_field(options, board)
     if options.figures:
         show(options, figures(board, options.seed), plain_table)
         return 0
@@ -92,7 +99,9 @@ def focus(options: argparse.Namespace) -> int:
         show(options, found, amplitude_table)
         return 0
     if not options.at:
-        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, --idle-figures, --amplitude-figures")
+        raise ConfigError(
+            "focus where? give --at X_MM Y_MM once for each point, or --figures, --idle-figures, --amplitude-figures, --field-out"
+        )
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     period_s = _period_s(options.period_ms, board.waveform.duration_s)
     emission = emission_at(board, points_m, options.memory_mb)
@@ -116,6 +125,15 @@ def focus(options: argparse.Namespace) -> int:
     if movie:
         film(options, movie, emission, points_m)
     show(options, found, _table)
+    return 0
+
+
+def _write_field(options: argparse.Namespace, board: Board) -> int:
+    from controller.workshop.physics.pictures.field_file import write_field
+
+    file = Path(options.field_out).absolute()
+    found = {"file": str(file), "bytes": write_field(board, file), "setting": f'field = "{file}"'}
+    show(options, found, lambda rows: f"{plain_table(rows)}\nthe setting goes into page.toml: `haptic-panel page --settings FILE`")
     return 0
 
 

@@ -59,8 +59,9 @@ def run(options: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory(prefix="haptic-panel-") as folder:
         socket = str(Path(folder) / "panel.sock")
         origins = settings.origins if file else {"self": ("operate",)}
+        changed |= {"socket": socket, "origins": origins, "field": settings.field or _field()}
         with _simulated_panel(socket):
-            return _serve(_with(settings, changed | {"socket": socket, "origins": origins}), file)
+            return _serve(_with(settings, changed), file)
 
 
 def _with(settings: PageSettings, changed: dict[str, object]) -> PageSettings:
@@ -85,6 +86,15 @@ def _serve(settings: PageSettings, file: Path | None) -> int:
 
     asyncio.run(Bridge(settings, file).run(ready))
     return 0
+
+
+def _field() -> str:
+    """File of the field view of the panel that is simulated."""
+    from controller.device.board.board import load_board
+    from controller.device.board.lookup import find_board
+    from controller.workshop.physics.pictures.field_file import kept_field
+
+    return str(kept_field(load_board(find_board("simulated"))))
 
 
 @contextlib.contextmanager

@@ -67,6 +67,9 @@ class Bridge:
         self._www = Path(settings.www) if settings.www else None
         if self._www is not None and not self._www.is_dir():
             raise ConfigError(f"www = {settings.www!r}: there is no such folder")
+        self._field = Path(settings.field).resolve() if settings.field else None
+        if self._field is not None and not self._field.is_file():
+            raise ConfigError(f"field = {settings.field!r}: there is no such file; `haptic-panel focus --field-out FILE` makes one")
         self._screen = Screen(settings, state_folder() / "screen.json")
         self._token = _token(Path(settings.token_file)) if settings.token_file else ""
         self._tls = _tls(settings)
@@ -162,7 +165,7 @@ class Bridge:
         if self._token and (answer := self._without_token(request)) is not None:
             return answer
         if request.path.partition("?")[0] != SOCKET_PATH:
-            return _response(await asyncio.to_thread(served, self._www, request.path), self._settings)
+            return _response(await asyncio.to_thread(served, self._www, request.path, self._field), self._settings)
         rights = self._permissions.rights(request.headers.get_all("Origin"), hosts[0])
         if isinstance(rights, Refusal):
             return self._refused(rights)

@@ -12,6 +12,7 @@ from controller.regular_file import read_regular
 
 OWN: Final = Path(__file__).parent / "www"
 OWN_NAMES: Final = ("haptic.js", "live")  # a folder of an application does not hide them
+FIELD: Final = ("live", "plate.field")  # a file of its own place: `haptic-panel focus --field-out`
 BYTES_MAX: Final = 16 << 20
 TYPES: Final = {
     ".html": "text/html; charset=utf-8",
@@ -44,7 +45,7 @@ class Served(NamedTuple):
     location: str = ""
 
 
-def served(www: Path | None, target: str) -> Served:
+def served(www: Path | None, target: str, field: Path | None = None) -> Served:
     """Answer to a request for a path.
 
     Nothing outside the folder is served, whatever its links say, nor a name that begins with a dot.
@@ -55,6 +56,8 @@ def served(www: Path | None, target: str) -> Served:
         Folder of the application's files.
     target : str
         Path of the request, percent-encoded, with its query.
+    field : Path, optional
+        What is served as `FIELD`.
     """
     path = os.fsdecode(unquote_to_bytes(target.partition("?")[0]))
     parts = [part for part in path.split("/") if part]
@@ -63,6 +66,8 @@ def served(www: Path | None, target: str) -> Served:
     if not parts and www is None:
         return Served(HTTPStatus.FOUND, b"", location="/live/")
     root = OWN if parts and parts[0] in OWN_NAMES else www
+    if tuple(parts) == FIELD and field is not None:
+        root, parts = field.parent, [field.name]
     if root is None:
         return _missing()
     try:

@@ -28,6 +28,7 @@ class PageSettings(Record, frozen=True, forbid_unknown_fields=True, kw_only=True
     port: Annotated[int, Meta(ge=0, le=65535)] = DEFAULT_PORT
     socket: Annotated[str, Meta(min_length=1, max_length=107)] = DEFAULT_PATH
     www: str = ""
+    field: str = ""
     hosts: tuple[str, ...] = ()
     origins: dict[str, Any] = msgspec.field(default_factory=lambda: {SELF: ("play", "regions")})  # rights of each
     max_pages: Annotated[int, Meta(ge=1, le=64)] = 8
