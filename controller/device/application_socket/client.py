@@ -257,6 +257,21 @@ class PanelClient:
         """
         self._link.done(messages.LoadScene(id=self._link.new_id(), name=name))
 
+    def save_scene(self, name: str, toml: str) -> None:
+        """Keep a scene on the device, so that `load_scene` finds it by its name.
+
+        Parameters
+        ----------
+        toml : str
+            A scene.toml.
+
+        Raises
+        ------
+        ControllerError
+            If it is refused.
+        """
+        self._link.done(messages.SaveScene(id=self._link.new_id(), name=name, toml=toml))
+
     def figures(self) -> dict[str, Any]:
         """Counters and latencies of the panel so far."""
         return self._link.question(messages.AskFigures(id=self._link.new_id()), FiguresAnswer).figures

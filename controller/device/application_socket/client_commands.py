@@ -11,6 +11,9 @@ import msgspec
 from controller.console import ReaderGone, flush, program, say
 from controller.device.application_socket.client import DEFAULT_PATH, PanelClient
 from controller.errors import ConfigError
+from controller.text_file import read_text
+
+TEXT_BYTES = 65536  # of a scene to save
 
 
 @program
@@ -62,6 +65,8 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
                 _show(state)
         case "load":
             panel.load_scene(options.name)
+        case "save":
+            panel.save_scene(options.name, _text(options.file))
         case "arm":
             panel.arm()
         case "disarm":
@@ -114,6 +119,22 @@ def _table(file: Path, name: str) -> dict[str, Any]:
     return dict(effects[name])
 
 
+def _text(file: Path) -> str:
+    """Text of a file.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot be read.
+    """
+    try:
+        return read_text(file, TEXT_BYTES)
+    except OSError as error:
+        raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
+    except ValueError as error:
+        raise ConfigError(f"{file}: {error}") from error
+
+
 def _show(what: Any) -> None:
     say(msgspec.json.encode(what).decode())
     flush()
@@ -145,6 +166,9 @@ def declare_requests(parser: argparse.ArgumentParser) -> None:
     regions.add_argument("file", type=Path, metavar="SCENE.toml")
     regions.add_argument("--once", action="store_true", help="only say what would be refused")
     commands.add_parser("load", help="load another scene of the board").add_argument("name")
+    save = commands.add_parser("save", help="keep a scene on the device, for `load`")
+    save.add_argument("name")
+    save.add_argument("file", type=Path, metavar="SCENE.toml")
     commands.add_parser("stop", help="switch the outputs off until an operator arms; any client may")
     commands.add_parser("disarm", help="as stop, for operators")
     commands.add_parser("arm", help="switch the outputs on as soon as the FPGA allows it")

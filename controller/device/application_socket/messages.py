@@ -14,7 +14,7 @@ from msgspec import Meta, Raw, Struct
 
 from controller.device.scene.layers import MOST_SHIFT_MM, RefusedRegion, Scale
 
-LINE_BYTES = 8192  # longest line of a client, with its newline, but for regions
+LINE_BYTES = 8192  # longest line of a client, with its newline, but for `LONG`
 PROTOCOL = 1  # raised when a message changes so that a client has to know
 
 Id = Annotated[int, Meta(ge=-(2**53), le=2**53)] | Annotated[str, Meta(max_length=64)] | None
@@ -142,6 +142,16 @@ class LoadScene(Request, frozen=True, kw_only=True, tag="load_scene", gc=False):
     """Load another scene of the board by its name; answered when it is in force, or refused."""
 
     name: PlainName
+
+
+class SaveScene(Request, frozen=True, kw_only=True, tag="save_scene", gc=False):
+    """Check a scene.toml, sent as text, and keep it on the device, so that `LoadScene` finds it by this name.
+
+    It replaces one that was saved under this name, never one of the board's own.
+    """
+
+    name: PlainName
+    toml: str
 
 
 class AskFigures(Request, frozen=True, kw_only=True, tag="figures", gc=False):
@@ -346,9 +356,11 @@ class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field=
     lacks: Right | None = None
 
 
-AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene | ChannelTest | WriteTrace
+AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | LoadScene | SaveScene | ChannelTest | WriteTrace
 AnyQuestion = Subscribe | Unsubscribe | AskFigures | AskState | Describe | Hello
 AnyRequest = AnyOrder | AnyQuestion
+OPERATIONS = Arm | Disarm | LoadScene | SaveScene | ChannelTest | WriteTrace  # for operators
+LONG = Regions | SaveScene  # lines of these kinds have at most `layer_bytes`
 Data = Greeting | FiguresAnswer | StateAnswer | Description
 AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Emissions | LogLine | Farewell
 

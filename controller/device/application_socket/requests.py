@@ -147,7 +147,7 @@ class Requests:
             self._clients.send(client)
 
     def loaded(self, ticket: int, reason: str) -> None:
-        """Answer a command to load a scene; an empty reason: the scene is in force."""
+        """Answer a command to load or save a scene; an empty reason: the scene is in force, or saved."""
         self.answer_ticket(ticket, "refused" if reason else "done", reason=reason)
 
     def _answer_line(self, client: Connection, line: memoryview, now_s: float, control: PanelControl) -> None:
@@ -161,7 +161,7 @@ class Requests:
             return
         if isinstance(request, messages.Regions):
             self._put_regions(client, request, line, now_s, control)
-        elif len(line) >= LINE_BYTES:
+        elif len(line) >= LINE_BYTES and not isinstance(request, messages.LONG):
             self._refuse_invalid(
                 client, request.id, f"a line of kind {request.__struct_config__.tag} is at most {LINE_BYTES} bytes"
             )
@@ -239,9 +239,7 @@ class Requests:
         """Carry out a request that plays nothing and lays no regions."""
         rights = self._clients.rights
         match request:
-            case messages.Arm() | messages.Disarm() | messages.LoadScene() | messages.ChannelTest() | messages.WriteTrace() if (
-                "operate" not in client.rights
-            ):
+            case _ if isinstance(request, messages.OPERATIONS) and "operate" not in client.rights:
                 self._not_allowed(client, request.id, "operate")
             case messages.Subscribe(to=to) if "log" in to and "operate" not in client.rights:
                 self._not_allowed(client, request.id, "operate")
@@ -263,8 +261,8 @@ class Requests:
                 self._write_trace(client, request.id, control)
             case messages.AskState(id=number):
                 self._reply(client, self._notifications.state(number))
-            case messages.LoadScene(id=number, name=name):
-                self._load_scene(client, number, name, control)
+            case messages.LoadScene() | messages.SaveScene():
+                self._load_or_save(client, request, control)
             case messages.AskFigures(id=number):
                 self._reply(client, messages.FiguresAnswer(id=number, figures=self._all_figures(now_s, control)))
             case messages.Describe(id=number):
@@ -299,16 +297,20 @@ class Requests:
         self._counters.not_allowed += 1
         self._answer(client, number, "refused", self._clients.rights.why_not(client.peer, right))
 
-    def _load_scene(self, client: Connection, number: Id, name: str, control: PanelControl) -> None:
-        ticket = self._ticket(client, number)
+    def _load_or_save(self, client: Connection, request: messages.LoadScene | messages.SaveScene, control: PanelControl) -> None:
+        ticket = self._ticket(client, request.id)
         if ticket == FULL:
             return
+        did = "saves" if isinstance(request, messages.SaveScene) else "loads"
         try:
-            control.load_scene(ticket, name)
+            if isinstance(request, messages.SaveScene):
+                control.save_scene(ticket, request.name, request.toml)
+            else:
+                control.load_scene(ticket, request.name)
         except ControllerError as error:
             self.loaded(ticket, str(error))
         else:
-            log(f"{self._clients.rights.called(client.peer)} loads the scene {name!r}", Event.OPERATED)
+            log(f"{self._clients.rights.called(client.peer)} {did} the scene {request.name!r}", Event.OPERATED)
 
     def _test_channel(self, client: Connection, number: Id, channel: int, now_s: float, control: PanelControl) -> None:
         patch = next((actuator for actuator in self._board.actuators if actuator.channel == channel), None)

@@ -115,6 +115,20 @@ class PanelControl(Protocol):
             If this panel cannot change its scene. `loaded` does not follow then.
         """
 
+    def save_scene(self, ticket: int, name: str, toml: str) -> None:
+        """Check a scene outside the loop and keep it, so that `load_scene` finds it; `CommandSource.loaded` follows.
+
+        Parameters
+        ----------
+        toml : str
+            A scene.toml.
+
+        Raises
+        ------
+        ControllerError
+            If this panel cannot change its scene. `loaded` does not follow then.
+        """
+
     def put_layer(self, ticket: int, owner: int, line: bytes, placement: Placement | None, now_s: float) -> None:
         """Replace a client's layer of regions, once it is checked outside the loop; `CommandSource.layered` follows.
 
@@ -176,7 +190,7 @@ class CommandSource(Protocol):
         """Answer a command to play, `age_s` after it was given."""
 
     def loaded(self, ticket: int, reason: str) -> None:
-        """Answer a command to load a scene: why it was refused, or empty if it was taken over."""
+        """Answer a command to load or save a scene: why it was refused, or empty if it was taken over or saved."""
 
     def scene_changed(self) -> None:
         """Take note that another scene is in force."""

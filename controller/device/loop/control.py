@@ -104,9 +104,22 @@ class LoopControl:
         ConfigError
             If this loop cannot change its scene.
         """
+        self._changer().begin(name, ticket)
+
+    def save_scene(self, ticket: int, name: str, toml: str) -> None:
+        """Save a scene under a name; see `PanelControl.save_scene`.
+
+        Raises
+        ------
+        ConfigError
+            If this loop has no helper for scenes.
+        """
+        self._changer().save(name, toml, ticket)
+
+    def _changer(self) -> SceneChange:
         if self._change is None:
             raise ConfigError("this panel cannot change its scene: it was started without the helper that prepares scenes")
-        self._change.begin(name, ticket)
+        return self._change
 
     def put_layer(self, ticket: int, owner: int, line: bytes, placement: Placement | None, now_s: float) -> None:
         """Replace a client's layer; see `PanelControl.put_layer`."""

@@ -313,6 +313,10 @@ class EventLoop:
         prepared = change.take()
         if prepared is None:
             return
+        if prepared.saves:
+            if self._commands is not None:
+                self._commands.loaded(prepared.ticket, prepared.reason)
+            return
         if prepared.scene is not None:
             if prepared.selection is not None:
                 self._playback.sender.change_bank(prepared.selection)

@@ -23,12 +23,15 @@ class PreparedScene:
         Of another bank, if that was replaced.
     reason : str
         Why it was refused; empty if it was not.
+    saves : bool
+        It was to be saved only: the scene in force stays.
     """
 
     ticket: int
     scene: Scene | None
     selection: Selection | None = None
     reason: str = ""
+    saves: bool = False
 
 
 class SceneChange(Protocol):
@@ -40,6 +43,15 @@ class SceneChange(Protocol):
 
     def begin(self, name: str | None, ticket: int) -> None:
         """Begin to prepare the scene of this name; None: the present one, read again.
+
+        Raises
+        ------
+        ControllerError
+            If it cannot begin.
+        """
+
+    def save(self, name: str, toml: str, ticket: int) -> None:
+        """Begin to save a scene under a name.
 
         Raises
         ------

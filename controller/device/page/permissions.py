@@ -28,6 +28,7 @@ RIGHT_OF: Final = {
     "arm": "operate",
     "disarm": "operate",
     "load_scene": "operate",
+    "save_scene": "operate",
     "test_channel": "operate",
     "trace": "operate",
     "screen": "screen",  # which the bridge itself answers

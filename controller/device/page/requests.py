@@ -11,7 +11,8 @@ from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.permissions import refused
 
-FRAME_BYTES: Final = 65536  # of regions; a page's share of `layer_bytes`
+FRAME_BYTES: Final = 65536  # of what may be long; a page's share of `layer_bytes`
+LONG_KINDS: Final = ("regions", "save_scene")
 _decoder: Final = msgspec.json.Decoder()
 _encoder: Final = msgspec.json.Encoder()
 NOTHING: Final[Mapping[str, Any]] = {}
@@ -46,7 +47,7 @@ def judged(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, 
         line = _encoder.encode(message) + b"\n"
     except (ValueError, RecursionError, UnicodeError) as error:  # a surrogate alone, a number beyond 64 bits
         return b"", answer(message.get("id"), f"cannot be passed on: {error}")
-    longest = FRAME_BYTES if message["kind"] == "regions" else LINE_BYTES
+    longest = FRAME_BYTES if message["kind"] in LONG_KINDS else LINE_BYTES
     if len(line) > longest:
         return b"", answer(message.get("id"), f"longer than {longest} bytes")
     if message["kind"] != "stop" and not rate.take(now_s, 1 + len(line) // LINE_BYTES):

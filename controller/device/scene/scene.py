@@ -21,7 +21,7 @@ from controller.device.board.records import PlaceM
 from controller.device.scene.effects import EffectTable
 from controller.device.scene.layers import Layer
 from controller.device.scene.region_lookup import OUTSIDE, TILES, RegionLookup, StackedLookup
-from controller.device.scene.scene_file import CheckedRegion, Shape, emitter_at, read_scene
+from controller.device.scene.scene_file import CheckedRegion, CheckedScene, Shape, emitter_at, read_scene
 from controller.device.scene.shapes import Boxes, Rectangle
 from controller.device.scene.spacings import Spacing, spacing_of
 from controller.device.scene.trains import EffectiveAmplitude, Train, train_of
@@ -241,7 +241,11 @@ def load_scene(file: Path, board: Board) -> Scene:
     ConfigError
         Naming file, key and value.
     """
-    checked = read_scene(file, board)
+    return scene_of(read_scene(file, board))
+
+
+def scene_of(checked: CheckedScene) -> Scene:
+    """A scene that was checked, ready to play."""
     return Scene(tuple(map(region_of, checked.regions)), {name: train_of(effect) for name, effect in checked.playable.items()})
 
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.board.records import load_toml
+from controller.device.board.paths import state_folder
+from controller.device.board.records import as_record, read_tables
 from controller.device.scene.effects import ROUNDING, EffectTable
 from controller.device.scene.library import Effects, highest_rate_hz, known_effects, resolved
 from controller.device.scene.scene_tables import AnyRegionTable, CircleTable, PlateTable, PolygonTable, RectangleTable, SceneTable
@@ -44,7 +45,7 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
     Parameters
     ----------
     name_or_path : str, optional
-        A path, else `<name>.toml` beside the board's file; default: the scene that the board names.
+        A path, else `<name>.toml` beside the board's file, else one that was saved; default: the scene that the board names.
 
     Raises
     ------
@@ -53,11 +54,26 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
     """
     name = name_or_path or board.scene
     given = [Path(name)] if name_or_path else []  # a name in board.toml is never relative to the current folder
-    for file in (*given, board.beside(name), board.beside(f"{name}.toml")):
+    saved = saved_scenes(board)
+    for file in (*given, *own_scenes(board, name), *([saved / f"{name}.toml"] if saved and Path(name).name == name else [])):
         if file.is_file() and file.name != "board.toml":
             return file
-    known = sorted(file.stem for file in board.folder.glob("*.toml") if file.name != "board.toml")
+    files = [*board.folder.glob("*.toml"), *(saved.glob("*.toml") if saved else ())]
+    known = sorted({file.stem for file in files if file.name != "board.toml"})
     raise ConfigError(f"scene {name!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
+
+
+def own_scenes(board: Board, name: str) -> tuple[Path, Path]:
+    """Files that a scene of this name may have beside the board's; they come before one that was saved."""
+    return board.beside(name), board.beside(f"{name}.toml")
+
+
+def saved_scenes(board: Board) -> Path | None:
+    """Folder of the scenes that operators have saved for a board, which need not exist; None: this user has no place for any."""
+    try:
+        return state_folder(board) / "scenes" / board.key
+    except ConfigError:
+        return None
 
 
 def read_scene(file: Path, board: Board) -> CheckedScene:
@@ -68,7 +84,23 @@ def read_scene(file: Path, board: Board) -> CheckedScene:
     ConfigError
         Naming file, key and value.
     """
-    scene = load_toml(file, SceneTable)
+    return check_scene(str(file), read_tables(file), board)
+
+
+def check_scene(file: str, tables: dict[str, Any], board: Board) -> CheckedScene:
+    """Check what was read from a scene.toml against a board.
+
+    Parameters
+    ----------
+    file : str
+        What messages call it.
+
+    Raises
+    ------
+    ConfigError
+        Naming file, key and value.
+    """
+    scene = as_record(f"{file}: ", tables, SceneTable)
     known, playable = known_effects(f"{file}: ", scene.effects, board)
     plate = Rectangle(0.0, 0.0, board.plate.length_m, board.plate.width_m)
     numbers: dict[str, int] = {}  # of the regions by their names

@@ -33,6 +33,7 @@ class WritesDown:
         self.skipped = Skipped()
         self.plays = []
         self.scenes = []
+        self.saved = []
         self.traces = []
         self.tests = []
         self.switched = []
@@ -67,6 +68,10 @@ class WritesDown:
         if name == "broken":
             raise ControllerError("broken.toml: not valid TOML")
         self.scenes.append((ticket, name))
+
+    def save_scene(self, ticket, name, toml):
+        self.scenes.append((ticket, name))
+        self.saved.append((name, toml))
 
     def put_layer(self, ticket, owner, line, placement, now_s):  # noqa: ARG002
         self.layers.append((ticket, owner, line, placement))

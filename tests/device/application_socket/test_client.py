@@ -109,8 +109,23 @@ def test_scenes_figures_and_who_is_there(served):
         client.load_scene("drums")
         with pytest.raises(ControllerError, match=r"the panel refused: absent.toml: no such scene"):
             client.load_scene("absent")
+        client.save_scene("mine", "text")
+        assert served.control.saved == [("mine", "text")]
         assert client.figures()["emissions"] == 7
         assert client.hello().effects == ("click", "buzz")
+
+
+def test_a_scene_is_saved_from_the_shell(served, tmp_path, capsys):
+    file = tmp_path / "scene.toml"
+    file.write_text("# mine\n")
+    asked = ["--socket", served.settings.path, "save", "mine"]
+    assert main([*asked, str(file)]) == 0
+    assert served.control.saved == [("mine", "# mine\n")]
+    file.write_bytes(b"\xff")
+    assert main([*asked, str(file)]) == main([*asked, str(tmp_path / "none.toml")]) == 78
+    unread, absent = capsys.readouterr().err.splitlines()[-2:]
+    assert unread.startswith(f"haptic-panel: {file}: line 1 is not UTF-8")
+    assert absent.endswith("none.toml: cannot be read (No such file or directory)")
 
 
 def test_without_a_service_it_says_so(folder):

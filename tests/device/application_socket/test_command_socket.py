@@ -25,8 +25,8 @@ from controller.device.loop.commands import CommandSource, Outcome
 from controller.device.touch.source import TouchSample
 
 KINDS = (
-    "'play', 'clip', 'regions', 'transform', 'arm', 'disarm', 'stop', 'load_scene', 'test_channel', 'trace', 'subscribe',"
-    " 'unsubscribe', 'figures', 'state', 'describe', 'hello'"
+    "'play', 'clip', 'regions', 'transform', 'arm', 'disarm', 'stop', 'load_scene', 'save_scene', 'test_channel', 'trace',"
+    " 'subscribe', 'unsubscribe', 'figures', 'state', 'describe', 'hello'"
 )
 ORDINARY = Peer(50_001, 11, frozenset())  # may play alone
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
@@ -141,6 +141,10 @@ def test_the_very_edges_are_accepted(panel, edge):
             {"kind": "load_scene", "name": "../../etc/passwd"},
             "name = '../../etc/passwd': must be a text that matches ^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$",
         ),
+        (
+            {"kind": "save_scene", "name": "../mine", "toml": ""},
+            "name = '../mine': must be a text that matches ^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$",
+        ),
         ({"kind": "load_scene", "name": "broken"}, "broken.toml: not valid TOML"),
     ],
 )
@@ -204,6 +208,17 @@ def test_figures_too_long_for_the_queue_are_refused_and_the_client_stays(panel):
     assert answer["outcome"] == "refused"
     assert answer["reason"].endswith("bytes, more than 65536")
     assert len(panel.ask(client, {"kind": "hello"})) == 1
+    assert balanced(panel)
+
+
+def test_a_scene_to_save_may_be_as_long_as_regions_of_whoever_operates(panel):
+    toml = "#" * (2 * LINE_BYTES)
+    client = panel.connect()
+    assert panel.ask(client, {"kind": "save_scene", "name": "mine", "toml": toml, "id": 1}) == []
+    ((ticket, _),) = panel.control.scenes
+    assert panel.control.saved == [("mine", toml)]
+    panel.socket.loaded(ticket, "mine.toml: no room")
+    assert panel.ask(client) == [{"kind": "answer", "id": 1, "outcome": "refused", "reason": "mine.toml: no room"}]
     assert balanced(panel)
 
 

@@ -41,6 +41,8 @@ def test_every_line_of_the_readme_fits(line):
         ({"kind": "subscribe", "to": ["faults", "description"]}, True),
         ({"kind": "subscribe", "to": []}, False),
         ({"kind": "load_scene", "name": "../x"}, False),
+        ({"kind": "save_scene", "name": "mine", "toml": ""}, True),
+        ({"kind": "save_scene", "name": ".mine", "toml": ""}, False),
         ({"kind": "pause"}, False),
         ([], False),
     ],

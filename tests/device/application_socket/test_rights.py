@@ -30,7 +30,8 @@ OPERATOR = Peer(50_003, 13, frozenset({50_003, OPERATE_GROUP.gr_gid}))
 STRANGER = Peer(50_004, 14, frozenset({50_004}))
 PLAY = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
 TEST = {"kind": "test_channel", "channel": 5}
-OPERATIONS = ({"kind": "arm"}, {"kind": "disarm"}, {"kind": "load_scene", "name": "drums"}, {"kind": "trace"}, TEST)
+SAVE = {"kind": "save_scene", "name": "mine", "toml": ""}
+OPERATIONS = ({"kind": "arm"}, {"kind": "disarm"}, {"kind": "load_scene", "name": "drums"}, {"kind": "trace"}, TEST, SAVE)
 
 
 @pytest.fixture
@@ -64,11 +65,13 @@ def test_an_operator_arms_disarms_and_loads_and_the_journal_says_who(panel, caps
     assert panel.control.traces == ["uid 50003 (pid 13) asked for it"]
     assert answers[-1]["rights"] == ["play", "regions", "operate"]
     assert panel.control.switched == [True, False]
-    assert [name for _, name in panel.control.scenes] == ["drums"]
+    assert [name for _, name in panel.control.scenes] == ["drums", "mine"]
+    assert panel.control.saved == [("mine", "")]
     assert capsys.readouterr().err.splitlines() == [
         "haptic-panel: uid 50003 (pid 13) arms the panel",
         "haptic-panel: uid 50003 (pid 13) disarms the panel",
         "haptic-panel: uid 50003 (pid 13) loads the scene 'drums'",
+        "haptic-panel: uid 50003 (pid 13) saves the scene 'mine'",
     ]
 
 

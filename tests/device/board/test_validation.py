@@ -186,6 +186,7 @@ MESSAGES = [
     {"kind": "play", "effect": "click", "x_mm": 1.0, "y_mm": 2.0, "amplitude": 0.5, "id": 1},
     {"kind": "subscribe", "to": ["touches", "state"], "id": "a"},
     {"kind": "load_scene", "name": "drums", "id": None},
+    {"kind": "save_scene", "name": "mine", "toml": "a = 1", "id": 2},
 ]
 
 

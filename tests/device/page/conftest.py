@@ -26,13 +26,15 @@ class Served:
 
     def __init__(self, folder):
         self.socket = str(folder / "panel.sock")
+        self.state = folder / "panel-state"
         self._process = None
 
     def begin(self):
         """Return once it plays."""
         command = [sys.executable, "-m", "controller", "serve", "--background", "--fingers", "4"]
         command += ["--commands-per-s", "5000", self.socket]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        environment = os.environ | {"STATE_DIRECTORY": str(self.state)}
+        done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         assert done.returncode == 0, done.stderr
         self._pid = int(re.search(r"`kill (\d+)`", done.stderr)[1])
 

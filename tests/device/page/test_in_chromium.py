@@ -240,6 +240,41 @@ def test_what_is_drawn_is_felt_and_saved_as_a_scene(page, bridge_with, board, tm
     page.until("layers.at(-1).answer.regions === 1")
     page.value("document.getElementById('add').click(); 0")
     page.until("layers.at(-1).answer.regions === 2")
+    page.call("Page.navigate", url="about:blank")  # else it tries to reach a bridge that has ended
+    assert page.said == []
+
+
+def test_an_operator_saves_what_is_drawn_on_the_panel_and_loads_it(page, bridge_with, served, board, tmp_path):
+    bridge = bridge_with('[origins]\nself = ["operate"]')
+    page.said.clear()
+    page.size(1280, 900)
+    page.dark("light")
+    page.open(f"{bridge.address}live/editor.html")
+    page.until("!document.getElementById('keeping').hidden && document.getElementById('keep').disabled")
+    page.value("document.getElementById('add').click(); 0")
+
+    def save(name):
+        page.value(f"document.getElementById('scene-name').value = {json.dumps(name)}; document.getElementById('keep').click(); 0")
+
+    save("../drawn")  # the field itself is against it
+    assert page.value(
+        "document.querySelector('#scene-name:invalid') !== null && document.getElementById('kept').textContent === ''"
+    )
+    save("keyboard")
+    page.until("document.getElementById('kept').textContent.startsWith(\"Not saved: 'keyboard' is taken by the board's own\")")
+    assert page.value("document.getElementById('load').hidden")
+    save("drawn")
+    page.until("document.getElementById('kept').textContent === 'Saved as drawn.'")
+    kept = served.state / "scenes/simulated/drawn.toml"
+    assert kept.read_text() == page.value("document.getElementById('toml').textContent")
+    assert [region.name for region in load_scene(kept, board).regions] == ["region 1"]
+    page.picture((Path(PICTURES) if PICTURES else tmp_path) / "editor_saved.png")
+    page.value("document.getElementById('load').click(); 0")
+    page.until("document.getElementById('kept').textContent.startsWith('drawn is in force')")
+    page.value("HapticPanel.send({kind: 'describe'}).then(({scene, regions}) => now = [scene, regions[0].name])")
+    assert page.value("now") == ["drawn", "region 1"]
+    assert page.value("HapticPanel.send({kind: 'load_scene', name: 'scene'})")["outcome"] == "done"
+    page.call("Page.navigate", url="about:blank")
     assert page.said == []
 
 

@@ -113,7 +113,7 @@ def test_every_page_may_stop_and_none_may_operate_by_default():
     assert refused({"kind": "stop"}, look) == ""
     assert "the right 'play'" in refused({"kind": "play"}, look)
     assert "the right 'regions'" in refused({"kind": "transform"}, look | {"play"})
-    for kind in ("arm", "disarm", "load_scene"):
+    for kind in ("arm", "disarm", "load_scene", "save_scene"):
         assert "the right 'operate'" in refused({"kind": kind}, frozenset({"look", "play", "regions"}))
     assert "may not subscribe to touches" in refused({"kind": "subscribe"}, look)
     assert refused({"kind": "subscribe", "to": ["state"]}, look) == ""

@@ -545,6 +545,30 @@ def test_a_client_may_load_a_scene_by_its_name_and_is_informed_why_not(service, 
     assert figures["emissions"] == 0, "a texture is not felt by a touch at rest"
 
 
+def test_a_saved_scene_is_loaded_by_its_name_also_after_a_restart(folder, panel, bank, tmp_path):
+    mine = TEXTURE.replace('"all"', '"mine"')
+    assert mine != TEXTURE
+    state = {"STATE_DIRECTORY": str(tmp_path / "state")}
+    service = Service(folder, bank, environment=state)
+    service.says("the outputs are on")
+    with service.client() as client:
+        client.save_scene("mine", mine)
+        assert client.describe().scene == "scene", "it is not in force"
+        with pytest.raises(ControllerError, match=r"mine.toml: regions\[0\]"):
+            client.save_scene("mine", "[[regions]]\nname = 1\n")
+        with pytest.raises(ControllerError, match=r"'texture' is taken by the board's own texture.toml"):
+            client.save_scene("texture", mine)
+    figures, code = service.end()
+    assert (code, figures["scenes_loaded"], figures["scenes_refused"]) == (0, 0, 0)
+    assert "saves the scene 'mine'" in "".join(service.log)
+    service = Service(folder, bank, environment=state)
+    service.says("the outputs are on")
+    with service.client() as client:
+        client.load_scene("mine")
+        assert (client.describe().scene, client.describe().regions[0].name) == ("mine", "mine")
+    assert service.end()[1] == 0
+
+
 def test_a_bank_that_is_replaced_is_played_from_the_next_reload_on(service, bank_file, bank, folder):
     with service.client() as client:
         damaged = bytearray(bank_file.read_bytes())

@@ -19,7 +19,16 @@ import time
 from pathlib import Path
 
 from controller.device.service.scenes.prepare_scene import prepare
-from controller.device.service.scenes.scene_message import HEADER, MOST_BYTES, length, pack_refusal, pack_scene, unpack_request
+from controller.device.service.scenes.saved_scene import BYTES_MAX, save_scene
+from controller.device.service.scenes.scene_message import (
+    HEADER,
+    MOST_BYTES,
+    length,
+    pack_refusal,
+    pack_saved,
+    pack_scene,
+    unpack_request,
+)
 from controller.errors import ControllerError
 
 MEMORY_BYTES = 256 << 20  # limit for a preparation, in addition to the bank's size
@@ -83,10 +92,13 @@ def _work(request: bytes, limit_s: float) -> bytes:
     """The answer to a request; any error becomes a refusal."""
     try:
         asked = unpack_request(request)
-        limit_memory(Path(asked.bank))
+        limit_memory(Path(asked.bank), 0 if asked.toml is None else BYTES_MAX)
         _lower(resource.RLIMIT_CPU, math.ceil(limit_s) + 1)  # `_wait` reports the time limit before this applies
         os.chdir(asked.board.folder)  # plain names of scenes are looked up here
-        return pack_scene(prepare(asked.board, asked.scene, Path(asked.bank)))
+        if asked.toml is None:
+            return pack_scene(prepare(asked.board, asked.scene, Path(asked.bank)))
+        save_scene(asked.board, asked.scene, asked.toml)
+        return pack_saved()
     except ControllerError as error:
         return pack_refusal(str(error))
     except MemoryError:
@@ -95,14 +107,20 @@ def _work(request: bytes, limit_s: float) -> bytes:
         return pack_refusal(f"preparing the scene failed: {type(error).__name__}: {error}")
 
 
-def limit_memory(bank: Path) -> None:
-    """Limit memory and files of this process to what it needs; when memory runs out, the kernel ends this process first."""
+def limit_memory(bank: Path, file_bytes: int = 0) -> None:
+    """Limit memory and files of this process to what it needs; when memory runs out, the kernel ends this process first.
+
+    Parameters
+    ----------
+    file_bytes : int
+        Of the largest file that it may write.
+    """
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
     with contextlib.suppress(FileNotFoundError):
         _lower(resource.RLIMIT_AS, pages * resource.getpagesize() + bank.stat().st_size + MEMORY_BYTES)
-    _lower(resource.RLIMIT_FSIZE, 0)
+    _lower(resource.RLIMIT_FSIZE, file_bytes)
     _lower(resource.RLIMIT_CORE, 0)
 
 

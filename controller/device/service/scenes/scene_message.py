@@ -22,7 +22,7 @@ from controller.device.scene.scene import Region, Scene, SpatialIndex
 from controller.device.scene.trains import Train
 from controller.errors import ConfigError, ControllerError
 
-VERSION = 2  # of the layout: raise it when a type in a message changes
+VERSION = 3  # of the layout: raise it when a type in a message changes
 MAGIC = b"HPsc"
 HEADER = struct.Struct("<4sIII")
 MOST_BYTES = 1 << 18  # behind the header: 2,000 regions, which the loop checks and takes over in 2 ms
@@ -34,12 +34,13 @@ class MessageError(ControllerError):
 
 
 class SceneRequest(Struct, frozen=True):
-    """Prepare a scene, given by its name or path, of a board, for a bank."""
+    """Prepare a scene, given by its name or path, of a board, for a bank; with `toml`, save that under the name instead."""
 
     software: str
     board: Board
     scene: str
     bank: str
+    toml: str | None = None
 
 
 class _Request(Struct, frozen=True, forbid_unknown_fields=True):
@@ -47,6 +48,7 @@ class _Request(Struct, frozen=True, forbid_unknown_fields=True):
     board: Raw  # a Board; which record its touch panel has, its kind says
     scene: str
     bank: str
+    toml: str | None = None
 
 
 class _Scene(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
@@ -59,6 +61,7 @@ class _Reply(Struct, frozen=True, forbid_unknown_fields=True):
     software: str
     reason: Annotated[str, Meta(max_length=REASON_CHARACTERS)] = ""
     scene: _Scene | None = None
+    saved: bool = False
 
 
 encoder = msgspec.msgpack.Encoder(enc_hook=str)  # of a Path
@@ -66,8 +69,8 @@ _requests = msgspec.msgpack.Decoder(_Request)
 _replies = msgspec.msgpack.Decoder(_Reply)
 
 
-def pack_request(board: Board, scene: str, bank: Path) -> bytes:
-    """Message that requests a scene.
+def pack_request(board: Board, scene: str, bank: Path, toml: str | None = None) -> bytes:
+    """Message that requests a scene, or that one is saved.
 
     Parameters
     ----------
@@ -75,8 +78,10 @@ def pack_request(board: Board, scene: str, bank: Path) -> bytes:
         Name or path.
     bank : Path
         Bank that it will be played from.
+    toml : str, optional
+        What is to be saved.
     """
-    return framed(encoder.encode(SceneRequest(__version__, board, scene, str(bank))))
+    return framed(encoder.encode(SceneRequest(__version__, board, scene, str(bank), toml)))
 
 
 def pack_scene(scene: Scene) -> bytes:
@@ -91,6 +96,11 @@ def pack_scene(scene: Scene) -> bytes:
     if len(data) > MOST_BYTES:
         raise MessageError(f"the scene is too large: {len(data):,} bytes with its {len(scene.regions)} regions, of {MOST_BYTES:,}")
     return framed(data)
+
+
+def pack_saved() -> bytes:
+    """Message that a scene is saved."""
+    return framed(encoder.encode(_Reply(__version__, saved=True)))
 
 
 def pack_refusal(reason: str) -> bytes:
@@ -132,11 +142,11 @@ def unpack_request(message: bytes) -> SceneRequest:
         board = board_of(request.board)
     except (msgspec.MsgspecError, ConfigError) as error:
         raise MessageError(f"the message does not fit: {error}") from error
-    return SceneRequest(request.software, board, request.scene, request.bank)
+    return SceneRequest(request.software, board, request.scene, request.bank, request.toml)
 
 
 def unpack_scene(message: bytes) -> Scene | str:
-    """The scene in a message, or why it was refused.
+    """The scene in a message, or why it was refused; empty if it was saved.
 
     Raises
     ------
@@ -149,7 +159,7 @@ def unpack_scene(message: bytes) -> Scene | str:
         raise MessageError(one_line(f"the message does not fit: {error}")) from error
     require_own(reply.software)
     if reply.scene is None:
-        return one_line(reply.reason)
+        return "" if reply.saved else one_line(reply.reason)
     regions, index = reply.scene.regions, reply.scene.index
     if max(chain.from_iterable(index.candidates), default=-1) >= len(regions):
         raise MessageError("the message does not fit: its spatial index names a region that it does not have")

@@ -50,6 +50,7 @@ class SceneChanger:
         self._limit_s = limit_s
         self._helper = HelperProcess("scenes", limit_s)
         self._wanted: tuple[str, int] | None = None
+        self._saves = False
         self._request = b""
         self._asked_again = False
         self._until_s = 0.0
@@ -76,14 +77,27 @@ class SceneChanger:
         ConfigError
             If another scene is being prepared; a reload (ticket 0) is instead deferred until that is done.
         """
-        if self._wanted is not None:
-            if ticket:
-                raise ConfigError("another scene is being prepared: ask again when it is there")
+        if self._wanted is not None and not ticket:
             self._again = True
             return
-        self._wanted = (self._name if name is None else name, ticket)
+        self._ask(self._name if name is None else name, ticket, None)
+
+    def save(self, name: str, toml: str, ticket: int) -> None:
+        """Save a scene for this board, to be found by `begin`.
+
+        Raises
+        ------
+        ConfigError
+            If a scene is being prepared or saved.
+        """
+        self._ask(name, ticket, toml)
+
+    def _ask(self, name: str, ticket: int, toml: str | None) -> None:
+        if self._wanted is not None:
+            raise ConfigError("another scene is being prepared: ask again when it is there")
+        self._wanted, self._saves = (name, ticket), toml is not None
         self._until_s = time.monotonic() + self._limit_s + GRACE_S
-        self._request = pack_request(self._board, self._wanted[0], self._bank.path.absolute())
+        self._request = pack_request(self._board, name, self._bank.path.absolute(), toml)
         self._said.clear()
         self._asked_again = False
         if not self._helper.send(self._request):
@@ -145,7 +159,7 @@ class SceneChanger:
     def _fail(self, reason: str) -> None:
         assert self._wanted is not None
         self._helper.end()
-        self._failed = PreparedScene(self._wanted[1], None, reason=reason)
+        self._failed = PreparedScene(self._wanted[1], None, reason=reason, saves=self._saves)
 
     def _prepared(self) -> PreparedScene:
         assert self._wanted is not None
@@ -154,9 +168,9 @@ class SceneChanger:
             said = unpack_scene(bytes(self._said))
         except MessageError as error:
             self._helper.end()  # its next answer could not be distinguished from the rest of this one
-            return PreparedScene(ticket, None, reason=f"what prepares scenes answers wrongly: {error}")
+            return PreparedScene(ticket, None, reason=f"what prepares scenes answers wrongly: {error}", saves=self._saves)
         if not isinstance(said, Scene):
-            return PreparedScene(ticket, None, reason=said)
+            return PreparedScene(ticket, None, reason=said, saves=self._saves)
         self._name = name
         bank_is = _identity(self._bank.path)
         if bank_is == self._bank_is:

@@ -16,6 +16,7 @@
     const effects = [...new Set([...MOVING, ...plate.effects])];
     at("effect").replaceChildren(...effects.map((name) => new Option(name, name)));
     at("state").textContent = panel.rights.includes("regions") ? plate.board : "This page may not lay regions: what is drawn is not felt.";
+    at("keeping").hidden = !panel.rights.includes("operate");
     if (panel.rights.includes("play")) panel.send({ kind: "subscribe" });
     show();
   });
@@ -66,7 +67,7 @@
     at("properties").hidden = !chosen;
     for (const field of chosen ? FIELDS : []) if (document.activeElement !== at(field)) at(field).value = chosen[field];
     at("toml").textContent = toml();
-    at("save").disabled = !regions.length;
+    for (const button of ["save", "keep"]) at(button).disabled = !regions.length;
     panel.look?.();
   }
   function choose(region) { chosen = region; show(); }
@@ -119,6 +120,21 @@
       ...["x_mm", "y_mm", "width_mm", "height_mm"].map((key) => `${key} = ${number(one[key])}`),
       ...(one.amplitude < 1 ? [`amplitude = ${one.amplitude}`] : []), `effects = [${JSON.stringify(one.effect)}]`, "",
     ].join("\n")).join("\n");
+  }
+  at("keeping").addEventListener("submit", (event) => {
+    event.preventDefault();
+    const name = at("scene-name").value;
+    said(`saving ${name}`);
+    panel.send({ kind: "save_scene", name, toml: toml() }).then(({ reason }) => said(reason ? `Not saved: ${reason}` : `Saved as ${name}.`, reason ? "" : name));
+  });
+  at("load").addEventListener("click", () => {
+    const name = at("load").value;
+    panel.send({ kind: "load_scene", name }).then(({ reason }) => said(reason ? `Not loaded: ${reason}` : `${name} is in force; what is drawn here lies on top of it until this page is closed.`));
+  });
+  function said(text, saved = "") {
+    at("kept").textContent = text;
+    at("load").value = saved;
+    at("load").hidden = !saved;
   }
   at("save").addEventListener("click", () => {
     const link = document.createElement("a");
