@@ -43,7 +43,7 @@ def authority(text: str) -> Authority:
     name = found["name"]
     name = f"[{ipaddress.IPv6Address(name[1:-1]).compressed}]" if name.startswith("[") else name.removesuffix(".")
     port = int(found["port"]) if found["port"] else None
-    if not name or (port is not None and port > 65535):
+    if not name or name.endswith(".") or (port is not None and port > 65535):
         raise ValueError(f"{shown(text)} is no name or address of a host")
     return Authority(name, port)
 

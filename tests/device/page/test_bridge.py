@@ -89,6 +89,19 @@ def test_a_rebound_name_gets_nothing_at_all(bridge):
         assert (status, "hosts" in text) == (421, True)
 
 
+def test_the_file_of_the_field_view_is_served_from_where_it_lies(bridge_with, tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere/a.field").write_text("modes")
+    (tmp_path / "elsewhere/b").write_text("secret")
+    (tmp_path / "link.field").symlink_to(tmp_path / "elsewhere/a.field")
+    bridge = bridge_with(f'field = "{tmp_path / "link.field"}"')
+    status, headers, text = get(bridge, "/live/plate.field")
+    assert (status, headers["Content-Type"], text) == (200, "application/octet-stream", "modes")
+    for path in ("/live/a.field", "/live/b", "/live/plate.field/b", "/live/plate.field/../b", "/plate.field"):
+        assert get(bridge, path)[0] == 404
+    assert get(bridge_with(), "/live/plate.field")[0] == 404
+
+
 def test_files_come_with_a_strict_policy_and_nothing_from_outside_the_folder(bridge_with, tmp_path):
     www = tmp_path / "www"
     (www / "sub").mkdir(parents=True)
@@ -311,12 +324,15 @@ class NoRedirect(urllib.request.HTTPRedirectHandler):
     [
         (["--settings", "/none.toml"], 78, "/none.toml: cannot be read"),
         (["--www", "/none"], 78, "www = '/none': there is no such folder"),
+        (["--settings", "{field}"], 78, "field = '/none': there is no such file; `haptic-panel focus --field-out FILE` makes one"),
         (["--port", "70000"], 78, "port = 70000"),
         (["--demo", "--socket", "/x"], 2, "--demo: has a panel and socket of its own"),
         (["--port", "x"], 2, "--port"),
     ],
 )
-def test_what_cannot_begin_ends_with_one_line(options, code, said):
+def test_what_cannot_begin_ends_with_one_line(options, code, said, tmp_path):
+    (tmp_path / "page.toml").write_text('field = "/none"\n')
+    options = [option.format(field=tmp_path / "page.toml") for option in options]
     done = subprocess.run([sys.executable, "-m", "controller", "page", *options], capture_output=True, text=True, check=False)
     assert done.returncode == code
     assert said in done.stderr
@@ -331,6 +347,8 @@ def test_the_demo_shows_a_page_and_ends_with_its_panel():
         address = demo.stdout.readline().strip()
         with urllib.request.urlopen(f"{address}live/", timeout=PATIENCE_S) as answer:
             assert "STOP" in answer.read().decode()
+        with urllib.request.urlopen(f"{address}live/plate.field", timeout=PATIENCE_S) as answer:
+            assert answer.read(8) == b"HPfield1"
         demo.terminate()
         _, said = demo.communicate()
     assert demo.returncode == 0, said

@@ -4,7 +4,7 @@ from http import HTTPStatus
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from controller.device.page.addresses import Origin, authority, origin_of
@@ -126,6 +126,8 @@ def test_every_message_of_the_socket_has_its_right():
 
 
 @given(st.text())
+@example("0..")
+@example("..")
 def test_any_text_is_an_origin_or_none_and_one_stays_the_same(text):
     found = origin_of(text)
     assert found is None or isinstance(found, Origin)

@@ -97,7 +97,7 @@ def test_a_plate_whose_shapes_are_no_sines_or_too_many_is_refused():
     with pytest.raises(ConfigError, match=r"shapes that are products of sines.*--movie` shows any plate"):
         encoded_field(changed(edges="free", thickness_mm=3.0))
     with pytest.raises(ConfigError, match=f"a field view has at most {BYTES_MAX >> 20}"):
-        encoded_field(changed(length_mm=800.0, width_mm=600.0))
+        encoded_field(changed(length_mm=700.0, width_mm=600.0))
 
 
 def test_the_command_writes_it_and_says_which_setting_serves_it(tmp_path, capsys):
