@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from controller.console import say, tell
 from controller.device.service.installation import is_installed, missing_package
 from controller.errors import ConfigError, ControllerError, UsageError
+from controller.log import Priority
 from controller.programs import end
 
 if TYPE_CHECKING:
@@ -89,12 +90,16 @@ def _serve(settings: PageSettings, file: Path | None) -> int:
 
 
 def _field() -> str:
-    """File of the field view of the panel that is simulated."""
+    """File of the field view of the panel that is simulated; empty if it cannot be kept: the demo goes on without."""
     from controller.device.board.board import load_board
     from controller.device.board.lookup import find_board
     from controller.workshop.physics.pictures.field_file import kept_field
 
-    return str(kept_field(load_board(find_board("simulated"))))
+    try:
+        return str(kept_field(load_board(find_board("simulated"))))
+    except ConfigError as error:
+        tell(f"no field view: {error}", Priority.WARNING)
+        return ""
 
 
 @contextlib.contextmanager

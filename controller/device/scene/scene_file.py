@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -55,6 +56,7 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
     name = name_or_path or board.scene
     given = [Path(name)] if name_or_path else []  # a name in board.toml is never relative to the current folder
     saved = saved_scenes(board)
+    saved = saved if saved and os.access(saved, os.R_OK | os.X_OK) else None  # it is the service's own folder
     for file in (*given, *own_scenes(board, name), *([saved / f"{name}.toml"] if saved and Path(name).name == name else [])):
         if file.is_file() and file.name != "board.toml":
             return file

@@ -87,6 +87,27 @@ def test_there_are_so_many_and_no_more(own, state):
     assert len(files(state)) == SAVED_MAX
 
 
+def test_whoever_may_not_look_into_the_folder_finds_none_and_the_boards_own(own, state):
+    save_scene(own, "mine", MINE)
+    for folder in state.parents:
+        if folder.name.startswith(("test_", "pytest-")):  # of pytest, which lets nobody else in
+            folder.chmod(0o755)
+    state.chmod(0)
+
+    def nobody():
+        if os.geteuid() == 0:
+            os.setgroups([])
+            os.setuid(65534)
+        try:
+            return find_scene(own, "mine")
+        except ConfigError as error:
+            return f"{find_scene(own, 'scene').name}; {error}"
+
+    said = in_child(nobody)
+    state.chmod(0o755)
+    assert said.startswith("scene.toml; scene 'mine' not found; ")
+
+
 HOSTILE = ("../x", "a/b", ".", "..", "", "a.toml", ".hidden", "a\0b", "a\nb", "-rf", "a b", "x" * 65, "ä", "mine\n", "/etc/passwd")
 
 

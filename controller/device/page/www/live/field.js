@@ -126,9 +126,9 @@ function press(x_mm, y_mm) { // whoever asked for less motion sees the focus, an
 }
 
 // ---- pointer and keyboard
-at("plate").addEventListener("pointerdown", ({ clientX, clientY, isPrimary }) => {
+at("plate").addEventListener("click", ({ clientX, clientY }) => { // which no gesture that scrolls the page is
   const box = at("plate").getBoundingClientRect();
-  if (isPrimary) press(((clientX - box.left) / box.width) * model.length_m * 1e3, ((box.bottom - clientY) / box.height) * model.width_m * 1e3);
+  press(((clientX - box.left) / box.width) * model.length_m * 1e3, ((box.bottom - clientY) / box.height) * model.width_m * 1e3);
 });
 at("plate").addEventListener("keydown", (event) => {
   const step = event.shiftKey ? 10 : 1, way = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] }[event.key];
@@ -145,7 +145,7 @@ for (const axis of ["x_mm", "y_mm"])
   });
 at("play").addEventListener("click", () => { if (playing) { pause(); show(); } else play(); });
 at("time").addEventListener("input", () => { pause(); seek(Number(at("time").value)); });
-at("history").addEventListener("pointerdown", ({ clientX }) => {
+at("history").addEventListener("click", ({ clientX }) => {
   const box = at("history").getBoundingClientRect();
   pause();
   seek(((clientX - box.left) / box.width) * (model.frames - 1));
