@@ -7,17 +7,29 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from controller.commands.common.output import picture_path, show
 from controller.device.board.board import load_board
 from controller.device.board.descriptions import unit_of
 from controller.device.board.lookup import find_board
+from controller.device.board.parts import Parts
+from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
     from controller.commands.common.output import Declare
+    from controller.device.board.board import Board
 
 ROWS = {  # what is printed of each figure; numbers in brackets are those of the paper's equations
+    "amplitude_under_finger_um": "amplitude under the finger (µm)",
+    "felt_share": "of the paper's 3 µm, felt strongly",
+    "gains_percent": "10 % more of it adds (%)",
+    "possible_amplitude_um": "amplitude in reach (µm), estimate",
+    "amplitude_um": "amplitude taken (µm)",
+    "finger_left": "left under a finger (7)",
+    "finger_left_of_band": "left under a point mass",
     "tc_ms": "Tc = modes per kHz (2)",
     "modes_in_band": "modes in the band, Tc B",
     "modes_counted": "modes in the band, counted",
@@ -37,8 +49,6 @@ ROWS = {  # what is printed of each figure; numbers in brackets are those of the
     "spot_3db_mm": "spot, -3 dB (mm), estimate",
     "gate_us": "duration (µs) (4)",
     "pulse_us": "duration, half height (µs), estimate",
-    "possible_amplitude_um": "amplitude in reach (µm), estimate",
-    "amplitude_um": "amplitude taken (µm)",
     "one_bit_share": "share of an endless emission, 1 bit",
     "linear_share": "share of an endless emission, linear",
     "energy_uj": "energy at T (µJ) (6)",
@@ -49,32 +59,45 @@ ROWS = {  # what is printed of each figure; numbers in brackets are those of the
     "mechanical_power_mw": "mechanical power in T (mW)",
     "resistors_w": "resistors, all emitting (W)",
     "resistors_repeated_w": "resistors, every Tr (W)",
-    "finger_left": "left under a finger (7)",
-    "finger_left_of_band": "left under a point mass",
-    "amplitude_under_finger_um": "amplitude under the finger (µm)",
+    "supply_ma": "supply current, every Tr (mA)",
+    "edges_khz": "edges a second of a channel (1000)",
+    "edge_limit_khz": "its resistor bears at most (1000)",
     "points_to_learn": "points to learn, 4 S / wavelength²",
     "learning_grid": "grid of half waves, Mindlin",
     "learning_pitch_mm": "its largest pitch (mm)",
     "in_wavelengths": "in wavelengths",
 }
-COLUMNS = ("tc_ms", "contrast", "contrast_outside", "spot_mm", "amplitude_um", "amplitude_under_finger_um", "mechanical_power_mw",
-           "resistors_w", "points_to_learn")  # fmt: skip
+COLUMNS = ("amplitude_under_finger_um", "amplitude_um", "spot_mm", "contrast", "contrast_outside", "resistors_w", "edge_limit_khz",
+           "mechanical_power_mw", "points_to_learn")  # fmt: skip
+FOUND = ("thickness_mm", "disc", "discs", "channels", "amplitude_under_finger_um", "spot_mm", "contrast_outside", "resistors_w",
+         "edge_limit_khz")  # fmt: skip
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    from controller.workshop.physics.design.design_inputs import NUMBERS, DesignInputs
+    from controller.workshop.physics.design.design_inputs import FELT_UM, NUMBERS, DesignInputs
 
     command = declare(
         example="haptic-panel design --thickness-mm 1",
         parents=[common],
         description="Estimate a panel's performance from its parameters, by the equations of the paper, with warnings where these "
-        "do not hold. A parameter that is not given is the board's.",
+        "do not hold. A parameter that is not given is the board's, or follows from those that are: of a disc its capacitance and "
+        "moment on this glass, of both and the band the stage's R and L.",
     )
     command.add_argument(
         "--sweep", metavar="NAME=FROM:TO:STEP", help="a table over one of the parameters, such as thickness_mm=0.3:2:0.1"
     )
     command.add_argument("--plot", metavar="FILE", help="draw the sweep (.png, .svg, .pdf)")
+    command.add_argument(
+        "--find",
+        metavar="WHAT",
+        help="search panels that are felt, over one or more of thickness,channels,disc: fewest channels first",
+    )
+    command.add_argument(
+        "--felt-um", type=float, default=FELT_UM, metavar="µm", help="amplitude under the finger that --find wants"
+    )
+    command.add_argument("--disc", help="piezo disc of the catalogue, in place of the board's: C, R, L and moment follow")
+    command.add_argument("--sectors", type=int, metavar="N", help="actuators that a disc is cut into")
     numbers = command.add_argument_group("parameters of the design")
     texts = attributes(DesignInputs)
     for name in NUMBERS:
@@ -85,22 +108,27 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 
 def design(options: argparse.Namespace) -> int:
-    """Print the figures of a design, or of a sweep."""
+    """Print the figures of a design, of a sweep, or of what a search found."""
     from controller.workshop.physics.design.design_figures import design_figures
     from controller.workshop.physics.design.design_inputs import NUMBERS, inputs_of, sweep
 
     if options.plot and not options.sweep:
         raise ConfigError("--plot draws a sweep: give --sweep NAME=FROM:TO:STEP too")
+    if options.find and options.sweep:
+        raise ConfigError("--find and --sweep: give one of both")
     picture = picture_path(options)
     board = load_board(find_board(options.board))
+    parts = _parts(board, options)
     changes = {name: value for name in NUMBERS if (value := getattr(options, name)) is not None}
+    if options.find:
+        return _find(options, board, changes, parts)
     if not options.sweep:
-        show(options, {"board": board.name, **design_figures(board, changes)}, _table)
+        show(options, {"board": board.name, **design_figures(board, changes, parts)}, _table)
         return 0
     name, values = sweep(options.sweep)
     for value in values:  # all are possible, before any is computed
-        inputs_of(board, {**changes, name: value})
-    rows = [design_figures(board, {**changes, name: value}) for value in values]
+        inputs_of(board, {**changes, name: value}, parts)
+    rows = [design_figures(board, {**changes, name: value}, parts) for value in values]
     figures: dict[str, Any] = {"board": board.name, "swept": name, "values": values, "designs": rows}
     if picture:
         _plot(picture, figures)
@@ -108,10 +136,33 @@ def design(options: argparse.Namespace) -> int:
     return 0
 
 
+def _parts(board: Board, options: argparse.Namespace) -> Parts | None:
+    """The parts that were asked for; None: the board's."""
+    from controller.workshop.physics.design.from_parts import ASSUMED
+
+    asked = {name: value for name in ("disc", "sectors") if (value := getattr(options, name)) is not None}
+    if not asked:
+        return None
+    return as_record("--disc, --sectors: ", msgspec.to_builtins(board.parts or ASSUMED) | asked, Parts)
+
+
+def _find(options: argparse.Namespace, board: Board, changes: dict[str, float], parts: Parts | None) -> int:
+    from controller.workshop.physics.design.find_design import find_designs
+
+    if not options.felt_um > 0:
+        raise ConfigError(f"--felt-um {options.felt_um:g}: must be above 0")
+    rows = find_designs(board, changes, parts, options.find.split(","), options.felt_um)
+    reached = rows[0]["amplitude_under_finger_um"] >= options.felt_um
+    show(options, {"board": board.name, "felt_um": options.felt_um, "reached": reached, "designs": rows}, _found_table)
+    return 0 if reached else 1
+
+
 def _plot(picture: Path, figures: dict[str, Any]) -> None:
+    from controller.workshop.physics.design.design_inputs import FELT_UM
     from controller.workshop.physics.design.plot_design import plot_sweep
 
-    plot_sweep(picture, figures["swept"], figures["values"], figures["designs"], {name: ROWS[name] for name in COLUMNS})
+    titles = {name: ROWS[name] for name in COLUMNS}
+    plot_sweep(picture, figures["swept"], figures["values"], figures["designs"], titles, {COLUMNS[0]: FELT_UM})
 
 
 def _table(figures: dict[str, Any]) -> str:
@@ -123,6 +174,15 @@ def _table(figures: dict[str, Any]) -> str:
         parts = value.items() if isinstance(value, dict) else [("", value)]
         lines.append(f"{title:<{width}}  " + ", ".join(f"{part.replace('_', ' ')} {_shown(v)}".strip() for part, v in parts))
     return "\n".join(lines + [f"warning: {warning}" for warning in figures["warnings"]])
+
+
+def _found_table(figures: dict[str, Any]) -> str:
+    reached = figures["reached"]
+    said = f"{'Fewest channels that reach' if reached else 'None reaches'} {figures['felt_um']:g} µm under the finger"
+    rows = [FOUND, *([_shown(row[name]) for name in FOUND] for row in figures["designs"])]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    table = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows]
+    return "\n".join([f"{said}{'' if reached else '; the strongest'}:", *table])
 
 
 def _sweep_table(figures: dict[str, Any]) -> str:

@@ -6,7 +6,7 @@ import pytest
 from tables import each_row
 
 from controller.cli import main
-from controller.commands.design import ROWS
+from controller.commands.design import FOUND, ROWS
 
 
 def printed(capsys, *arguments, code=0):
@@ -40,6 +40,16 @@ def test_a_sweep_is_a_table_and_json(capsys):
     assert found["designs"][1]["tc_ms"] == pytest.approx(19.54, abs=0.005)
 
 
+def test_a_search_is_a_table_and_json_and_says_by_its_exit_code_whether_it_found_one(capsys):
+    table = printed(capsys, "--find", "channels", "--felt-um", 2).out.splitlines()
+    assert table[0] == "Fewest channels that reach 2 µm under the finger:"
+    assert table[1].split() == list(FOUND)
+    assert len({len(line) for line in table[1:]}) == 1
+    found = json.loads(printed(capsys, "--find", "thickness", "--felt-um", 9, "--json", code=1).out)
+    assert not found["reached"]
+    assert len(found["designs"]) == 1
+
+
 @pytest.mark.slow  # a command of the README draws one in the normal run
 def test_a_sweep_is_a_picture(capsys, tmp_path):
     picture = tmp_path / "sweep.png"
@@ -60,6 +70,14 @@ def test_a_sweep_is_a_picture(capsys, tmp_path):
         (("--sweep", "thickness_mm=1:inf:1"), "--sweep thickness_mm=1:inf:1"),
         (("--sweep", "thickness_mm=1:0:-0.25"), "thickness_mm = 0"),
         (("--plot", "a.png"), "give --sweep"),
+        (("--find", "thickness,width"), "'width' cannot be searched: one or more of thickness,channels,disc"),
+        (("--find", "thickness", "--thickness-mm", "1"), "thickness is given too"),
+        (("--find", "disc", "--disc", "7BB-20-6"), "disc is given too"),
+        (("--find", "disc", "--sweep", "thickness_mm=1:2:1"), "--find and --sweep: give one of both"),
+        (("--find", "disc", "--felt-um", "nan"), "--felt-um nan: must be above 0"),
+        (("--find", "channels", "--length-mm", "3"), "no such panel is possible"),
+        (("--disc", "7BB"), "is not in the catalogue: one of 7BB-12-9"),
+        (("--sectors", "0"), "sectors = 0: must be a whole number from 1 to 32"),
         (("--sweep", "channels=8:32:8", "--plot", "a.txt"), "a.txt"),
     ],
 )

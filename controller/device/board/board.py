@@ -22,6 +22,7 @@ from msgspec import Meta
 from controller.device.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
 from controller.device.board.lookup import board_places, find_board, in_system_folder
 from controller.device.board.panel import Actuator, BankSettings, Compose, Driver, Limits, Plate, Waveform
+from controller.device.board.parts import Parts, followed
 from controller.device.board.patches import Patches
 from controller.device.board.records import Record, as_record, read_tables
 from controller.device.board.relations.checked import judge
@@ -63,6 +64,8 @@ class Board(Record, frozen=True):
         Limits.
     patches
         Left out: the patches neither weigh anything nor stiffen the plate.
+    parts
+        Left out: [driver] and [patches] give all their keys.
     temperature
         Left out: the plate is taken to be as warm as the bank assumes.
     gateware
@@ -95,6 +98,7 @@ class Board(Record, frozen=True):
     idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None
     compose: Compose = Compose()
     patches: Patches | None = None
+    parts: Parts | None = None
     folder: Path = msgspec.field(default_factory=Path)
 
     @property
@@ -217,7 +221,27 @@ def as_board(before: str, tables: dict[str, Any]) -> Board:
     touch = tables.get("touch")
     record = touch_record(touch.get("kind")) if isinstance(touch, dict) else None
     found = as_record(before, tables, board_file((record,) if record else touch_records()))
-    return Board(**{name: getattr(found, name) for name in Board.__struct_fields__})
+    return _completed(before, Board(**{name: getattr(found, name) for name in Board.__struct_fields__}))
+
+
+def _completed(before: str, board: Board) -> Board:
+    """The board with the keys of [driver] and [patches] that were left out, as they follow from its parts.
+
+    Raises
+    ------
+    ConfigError
+        If there are no parts either, or they give a value that no board may have.
+    """
+    tables = {name: msgspec.structs.asdict(table) for name in ("driver", "patches") if (table := getattr(board, name)) is not None}
+    missing = [f"{name}.{key}" for name, table in tables.items() for key, value in table.items() if value != value]  # noqa: PLR0124
+    if not missing:
+        return board
+    if board.parts is None:
+        raise ConfigError(f"{before}{'; '.join(f'{key} is missing' for key in missing)}: give it, or [parts]")
+    follows = followed(board.parts, board.plate, board.waveform, **tables)
+    return msgspec.structs.replace(
+        board, **{name: as_record(f"{before}[parts] makes {name}.", follows[name], type(getattr(board, name))) for name in tables}
+    )
 
 
 @cache

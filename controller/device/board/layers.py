@@ -54,6 +54,8 @@ class Laminate(NamedTuple):
         Of the homogeneous plate that bends and weighs the same.
     rotation_kg : float
         Rotary inertia per area about the neutral axis.
+    axis_m : float
+        Height of the neutral axis above the bottom.
     shear_flexibility : float
         Over that of a solid plate of the same thickness and bending stiffness; 1 for one layer.
     """
@@ -63,6 +65,7 @@ class Laminate(NamedTuple):
     poisson_ratio: float
     density_kg_m3: float
     rotation_kg: float
+    axis_m: float
     shear_flexibility: float
 
 
@@ -88,6 +91,7 @@ def laminate(layers: Sequence[Layer]) -> Laminate:
         poisson_ratio=poisson,
         density_kg_m3=mass / top,
         rotation_kg=sum(layer.density_kg_m3 * ((b - axis) ** 3 - (a - axis) ** 3) / 3 for a, b, layer in sections),
+        axis_m=axis,
         shear_flexibility=_shear(sections, moduli, axis, stiffness) / (top**2 / (5 * stiffness * (1 - poisson))),
     )
 

@@ -9,7 +9,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, Layer, laminate, softest
-from controller.device.board.records import NotNegative, PlaceMm, Positive, Record, Share, SizeMm
+from controller.device.board.records import NotNegative, PlaceMm, Positive, Record, Share, SizeMm, left_out
 
 CHANNELS = 32
 EDGE_WINDOW_S = 0.25  # over which the FPGA counts the edges of a stage
@@ -134,7 +134,7 @@ class Plate(Record, frozen=True, kw_only=True):
     width_mm: Annotated[float, Meta(ge=20, le=4000)]
     thickness_mm: Annotated[float, Meta(ge=0.05, le=20)] = msgspec.field(default_factory=float)
     young_modulus_pa: Annotated[float, Meta(ge=1e9, le=1e12)] = msgspec.field(default_factory=float)
-    poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)] = msgspec.field(default_factory=lambda: float("nan"))
+    poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)] = msgspec.field(default_factory=left_out)
     density_kg_m3: Annotated[float, Meta(ge=100, le=25e3)] = msgspec.field(default_factory=float)
     edges: Support | Edges
     decay_time_ms: Annotated[float, Meta(ge=0.1, le=10e3)]
@@ -248,6 +248,8 @@ class Actuator(Record, frozen=True):
 class Driver(Record, frozen=True):
     """The push-pull stage of one channel, with the series R and L into the piezo's C (paper, fig. 4).
 
+    All but the supply may be left out where [parts] says what the patches are.
+
     Attributes
     ----------
     supply_v
@@ -263,10 +265,10 @@ class Driver(Record, frozen=True):
     """
 
     supply_v: Annotated[float, Meta(gt=0, le=60)]
-    resistance_ohm: Annotated[float, Meta(ge=1, le=1e6)]
-    inductance_h: Annotated[float, Meta(ge=1e-9, le=1)]
-    capacitance_f: Annotated[float, Meta(ge=1e-12, le=1e-6)]
-    moment_n_per_v: Annotated[float, Meta(ge=1e-6, le=1)]
+    resistance_ohm: Annotated[float, Meta(ge=1, le=1e6)] = msgspec.field(default_factory=left_out)
+    inductance_h: Annotated[float, Meta(ge=1e-9, le=1)] = msgspec.field(default_factory=left_out)
+    capacitance_f: Annotated[float, Meta(ge=1e-12, le=1e-6)] = msgspec.field(default_factory=left_out)
+    moment_n_per_v: Annotated[float, Meta(ge=1e-6, le=1)] = msgspec.field(default_factory=left_out)
 
 
 class Waveform(Record, frozen=True):

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated, Literal, NamedTuple
 
+import msgspec
 from msgspec import Meta
 
 from controller.device.board.panel import Actuator, Plate
-from controller.device.board.records import PlaceMm, Record
+from controller.device.board.records import PlaceMm, Record, left_out
 
 TOUCHING_MM = 1e-6  # patches may share an edge: neither place nor size is a binary fraction
 ONE_DISC = 1.5  # actuators whose centres are this many sizes apart, along x and y, are sectors of one disc
@@ -25,6 +26,8 @@ class Patch(NamedTuple):
 class Patches(Record, frozen=True):
     """Mass and stiffness that the patches add to the plate. `driver.moment_n_per_v` is then the moment on plate and patch together.
 
+    Both may be left out where [parts] says what the patches are.
+
     Attributes
     ----------
     mass_kg_m2
@@ -39,8 +42,8 @@ class Patches(Record, frozen=True):
         Centres [x, y]. Left out: of squares those of the actuators; of discs the middles of the actuators that are cut from one.
     """
 
-    mass_kg_m2: Annotated[float, Meta(ge=0, le=100)]
-    stiffness_ratio: Annotated[float, Meta(ge=0.1, le=1000)]
+    mass_kg_m2: Annotated[float, Meta(ge=0, le=100)] = msgspec.field(default_factory=left_out)
+    stiffness_ratio: Annotated[float, Meta(ge=0.1, le=1000)] = msgspec.field(default_factory=left_out)
     shape: Literal["disc", "square"] = "square"
     size_mm: Annotated[float, Meta(ge=0.5, le=500)] | None = None
     centres_mm: Annotated[tuple[tuple[PlaceMm, PlaceMm], ...], Meta(max_length=256)] = ()

@@ -40,6 +40,11 @@ SizeM = Annotated[float, Meta(gt=0, le=MOST_MM * 1e-3)]
 Share = Annotated[float, Meta(gt=0, le=1)]
 
 
+def left_out() -> float:
+    """Value, NaN, of a key that was left out and follows from others; no file may give it."""
+    return math.nan
+
+
 class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """A table of a TOML file: frozen, typed, without unknown keys."""
 

@@ -26,6 +26,8 @@ Floats = NDArray[np.float64]
 FREQUENCIES = 401
 DIRECTIONS = 91
 SAMPLED = 401  # radii of a spot, and times of a pulse
+MEMORY = 12.0  # of a signal's bits, over one over its bandwidth
+HEARD_CLOCKS, HEARD_FREQUENCIES = 4.0, 4001  # frequencies of bits that heat, up to so many bit clocks
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +83,33 @@ class FocalSpectrum:
     def crossings_hz(self) -> float:
         """Edges a second of the sign of a random signal with this spectrum (Rice)."""
         return 2 * math.sqrt(trapezoid(self.weight_s * self.frequency_hz**2, self.frequency_hz))
+
+    def resistor_w(self, driver: Driver, bit_clock_hz: float) -> float:
+        """Heat in the series resistor of one stage that plays without end the sign of a random signal with this spectrum.
+
+        Its autocorrelation is that of the signal by the arcsine law (Van Vleck and Middleton, Proc. IEEE 54 (1966) 2); each bit is
+        held for its period. At most V^2 / 4 R, whatever the capacitance.
+        """
+        lags = np.arange(1, math.ceil(MEMORY / (self.frequency_hz[-1] - self.frequency_hz[0]) * bit_clock_hz) + 1)
+        likeness = (
+            2
+            / np.pi
+            * np.arcsin(np.clip(self._sum(np.cos(2 * np.pi * np.multiply.outer(lags / bit_clock_hz, self.frequency_hz))), -1, 1))
+        )
+        at_hz: Floats = np.linspace(0, HEARD_CLOCKS * bit_clock_hz, HEARD_FREQUENCIES)
+        angular = 2 * np.pi * at_hz
+        of_bits = (
+            (1 + 2 * np.cos(np.multiply.outer(angular / bit_clock_hz, lags)) @ likeness)
+            * np.sinc(at_hz / bit_clock_hz) ** 2
+            / bit_clock_hz
+        )
+        resistance, of_f = driver.resistance_ohm, driver.capacitance_f
+        conductance = (
+            resistance
+            * (angular * of_f) ** 2
+            / ((1 - angular**2 * driver.inductance_h * of_f) ** 2 + (angular * resistance * of_f) ** 2)
+        )
+        return driver.supply_v**2 / 4 * 2 * float(trapezoid(of_bits * conductance, at_hz))
 
     def amplitude_m(self, volts: float, channels: int, duration_s: float, decay_s: float) -> float:
         """Amplitude of a focus by 1-bit drive of `volts` from its middle: the sum of |h|, normally distributed."""

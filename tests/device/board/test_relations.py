@@ -41,6 +41,7 @@ ON_I2C = Ft5x06Touch(
 )
 ON_SERIAL = EloTouch(**WHOLE, device="/dev/ttyUSB1")
 COLD = Temperature(kind="lm75", device="/dev/i2c-1", coefficient_per_k=-2e-4)
+MADE_N_PER_V = BOARD.parts.on(BOARD.plate).moment_n_per_v
 WAVE_MM = bending_wavelength_m(BOARD.plate, BOARD.waveform.band_high_hz) * 1e3
 MIDDLE_MM = bending_wavelength_m(BOARD.plate, BOARD.waveform.middle_hz) * 1e3
 
@@ -103,6 +104,7 @@ JUST = {
         {"patches": Patches(mass_kg_m2=1.0, stiffness_ratio=2.0, shape="disc", size_mm=50.0)},
     ),
     "_idle": ({"actuators": idling([0, 1, 1, 0])}, {"actuators": idling([1, 1, 1, 0])}),
+    "_parts": ({"driver__moment_n_per_v": MADE_N_PER_V * 1.49}, {"driver__moment_n_per_v": MADE_N_PER_V * 1.51}),
     "_patch_size": (
         {"actuators": (msgspec.structs.replace(BOARD.actuators[0], x_mm=50.0, y_mm=50.0, size_mm=0.749 * WAVE_MM),)},
         {"actuators": (msgspec.structs.replace(BOARD.actuators[0], x_mm=50.0, y_mm=50.0, size_mm=0.751 * WAVE_MM),)},

@@ -13,12 +13,14 @@ from controller.device.board.board import load_board
 from controller.device.board.layers import Layer
 from controller.device.board.lookup import find_board
 from controller.device.board.panel import Damping, Foam, Plate
+from controller.device.board.parts import Parts
 from controller.device.board.relations.bending_waves import kirchhoff_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.errors import ConfigError
 from controller.workshop.benchmark.stage.power import resistor_loss_j
 from controller.workshop.physics.design import design
 from controller.workshop.physics.design.design_figures import design_figures
 from controller.workshop.physics.design.design_inputs import MOST_STEPS, NUMBERS, sweep
+from controller.workshop.physics.design.find_design import GLASS_MM, find_designs
 from controller.workshop.physics.focal_spectrum import FocalSpectrum
 
 BOARD = load_board(find_board("simulated"))
@@ -108,18 +110,69 @@ def test_a_flat_spectrum_has_the_closed_forms_of_the_paper():
     assert flat.mass_attenuation(0) == pytest.approx(1, abs=1e-6)
 
 
-def test_resistors_burn_what_is_computed_for_random_bits_of_that_spectrum():
-    """Within 8 %: the estimate takes edges as far apart, which ring into each other."""
-    spectrum = FocalSpectrum.of(GLASS, BOARD.driver, 4.6e-3, (20e3, 70e3), 500e3)
-    samples = 8000
+@each_row("stage", [{}, {"capacitance_f": 21e-9}, {"capacitance_f": 21e-9, "inductance_h": 0.65e-3, "resistance_ohm": 190.0}])
+def test_resistors_burn_what_is_computed_for_random_bits_of_that_spectrum(stage):
+    """Step by step, over 16 channels of 20 ms; never more than a square wave at resonance would, V^2 / 4 R."""
+    driver = msgspec.structs.replace(BOARD.driver, **stage)
+    spectrum = FocalSpectrum.of(GLASS, driver, 4.6e-3, (20e3, 70e3), 500e3)
+    samples = 20_000
     bins = np.fft.rfftfreq(samples, 2e-6)
     spread = np.sqrt(np.interp(bins, spectrum.frequency_hz, spectrum.weight_s, 0, 0))
     random = np.random.default_rng(1)
-    bits = np.fft.irfft(spread * (random.normal(size=(8, bins.size)) + 1j * random.normal(size=(8, bins.size)))).T > 0
-    burnt_w = float(resistor_loss_j(BOARD.driver, bits.astype(np.int8), 2e-6).mean()) / (samples * 2e-6)
-    estimate_w = design_figures(BOARD)["resistors_w"]
-    print(f"resistors: {estimate_w:.3g} W, of random bits {32 * burnt_w:.3g} W")
-    assert estimate_w == pytest.approx(32 * burnt_w, rel=0.08)
+    bits = np.fft.irfft(spread * (random.normal(size=(16, bins.size)) + 1j * random.normal(size=(16, bins.size)))).T > 0
+    burnt_w = float(resistor_loss_j(driver, bits.astype(np.int8), 2e-6).mean()) / (samples * 2e-6)
+    estimate_w = spectrum.resistor_w(driver, 500e3)
+    same(estimate_w, burnt_w, 0.008, "resistor in W")
+    assert estimate_w < driver.supply_v**2 / (4 * driver.resistance_ohm)
+
+
+def test_the_glass_that_a_finger_feels_most_is_neither_thin_nor_thick():
+    """The moment grows with the glass, the deflection falls, and thin glass is stopped by the finger."""
+    felt = {mm: design_figures(BOARD, {"thickness_mm": mm})["amplitude_under_finger_um"] for mm in (0.3, 0.5, 0.8, 1.1, 2.0)}
+    assert max(felt, key=felt.get) == 0.8
+    assert felt[0.3] < felt[2.0] < felt[0.5]
+
+
+def test_what_follows_from_parts_follows_and_what_is_given_stands():
+    own = msgspec.structs.asdict(BOARD.driver)
+    assert design_figures(BOARD)["inputs"] == pytest.approx(design_figures(BOARD)["inputs"] | own)
+    large = design_figures(BOARD, {"size_mm": 15})["inputs"]
+    same(large["capacitance_f"], 2e-9 * (15 / 4.6) ** 2, 1e-9, "C of a larger patch")
+    assert large["inductance_h"] * large["capacitance_f"] == pytest.approx(own["inductance_h"] * own["capacitance_f"])
+    stands = design_figures(BOARD, {"size_mm": 15, "capacitance_f": 2e-9, "thickness_mm": 1, "moment_n_per_v": 1e-3})["inputs"]
+    assert (stands["capacitance_f"], stands["moment_n_per_v"]) == (2e-9, 1e-3)
+    assert stands["resistance_ohm"] == pytest.approx(own["resistance_ohm"])
+    low = design_figures(BOARD, {"band_low_hz": 10e3, "band_high_hz": 35e3})["inputs"]
+    assert low["inductance_h"] == pytest.approx(4 * own["inductance_h"])
+    disc = design_figures(BOARD, parts=Parts(disc="7BB-20-6"))["inputs"]
+    assert disc["capacitance_f"] == pytest.approx(2.5e-9)
+    assert disc["size_mm"] / 4.6 == pytest.approx(14 / 9)
+
+
+def test_a_tenth_more_supply_adds_a_tenth():
+    gained = design_figures(BOARD)["gains_percent"]
+    assert gained["supply_v"] == pytest.approx(10)
+    assert gained["channels"] == pytest.approx(100 * 3 / 32)
+    assert list(gained.values()) == sorted(gained.values(), reverse=True)
+
+
+@each_row(("searched", "felt_um"), [(("thickness", "channels", "disc"), 3.0), (("channels",), 2.0), (("disc", "thickness"), 4.5)])
+def test_a_search_finds_the_fewest_channels_that_reach_it(searched, felt_um):
+    rows = find_designs(BOARD, {}, None, searched, felt_um)
+    assert [row["channels"] for row in rows] == sorted(row["channels"] for row in rows)
+    assert all(row["amplitude_under_finger_um"] >= felt_um for row in rows)
+    if "channels" in searched:
+        for row in rows:
+            fewer = {"thickness_mm": row["thickness_mm"], "channels": row["channels"] - 4}
+            found = design_figures(BOARD, fewer, Parts(disc=row["disc"]))
+            assert found["amplitude_under_finger_um"] < felt_um
+
+
+def test_a_search_that_finds_nothing_gives_the_strongest():
+    (row,) = find_designs(BOARD, {"supply_v": 5.0}, None, ("thickness", "disc"), 3.0)
+    assert row["amplitude_under_finger_um"] < 3.0
+    others = [design_figures(BOARD, {"supply_v": 5.0, "thickness_mm": mm}, Parts(disc=row["disc"])) for mm in GLASS_MM]
+    assert row["amplitude_under_finger_um"] == max(one["amplitude_under_finger_um"] for one in others)
 
 
 def test_what_the_paper_simplifies_is_warned_of_in_one_line_each():

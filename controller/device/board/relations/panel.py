@@ -20,6 +20,7 @@ LEAST_PASSED = 0.5  # of the stage's voltage, in the middle of the band
 VACUUM_F_M = 8.854e-12
 CERAMIC = (500.0, 4000.0)  # relative permittivity of piezo ceramics, hard to soft
 CERAMIC_MM = (0.05, 3.0)  # thickness that is made
+PARTS_DIFFER = 1.5  # datasheets allow 30 % of capacitance; glue is not known better
 BANK_BYTES = 44.1  # of a cell, for each sample: drive words as frames, and responses
 LARGEST_BANK_BYTES = 4e9
 
@@ -145,6 +146,29 @@ def _driver_band(board: Board) -> Iterator[str]:
         )
 
 
+@warns("`parts`, `driver.capacitance_f`, `moment_n_per_v`, `patches`, `actuators.size_mm`")
+def _parts(board: Board) -> Iterator[str]:
+    """What a board gives is within a half of what its parts make of it."""
+    if board.parts is None:
+        return
+    on, patches = board.parts.on(board.plate), board.patches
+    pairs = [("driver.moment_n_per_v", board.driver.moment_n_per_v, on.disc_moment_n_per_v if patches else on.moment_n_per_v)]
+    for size_mm in sorted({actuator.size_mm for actuator in board.actuators}):
+        pairs.append(
+            (
+                f"actuators.size_mm = {size_mm:g}: driver.capacitance_f",
+                board.driver.capacitance_f,
+                board.parts.capacitance_f(size_mm),
+            )
+        )
+    if patches:
+        pairs.append(("patches.mass_kg_m2", patches.mass_kg_m2, on.mass_kg_m2))
+        pairs.append(("patches.stiffness_ratio", patches.stiffness_ratio, on.stiffness_ratio))
+    for key, given, made in pairs:
+        if not 1 / PARTS_DIFFER <= given / made <= PARTS_DIFFER:
+            yield f"{key} = {given:.3g}, of {board.parts.called} {made:.3g}: measure it, or give the parts that the panel has"
+
+
 @refuses("`bank.pitch_mm`, `plate`, `waveform.band_high_hz`")
 def _pitch(board: Board) -> Iterator[str]:
     """Cells are at most half a wave apart, unless `bank.coarse`."""
@@ -198,6 +222,7 @@ RELATIONS = (
     _idle,
     _patch_size,
     _capacitance,
+    _parts,
     _driver_band,
     _pitch,
     _cells,

@@ -6,20 +6,21 @@ Amplitude, spot, pulse and both contrasts that can be measured are estimates by 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import msgspec
 import numpy as np
 
 from controller.device.board.board import Board
-from controller.device.board.panel import OF_LAYERS, Driver, Plate
-from controller.device.board.records import Record
+from controller.device.board.panel import Plate
+from controller.device.board.parts import Parts
 from controller.device.board.relations.bending_waves import kirchhoff_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.errors import ConfigError
 from controller.workshop.physics.design import design
-from controller.workshop.physics.design.design_inputs import NUMBERS, DesignInputs, inputs_of
+from controller.workshop.physics.design.design_inputs import FELT_UM, inputs_of
 from controller.workshop.physics.design.design_warnings import design_warnings
+from controller.workshop.physics.design.panel_estimate import PanelEstimate, gains_percent
 from controller.workshop.physics.field import OUTSIDE_M
 from controller.workshop.physics.focal_spectrum import FocalSpectrum
 from controller.workshop.physics.modes.plate_modes import modes_of
@@ -28,7 +29,7 @@ from controller.workshop.physics.plate import WAVELENGTH_M
 Figures = dict[str, Any]
 
 
-def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> Figures:
+def design_figures(board: Board, changes: Mapping[str, float] | None = None, parts: Parts | None = None) -> Figures:
     """Figures of a design, ready for JSON: its numbers under `inputs`, warnings, one line each, under `warnings`.
 
     Parameters
@@ -37,39 +38,50 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
         Gives what is not in `changes`; if it has damping, foam with a dashpot or layers, their effect on the band as a whole.
     changes : mapping of str to float, optional
         Values of `NUMBERS`.
+    parts : Parts, optional
+        Other parts than the board's.
 
     Raises
     ------
     ConfigError
         If a number is not possible.
     """
-    given = inputs_of(board, {**_decay_of(board), **(changes or {})})
-    plate = _plate(board, given)
-    driver = msgspec.structs.replace(board.driver, **_fields(given, Driver))
-    duration_s, decay_s, period_s = given.duration_ms * 1e-3, given.decay_time_ms * 1e-3, given.period_ms * 1e-3
-    low_hz, high_hz = given.band_low_hz, given.band_high_hz
-    middle_hz, width_hz = (low_hz + high_hz) / 2, high_hz - low_hz
-    spectrum = FocalSpectrum.of(plate, driver, given.size_mm * 1e-3, (low_hz, high_hz), given.bit_clock_hz)
-    tc_s = design.characteristic_time_s(plate)
-    kirchhoff_m = [kirchhoff_wavelength_m(plate, f) for f in (low_hz, middle_hz, high_hz)]
-    mindlin_m = [mindlin_wavelength_m(plate, f) for f in (low_hz, middle_hz, high_hz)]
-    resolution_m = design.half_wave_m(kirchhoff_m[2])
-    possible_m = spectrum.amplitude_m(driver.supply_v / 2, given.channels, duration_s, decay_s)
-    amplitude_m = possible_m if given.amplitude_um is None else given.amplitude_um * 1e-6
-    contrast = design.contrast(width_hz, tc_s, given.channels, duration_s, decay_s)
-    repeated = design.repetition_factor(period_s, decay_s)
-    outside_m = OUTSIDE_M * kirchhoff_m[1] / WAVELENGTH_M
-    spots_j = spectrum.energy_j(amplitude_m)
-    resistors_w = given.channels * driver.capacitance_f * driver.supply_v**2 / 2 * spectrum.crossings_hz
-    finger_kg, spot_m = given.finger_mg * 1e-6, spectrum.width_m()
-    left = spectrum.mass_attenuation(finger_kg)
-    cells = design.learning_grid(plate, mindlin_m[2])
-    background = (tc_s * width_hz / contrast**2) - 1  # of eq. (1), over the spot's own part
-    energy_j = spots_j * (1 + background)  # half of which moves at T
+    changes = {**_decay_of(board), **(changes or {})}
+    estimate = PanelEstimate(board, inputs_of(board, changes, parts))
     figures: Figures = {
+        "inputs": msgspec.to_builtins(estimate.given),
+        **_felt(estimate),
+        "gains_percent": gains_percent(board, changes, parts, estimate),
+        **_modes(board, estimate),
+        **_waves(estimate),
+        **_amplitude_and_energy(estimate),
+        **_stages(estimate),
+        **_learning(estimate),
+    }
+    return {**figures, "warnings": design_warnings(figures, estimate.plate)}
+
+
+def _felt(panel: PanelEstimate) -> Figures:
+    return {
+        "amplitude_under_finger_um": panel.under_finger_m * 1e6,
+        "felt_share": panel.under_finger_m * 1e6 / FELT_UM,
+        "possible_amplitude_um": panel.possible_m * 1e6,
+        "amplitude_um": panel.amplitude_m * 1e6,
+        "finger_left": design.gate_attenuation(panel.plate, panel.given.finger_mg * 1e-6, _resolution_m(panel)),
+        "finger_left_of_band": panel.left,
+    }
+
+
+def _modes(board: Board, panel: PanelEstimate) -> Figures:
+    given, spectrum, tc_s = panel.given, panel.spectrum, design.characteristic_time_s(panel.plate)
+    width_hz, decay_s, duration_s = given.band_high_hz - given.band_low_hz, given.decay_time_ms * 1e-3, given.duration_ms * 1e-3
+    contrast = design.contrast(width_hz, tc_s, given.channels, duration_s, decay_s)
+    background, outside_m = _background(panel), OUTSIDE_M * _wavelengths_m(panel, kirchhoff_wavelength_m)[1] / WAVELENGTH_M
+    repeated = design.repetition_factor(given.period_ms * 1e-3, decay_s)
+    return {
         "tc_ms": tc_s * 1e3,
         "modes_in_band": tc_s * width_hz,
-        "modes_counted": _counted(board, plate, low_hz, high_hz),
+        "modes_counted": _counted(board, panel.plate, given.band_low_hz, given.band_high_hz),
         "modal_overlap": tc_s / (math.pi * decay_s),
         "contrast": contrast,
         "contrast_bound": design.contrast_bound(width_hz, tc_s),
@@ -78,42 +90,85 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
         "outside_mm": outside_m * 1e3,
         "contrast_repeated": contrast * repeated,
         "repetition_factor": repeated,
+    }
+
+
+def _waves(panel: PanelEstimate) -> Figures:
+    kirchhoff_m, mindlin_m = (_wavelengths_m(panel, theory) for theory in (kirchhoff_wavelength_m, mindlin_wavelength_m))
+    plate, spectrum, spot_m = panel.plate, panel.spectrum, panel.spectrum.width_m()
+    return {
         "wavelength_mm": {"low": kirchhoff_m[0] * 1e3, "middle": kirchhoff_m[1] * 1e3, "high": kirchhoff_m[2] * 1e3},
         "mindlin_wavelength_mm": {"low": mindlin_m[0] * 1e3, "middle": mindlin_m[1] * 1e3, "high": mindlin_m[2] * 1e3},
-        "mindlin_shift": -mindlin_shift(plate, high_hz),
-        "resolution_mm": resolution_m * 1e3,
+        "mindlin_shift": -mindlin_shift(plate, panel.given.band_high_hz),
+        "resolution_mm": _resolution_m(panel) * 1e3,
         "spot_mm": spot_m * 1e3,
         "spot_3db_mm": spectrum.width_m(math.sqrt(0.5)) * 1e3,
-        "gate_us": design.gate_duration_s(high_hz) * 1e6,
+        "gate_us": design.gate_duration_s(panel.given.band_high_hz) * 1e6,
         "pulse_us": spectrum.pulse_s() * 1e6,
-        "possible_amplitude_um": possible_m * 1e6,
-        "amplitude_um": amplitude_m * 1e6,
-        "one_bit_share": design.one_bit_share(duration_s, decay_s),
-        "linear_share": design.linear_share(duration_s, decay_s),
-        "energy_uj": design.energy_j(plate, amplitude_m, resolution_m) * 1e6,
-        "energy_of_band_uj": spots_j * 1e6,
-        "energy_with_background_uj": energy_j * 1e6,
-        "kinetic_share": background / 2 / (1 + background),
-        "energy_decay_ms": decay_s / 2 * 1e3,
-        "mechanical_power_mw": energy_j / duration_s * 1e3,
-        "resistors_w": resistors_w,
-        "resistors_repeated_w": resistors_w * duration_s / period_s,
-        "finger_left": design.gate_attenuation(plate, finger_kg, resolution_m),
-        "finger_left_of_band": left,
-        "amplitude_under_finger_um": amplitude_m * left * 1e6,
-        "points_to_learn": design.learning_points(plate, kirchhoff_m[2]),
-        "learning_grid": f"{cells[0]} x {cells[1]}",
-        "learning_pitch_mm": design.half_wave_m(mindlin_m[2]) * 1e3,
         "in_wavelengths": {
             "length": plate.length_m / kirchhoff_m[1],
             "width": plate.width_m / kirchhoff_m[1],
             "spot": spot_m / kirchhoff_m[1],
             "thickness_of_shortest": plate.thickness_m / mindlin_m[2],
-            "patch_of_shortest": given.size_mm * 1e-3 / kirchhoff_m[2],
+            "patch_of_shortest": panel.given.size_mm * 1e-3 / kirchhoff_m[2],
         },
     }
-    figures = {"inputs": msgspec.to_builtins(given), **figures}
-    return {**figures, "warnings": design_warnings(figures, plate)}
+
+
+def _amplitude_and_energy(panel: PanelEstimate) -> Figures:
+    decay_s, duration_s = panel.given.decay_time_ms * 1e-3, panel.given.duration_ms * 1e-3
+    background, spots_j = _background(panel), panel.spectrum.energy_j(panel.amplitude_m)
+    energy_j = spots_j * (1 + background)  # half of the background moves at T
+    return {
+        "one_bit_share": design.one_bit_share(duration_s, decay_s),
+        "linear_share": design.linear_share(duration_s, decay_s),
+        "energy_uj": design.energy_j(panel.plate, panel.amplitude_m, _resolution_m(panel)) * 1e6,
+        "energy_of_band_uj": spots_j * 1e6,
+        "energy_with_background_uj": energy_j * 1e6,
+        "kinetic_share": background / 2 / (1 + background),
+        "energy_decay_ms": decay_s / 2 * 1e3,
+        "mechanical_power_mw": energy_j / duration_s * 1e3,
+    }
+
+
+def _stages(panel: PanelEstimate) -> Figures:
+    given, resistors_w = panel.given, panel.given.channels * panel.resistor_w
+    repeated_w = resistors_w * given.duration_ms / given.period_ms
+    return {
+        "resistors_w": resistors_w,
+        "resistors_repeated_w": repeated_w,
+        "supply_ma": repeated_w / given.supply_v * 1e3,
+        "edges_khz": panel.spectrum.crossings_hz * 1e-3,
+        "edge_limit_khz": panel.edge_limit_hz * 1e-3,
+    }
+
+
+def _learning(panel: PanelEstimate) -> Figures:
+    kirchhoff_m, mindlin_m = (_wavelengths_m(panel, theory)[2] for theory in (kirchhoff_wavelength_m, mindlin_wavelength_m))
+    cells = design.learning_grid(panel.plate, mindlin_m)
+    return {
+        "points_to_learn": design.learning_points(panel.plate, kirchhoff_m),
+        "learning_grid": f"{cells[0]} x {cells[1]}",
+        "learning_pitch_mm": design.half_wave_m(mindlin_m) * 1e3,
+    }
+
+
+def _wavelengths_m(panel: PanelEstimate, theory: Callable[[Plate, float], float]) -> tuple[float, float, float]:
+    """At the band's lower edge, middle and upper edge."""
+    low_hz, high_hz = panel.given.band_low_hz, panel.given.band_high_hz
+    return theory(panel.plate, low_hz), theory(panel.plate, (low_hz + high_hz) / 2), theory(panel.plate, high_hz)
+
+
+def _resolution_m(panel: PanelEstimate) -> float:
+    return design.half_wave_m(_wavelengths_m(panel, kirchhoff_wavelength_m)[2])
+
+
+def _background(panel: PanelEstimate) -> float:
+    """Mean square of eq. (1) over that of the spot's own part, less the latter."""
+    given, tc_s = panel.given, design.characteristic_time_s(panel.plate)
+    width_hz = given.band_high_hz - given.band_low_hz
+    contrast = design.contrast(width_hz, tc_s, given.channels, given.duration_ms * 1e-3, given.decay_time_ms * 1e-3)
+    return (tc_s * width_hz / contrast**2) - 1
 
 
 def _decay_of(board: Board) -> dict[str, float]:
@@ -124,28 +179,6 @@ def _decay_of(board: Board) -> dict[str, float]:
     modes = modes_of(board, waveform.band_high_hz)
     in_band = modes.angular_frequency >= 2 * math.pi * waveform.band_low_hz
     return {"decay_time_ms": 1e3 / float(np.median(modes.decay_rate[in_band if in_band.any() else slice(None)]))}
-
-
-def _plate(board: Board, given: DesignInputs) -> Plate:
-    """Plate of a board with other numbers; one of another material or thickness has no layers.
-
-    Raises
-    ------
-    ConfigError
-        If the board's edges do not go with its size.
-    """
-    plate, numbers = board.plate, _fields(given, Plate)
-    changed = {name: value for name, value in numbers.items() if value != getattr(plate, name) and name != "decay_time_ms"}
-    if changed.keys() & set(OF_LAYERS):
-        changed |= {name: numbers[name] for name in OF_LAYERS} | {"layers": ()}
-    try:
-        return msgspec.structs.replace(plate, **changed) if changed else plate
-    except ValueError as error:
-        raise ConfigError(f"the board's plate.{error}") from error
-
-
-def _fields(given: DesignInputs, kind: type[Record]) -> dict[str, Any]:
-    return {name: getattr(given, name) for name in NUMBERS if name in kind.__struct_fields__}
 
 
 def _outside(spectrum: FocalSpectrum, tc_s: float, background: float, radius_m: float) -> float | None:

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any, Final
 
+import msgspec
 from msgspec import Meta
 
 from controller.device.board.board import Board
+from controller.device.board.panel import OF_LAYERS, Plate
+from controller.device.board.parts import Parts
 from controller.device.board.records import Record, as_record
 from controller.errors import ConfigError
+from controller.workshop.physics.design.from_parts import from_parts
 
 FINGER_MG = 100.0  # at 1 N (paper, section V)
+FELT_UM: Final = 3.0  # left of 7 under a finger that pressed with 1 N, and felt strongly (paper, sections V and VI)
 MOST_STEPS = 1000
+PLATE: Final = ("length_mm", "width_mm", *OF_LAYERS)
 
 
 class DesignInputs(Record, frozen=True):
@@ -102,19 +108,47 @@ class DesignInputs(Record, frozen=True):
 NUMBERS = tuple(DesignInputs.__struct_fields__)
 
 
-def inputs_of(board: Board, changes: Mapping[str, float]) -> DesignInputs:
-    """Numbers of a board, but for `changes`.
+def inputs_of(board: Board, changes: Mapping[str, float], parts: Parts | None = None) -> DesignInputs:
+    """Numbers of a board, but for `changes` and what follows from them: see `from_parts`.
+
+    Parameters
+    ----------
+    parts : Parts, optional
+        Other parts than the board's.
 
     Raises
     ------
     ConfigError
         Naming the number that is not possible, and what is.
     """
-    numbers: dict[str, float] = {}
+    own: dict[str, float] = {}
     for table in (board.plate, board.driver, board.waveform):
-        numbers |= {name: getattr(table, name) for name in NUMBERS if hasattr(table, name)}
+        own |= {name: getattr(table, name) for name in NUMBERS if hasattr(table, name)}
     sizes = sorted(actuator.size_mm for actuator in board.actuators)
-    numbers |= {"channels": len(sizes), "size_mm": sizes[len(sizes) // 2], "finger_mg": FINGER_MG, **changes}
+    own |= {"channels": len(sizes), "size_mm": sizes[len(sizes) // 2], "finger_mg": FINGER_MG}
+    given = _record({**own, **changes})
+    plate, middle_hz = plate_of(board.plate, msgspec.structs.asdict(given)), (given.band_low_hz + given.band_high_hz) / 2
+    return _record({**own, **changes, **from_parts(board, own, plate, middle_hz, changes, parts)})
+
+
+def plate_of(plate: Plate, numbers: Mapping[str, Any]) -> Plate:
+    """A plate with other numbers; one of another material or thickness has no layers.
+
+    Raises
+    ------
+    ConfigError
+        If the board's edges do not go with its size.
+    """
+    changed = {name: value for name, value in numbers.items() if name in PLATE and value != getattr(plate, name)}
+    if changed.keys() & set(OF_LAYERS):
+        changed |= {name: numbers[name] for name in OF_LAYERS} | {"layers": ()}
+    try:
+        return msgspec.structs.replace(plate, **changed) if changed else plate
+    except ValueError as error:
+        raise ConfigError(f"the board's plate.{error}") from error
+
+
+def _record(numbers: dict[str, float]) -> DesignInputs:
     numbers.setdefault("period_ms", numbers["duration_ms"])
     if float(numbers["channels"]).is_integer():
         numbers["channels"] = int(numbers["channels"])

@@ -15,7 +15,12 @@ COLUMNS = 3
 
 
 def plot_sweep(
-    path: Path, swept: str, values: Sequence[float], rows: Sequence[Mapping[str, Any]], titles: Mapping[str, str]
+    path: Path,
+    swept: str,
+    values: Sequence[float],
+    rows: Sequence[Mapping[str, Any]],
+    titles: Mapping[str, str],
+    wanted: Mapping[str, float],
 ) -> None:
     """Draw figures over a number of the design.
 
@@ -31,6 +36,8 @@ def plot_sweep(
         `design_figures` at each value.
     titles : mapping
         Of each figure that is drawn, its title.
+    wanted : mapping
+        Of figures that are to be large, the value from which they are enough: drawn as a line, with the best of the sweep.
 
     Raises
     ------
@@ -44,9 +51,13 @@ def plot_sweep(
         drawn = np.array([np.nan if row[name] is None else row[name] for row in rows], np.float64)
         panel.plot(values, drawn, color="black", lw=1, marker="." if len(values) < 40 else None)
         panel.set_title(title, fontsize=9)
-        panel.margins(y=0.1)
+        if name in wanted:
+            panel.axhline(wanted[name], color="C3", lw=1, ls="--")
+            best = int(np.nanargmax(drawn))
+            panel.plot(values[best], drawn[best], "o", color="C3")
+            panel.annotate(f" {drawn[best]:.3g} at {values[best]:.3g}", (values[best], drawn[best]), fontsize=8, va="bottom")
         panel.set_xlabel(swept)
-        panel.set_ylim(bottom=0)
+        panel.set_ylim(0, 1.1 * max(float(np.nanmax(drawn, initial=0)), wanted.get(name, 0)) or 1)
         panel.grid(color="0.85", lw=0.5)
     for panel in panels[len(titles) :]:
         panel.axis("off")
