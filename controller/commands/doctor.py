@@ -15,6 +15,7 @@ from controller.device.board.lookup import find_board, own_board
 from controller.device.doctor.doctor import look
 from controller.device.doctor.finding import Finding
 from controller.device.doctor.link_examination import LinkExamined, examine_link
+from controller.device.doctor.way import Step, in_lines, way
 from controller.device.service.drivers import open_session
 from controller.device.service.installation import is_installed
 from controller.errors import ControllerError
@@ -64,7 +65,9 @@ def examine(options: argparse.Namespace) -> int:
         findings += examined.findings
         figures = examined.figures
     good = all(finding.good for finding in findings)
-    show(options, {"board": board.name, "good": good, "findings": [asdict(finding) for finding in findings], **figures}, _table)
+    steps = [] if board.link.kind == "simulated" else [step._asdict() for step in way(board, findings)]
+    said = [asdict(finding) for finding in findings]
+    show(options, {"board": board.name, "good": good, "findings": said, **figures, "way": steps}, _table)
     return 0 if good else 1
 
 
@@ -86,6 +89,8 @@ def _table(figures: dict[str, Any]) -> str:
     if "sck_measured_hz" in figures:
         unknown = "; SCK could not be measured" if figures["sck_measured_hz"] is None else ""
         lines.append(f"{'':<8}{figures['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel{unknown}")
+    if any(step["done"] is False for step in figures["way"]):
+        lines += ["", "the way of a new panel ([?]: not to be seen from here):", *in_lines(Step(**step) for step in figures["way"])]
     return "\n".join(lines)
 
 
