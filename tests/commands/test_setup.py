@@ -1,13 +1,11 @@
 """`haptic-panel setup` as a builder meets it: asked at a terminal, given by options, refused in one line."""
 
 import json
-import os
-import pty
-import subprocess
 import sys
 
 import pytest
 from tables import each_row
+from terminal import at_terminal
 
 from controller.cli import main
 from controller.device.board.board import load_board
@@ -34,37 +32,9 @@ TALK = [  # what is asked, and the answers of somebody who errs; an empty one ta
 ]
 
 
-def at_terminal(arguments, talk):
-    """Run the command at a pseudo-terminal; all that stood on it, once it has ended with exit code 0."""
-    terminal, its_end = pty.openpty()
-    command = [sys.executable, "-m", "controller", *arguments]
-    with subprocess.Popen(command, stdin=its_end, stdout=its_end, stderr=its_end, start_new_session=True) as asking:
-        os.close(its_end)
-        screen, asked = "", list(talk)
-        while read := read_some(terminal):
-            screen += read
-            if asked and screen.rpartition("\n")[2].endswith("): "):
-                wanted, answer = asked.pop(0)
-                assert wanted in screen.rpartition("\n")[2]
-                screen += "\n"
-                os.write(terminal, f"{answer}\n".encode())
-    os.close(terminal)
-    assert asking.returncode == 0, screen
-    assert not asked
-    return screen
-
-
-def read_some(terminal):
-    """What stands on a terminal next; nothing once its program has ended."""
-    try:
-        return os.read(terminal, 4096).decode()
-    except OSError:
-        return ""
-
-
 def test_a_builder_is_asked_again_until_the_answer_is_one(tmp_path):
     folder = tmp_path / "panel"
-    screen = at_terminal(["setup", str(folder)], TALK)
+    screen = at_terminal([sys.executable, "-m", "controller", "setup", str(folder)], TALK)
     for refused in (
         "width_mm = 13.6: must be a number from 20 to 4000 mm",
         "thickness_mm = '1,1'",

@@ -102,11 +102,10 @@ def board_text(name: str, answers: Answers, touch: Mapping[str, Any]) -> str:
         "]",
         "",
         _table("plate", answers.plate_keys),
-        _table("parts", {"disc": answers.disc}, "capacitance, moment, R and L follow from it"),
-        f"# {_bought(driver)}",
-        _table("driver", {"supply_v": supply_v}),
+        _table("parts", {"disc": answers.disc}, "Capacitance, moment, R and L follow from it"),
+        _table("driver", {"supply_v": supply_v}, _bought(driver)),
         _table("bank", {"pitch_mm": pitch_mm, "snap_mm": round(pitch_mm / 10, 3)}),
-        _table("touch", panel, "axes as drawn, until calibrate-touch has measured them"),
+        _table("touch", panel, "Axes as drawn, until calibrate-touch has measured them"),
         *(sections[one].rstrip() + "\n" for one in KEPT if one in sections),
         _limits(sections["limits"], tables["limits"], driver, answers, len(actuators)),
     ])  # fmt: skip
@@ -144,8 +143,7 @@ def _sections(text: str) -> dict[str, str]:
 
 
 def _table(name: str, keys: Mapping[str, Any], comment: str = "") -> str:
-    heading = f"[{name}]" + (f"  # {comment}" if comment else "")
-    return "\n".join([heading, *(f"{key} = {_value(value)}" for key, value in keys.items()), ""])
+    return "\n".join([*([f"# {comment}"] if comment else []), f"[{name}]", *(f"{key} = {_value(value)}" for key, value in keys.items()), ""])
 
 
 def _inline(keys: Mapping[str, Any]) -> str:
