@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from controller.commands.common.output import Declare
 
 STEPS = {  # in the order of --help, which prints these texts; each is a module of this package
+    "channels": "which disc each channel moves: put a finger where it buzzes, no sensor needed",
     "plan": "where to measure the plate, and how long it takes",
     "measure": "measure the plate in place: play through the panel's FPGA, and record a sensor point by point",
     "check": "read and deconvolve measurements, and name what is wrong with them",

@@ -21,6 +21,7 @@ complete haptic-panel \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--when=/(command press enter leave)/' \
         'c/--capacitance-f=/f/' \
+        'c/--field-out=/f/' \
         'c/--movie=/f/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
         'c/--points=/f/' \
@@ -33,7 +34,7 @@ complete haptic-panel \
         'c/--passphrase-file=/f/' \
         'c/--role=/(root targets snapshot timestamp)/' \
         'c/--settings=/f/' \
-        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm commands-per-s counter dask date dead decay-time-ms delay-us demo density-kg-m3 device disc drift drift-percent drive drop duration-ms felt-um figures file find finger finger-load finger-mg fingers flash follow from full-scale gateware ghosts grid help high-hz host idle-figures inductance-h inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc no-chirps no-pictures no-skip no-timing noise once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port power publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm role root same-as scattered scene seconds sectors seed seeds sensor serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold top touched-s v-per-m v-per-m-s v-per-m-s2 verbose version wheels when width-mm work workers write www yes young-modulus-pa)/' \
+        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s counter dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from full-scale gateware ghosts glass grid held help high-hz host idle-figures inductance-h inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc no-chirps no-pictures no-skip no-timing noise once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port power publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root same-as scattered scene screen-length-mm screen-width-mm seconds sectors seed seeds sensor serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold top touch touch-key touched-s v-per-m v-per-m-s v-per-m-s2 verbose version wheels when width-mm work workers write www yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -48,6 +49,7 @@ complete haptic-panel \
         'n/--optimise/(contrast quiet balanced)/' \
         'n/--when/(command press enter leave)/' \
         'n/--capacitance-f/f/' \
+        'n/--field-out/f/' \
         'n/--movie/f/' \
         'n/--no-skip/(idle resident repeated ahead near cells together)/' \
         'n/--points/f/' \
@@ -60,14 +62,14 @@ complete haptic-panel \
         'n/--passphrase-file/f/' \
         'n/--role/(root targets snapshot timestamp)/' \
         'n/--settings/f/' \
-        'p/1/(run serve status client doctor board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)/' \
-        'n/client/(play touches emissions regions load stop disarm arm state test-channel trace figures describe faults log hello)/' \
+        'p/1/(run serve status client doctor setup board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)/' \
+        'n/client/(play touches emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check build info load)/' \
         'n/bank/(build choices info verify)/' \
         'n/effect/(import export)/' \
         'n/benchmark/(skipping paper)/' \
-        'n/calibrate/(plan measure check bank simulate)/' \
+        'n/calibrate/(channels plan measure check bank simulate)/' \
         'n/update/(check download install status rollback judge make-release repository)/' \
         'n/trace/f/' \
         'n/completion/(bash zsh tcsh)/' \

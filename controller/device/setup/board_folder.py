@@ -143,7 +143,9 @@ def _sections(text: str) -> dict[str, str]:
 
 
 def _table(name: str, keys: Mapping[str, Any], comment: str = "") -> str:
-    return "\n".join([*([f"# {comment}"] if comment else []), f"[{name}]", *(f"{key} = {_value(value)}" for key, value in keys.items()), ""])
+    return "\n".join(
+        [*([f"# {comment}"] if comment else []), f"[{name}]", *(f"{key} = {_value(value)}" for key, value in keys.items()), ""]
+    )
 
 
 def _inline(keys: Mapping[str, Any]) -> str:

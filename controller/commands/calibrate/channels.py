@@ -1,0 +1,105 @@
+"""`haptic-panel calibrate channels`: which disc each channel moves, by a finger put where it buzzes; no sensor is needed."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import select
+import sys
+from typing import TYPE_CHECKING, Any
+
+from controller.clocks import Clock, MonotonicClock, VirtualClock
+from controller.commands.common.fpga_link import fpga_link
+from controller.commands.common.output import show
+from controller.console import tell
+from controller.device.board.board import Board, load_board
+from controller.device.board.lookup import find_board
+from controller.device.service.drivers import open_session, open_touch
+from controller.device.touch.live_source import LiveSource
+from controller.device.touch_calibration.channel_map import ChannelMap, channel_map
+from controller.device.touch_calibration.channel_survey import survey
+from controller.errors import ConfigError, UsageError
+
+if TYPE_CHECKING:
+    from controller.device.fpga.links.link import Link
+    from controller.device.touch.source import TouchSource
+    from controller.device.touch_calibration.channel_survey import Person
+
+
+class AtTerminal:
+    """The person at this terminal: Enter means that nothing is felt."""
+
+    def fileno(self) -> int | None:
+        """Of stdin, if it is a terminal."""
+        return sys.stdin.fileno() if sys.stdin is not None and sys.stdin.isatty() else None
+
+    def feels_nothing(self) -> bool:
+        """As in `Person`."""
+        file = self.fileno()
+        return file is not None and bool(select.select([file], [], [], 0)[0]) and bool(os.read(file, 1024))
+
+
+def add(step: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    step.add_argument("--channel", type=int, action="append", metavar="Q", help="this channel only; may be repeated (default: all)")
+    step.add_argument(
+        "--swapped", nargs=2, type=int, action="append", default=[], metavar=("A", "B"), help="simulated board: wires"
+    )
+    step.add_argument(
+        "--dead", type=int, action="append", default=[], metavar="Q", help="simulated board: a patch that does not move"
+    )
+    step.set_defaults(command=channels)
+
+
+def channels(options: argparse.Namespace) -> int:
+    """Buzz on each channel until it was touched; 1 if one moves another disc than its own, or none."""
+    board = load_board(find_board(options.board))
+    simulated, there = board.link.kind == "simulated", sorted(actuator.channel for actuator in board.actuators)
+    asked = options.channel if options.channel is not None else there
+    for channel in {*asked, *options.dead, *(one for pair in options.swapped for one in pair)} - set(there):
+        raise UsageError(f"channel {channel}: board {board.name!r} has {there[0]} to {there[-1]}")
+    if (options.swapped or options.dead) and not simulated:
+        raise UsageError("--swapped and --dead are for a simulated board: on a real one the wires are what they are")
+    clock: Clock = VirtualClock() if simulated else MonotonicClock()
+    link, _ = fpga_link(board, clock.now_s)
+    try:
+        source, person = _before(board, link, options)
+        try:
+            session = open_session(link, board, clock.now_s)
+            tell("Put a finger where the glass buzzes, and hold it still; lift it. If nothing buzzes, press Enter. Ctrl-C ends it.")
+            places = {}
+            for channel, place in survey(session, board, clock, source, asked, person, lambda one: tell(f"channel {one} buzzes")):
+                places[channel] = place
+        finally:
+            source.close()
+    finally:
+        link.close()
+    found = channel_map(board, places)
+    show(options, _figures(board, found), _table)
+    return 1 if found.wrong else 0
+
+
+def _before(board: Board, link: Link, options: argparse.Namespace) -> tuple[TouchSource, Person]:
+    """The touches of a board's panel, and who makes them."""
+    if board.link.kind != "simulated":
+        return open_touch(board), AtTerminal()
+    if board.touch.has_device:
+        raise ConfigError(f"board {board.name!r} has a simulated FPGA: nothing buzzes on its real touch panel")
+    from controller.workshop.gateware.simulated_link import SimulatedLink
+    from controller.workshop.simulation.feeling_person import FeelingPerson
+
+    assert isinstance(link, SimulatedLink)
+    wired = {output: on for a, b in options.swapped for output, on in ((a, b), (b, a))}
+    person = FeelingPerson(board, link, wired, options.dead)
+    return LiveSource(person.panel, board), person
+
+
+def _figures(board: Board, found: ChannelMap) -> dict[str, Any]:
+    felt = {str(channel): at for channel, at in found.felt_at.items()}
+    return {"board": board.name, "discs": found.discs, "felt_at_disc": felt, "wrong": found.wrong}
+
+
+def _table(figures: dict[str, Any]) -> str:
+    wrong, count = figures["wrong"], len(figures["felt_at_disc"])
+    said = wrong or [f"PASS: each of {count} channels moves its own disc"]
+    return "\n".join([*said, "Within a disc a finger cannot tell: `calibrate check` names swapped quadrants, of measurements"])

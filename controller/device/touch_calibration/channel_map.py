@@ -1,0 +1,65 @@
+"""Which disc each channel moves, from where a finger felt it: swapped wires between discs, and channels that move nothing.
+
+A voltage on one channel bulges the glass at its own quadrant by 1 um, at the others of its disc by half of that, at any other disc
+by a thirtieth: a finger tells the disc, not the quadrant.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from controller.device.board.board import Board
+from controller.device.board.patches import discs
+
+Place = tuple[float, float]  # x and y on the plate in m
+
+
+@dataclass(frozen=True, slots=True)
+class ChannelMap:
+    """Where channels were felt.
+
+    Attributes
+    ----------
+    discs : list of list of int
+        Channels of each disc, by board.toml.
+    felt_at : dict of int to int or None
+        By channel, the number of the disc nearest to the finger; None: nothing was felt.
+    wrong : list of str
+        What is wrong, one line each.
+    """
+
+    discs: list[list[int]]
+    felt_at: dict[int, int | None]
+    wrong: list[str]
+
+
+def channel_map(board: Board, places: Mapping[int, Place | None]) -> ChannelMap:
+    """Evaluate where each channel was felt.
+
+    Parameters
+    ----------
+    places : mapping of int to (x_m, y_m) or None
+        By channel, where the finger was; None: nothing was felt.
+    """
+    groups = discs(board.actuators)
+    centres = [tuple(sum(getattr(one, axis) for one in group) / len(group) for axis in ("x_mm", "y_mm")) for group in groups]
+    channels = [sorted(one.channel for one in group) for group in groups]
+    own = {channel: index for index, group in enumerate(channels) for channel in group}
+    felt = {
+        channel: None if place is None else min(range(len(groups)), key=lambda n: math.dist(centres[n], (place[0] * 1e3, place[1] * 1e3)))
+        for channel, place in places.items()
+    }  # fmt: skip
+    astray = {channel: at for channel, at in felt.items() if at is not None and at != own[channel]}
+    wrong = [f"channel {channel}: nothing was felt: a dead stage, wire or patch" for channel, at in felt.items() if at is None]
+    for channel, at in astray.items():
+        partners = [other for other, its in astray.items() if own[other] == at and its == own[channel]]
+        if len(partners) == 1 and partners[0] < channel:
+            continue  # said with its partner
+        if len(partners) == 1:
+            wrong.append(f"channels {channel} and {partners[0]} are swapped: swap their wires, or their `channel` in board.toml")
+        else:
+            where = ", ".join(map(str, channels[at]))
+            wrong.append(f"channel {channel} moves the disc of channels {where}: look at its wire, or at the places in board.toml")
+    return ChannelMap(channels, felt, wrong)

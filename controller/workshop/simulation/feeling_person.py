@@ -1,0 +1,76 @@
+"""A simulated person before a simulated panel whose wires may be swapped or dead: puts a finger where a channel moves the glass."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Collection, Mapping
+from typing import Final
+
+import numpy as np
+
+from controller.device.board.board import Board
+from controller.workshop.gateware.simulated_link import SimulatedLink
+from controller.workshop.simulation.ghostly_panel import Finger, GhostlyPanel, Ghosts
+
+REACTS_S: Final = 0.4  # from the first edges to the finger, or to the word that nothing is felt
+HOLDS_S: Final = 1.0
+MISSES_MM: Final = 4.0  # at most, along x and y
+
+
+class FeelingPerson:
+    """A `Person`, with the panel that reports its finger.
+
+    Parameters
+    ----------
+    link : SimulatedLink
+        Its captures are consumed.
+    wired : mapping of int to int
+        By output, the actuator's channel that hangs on it, where it is another.
+    dead : collection of int
+        Actuators, by channel, that do not move.
+
+    Attributes
+    ----------
+    panel : GhostlyPanel
+        Reports the finger.
+    """
+
+    def __init__(self, board: Board, link: SimulatedLink, wired: Mapping[int, int], dead: Collection[int], seed: int = 1) -> None:
+        self._places = {actuator.channel: (actuator.x_mm, actuator.y_mm) for actuator in board.actuators}
+        self._sides_mm = board.plate.length_mm, board.plate.width_mm
+        self._link, self._wired, self._dead = link, wired, dead
+        self._random = random.Random(seed)
+        self._fingers: list[Finger] = []
+        self._answered = -1  # channel
+        self._says_nothing = False
+        self.panel = GhostlyPanel(board, self._fingers, self._feels, Ghosts(0.0, (1, 1)), until_s=1e6)
+
+    def fileno(self) -> None:
+        """None: it speaks when it is asked."""
+        return
+
+    def feels_nothing(self) -> bool:
+        """As in `Person`."""
+        said, self._says_nothing = self._says_nothing, False
+        return said
+
+    def _feels(self, at_s: float) -> bool:
+        """Watch the pins at a scan; False: the panel hears no edges."""
+        link = self._link
+        link.gateware.advance(max(link.tick(at_s), link.gateware.now))
+        capture = link.take_capture()
+        moved = [int(bits).bit_length() - 1 for bits in capture.words[1:] ^ capture.words[:-1] if int(bits).bit_count() == 1]
+        if moved and moved[-1] != self._answered:
+            self._answered = moved[-1]
+            self._answer(self._wired.get(moved[-1], moved[-1]), at_s)
+        return False
+
+    def _answer(self, channel: int, at_s: float) -> None:
+        if channel in self._dead or channel not in self._places:
+            self._says_nothing = True
+            return
+        off = [self._random.uniform(-MISSES_MM, MISSES_MM) for _ in range(2)]
+        x_mm, y_mm = (
+            float(np.clip(at + by, 0, side)) for at, by, side in zip(self._places[channel], off, self._sides_mm, strict=True)
+        )
+        self._fingers.append((at_s + REACTS_S, at_s + REACTS_S + HOLDS_S, (x_mm, y_mm)))
