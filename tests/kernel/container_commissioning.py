@@ -267,6 +267,17 @@ def test_a_panel_that_hears_nothing_of_the_fpga_gets_no_dead_time():
     assert "ghost_ms = 0" in BOARD.read_text()
 
 
+def test_a_finger_says_where_a_channel_buzzes_until_ctrl_c():
+    first = load_board(BOARD.parent).actuators[0]
+    with started(step("calibrate channels")) as process:
+        reported(process, "channel 0 buzzes")
+        with finger(itertools.repeat((first.x_mm, first.y_mm))):
+            reported(process, "channel 1 buzzes")
+        os.killpg(process.pid, signal.SIGINT)
+        assert "Traceback" not in process.stdout.read()
+    assert process.returncode == 130
+
+
 def recorded(line, user, folder):
     """A recording made until Ctrl-C; what is said of it."""
     file = Path(line.split("--out ")[1].split()[0])

@@ -49,6 +49,7 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[Step]:
         Step("the bank fits board and scene", command.format("bank build"), good("bank")),
         Step("the touch panel answers", command.format("doctor"), good("touch panel")),
         Step("its axes are measured", command.format("calibrate-touch"), _axes_measured(board)),
+        Step("each channel moves its own disc", command.format("calibrate channels"), None),
         Step("the plate's responses are measured", command.format("calibrate measure"), good("responses", warned=False)),
         Step("a finger feels it", command.format("run"), None),
     ]

@@ -7,13 +7,13 @@ by a thirtieth: a finger tells the disc, not the quadrant.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from controller.device.board.board import Board
 from controller.device.board.patches import discs
 
-Place = tuple[float, float]  # x and y on the plate in m
+Place = tuple[float, float]  # x and y on the plate
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,22 +44,26 @@ def channel_map(board: Board, places: Mapping[int, Place | None]) -> ChannelMap:
         By channel, where the finger was; None: nothing was felt.
     """
     groups = discs(board.actuators)
-    centres = [tuple(sum(getattr(one, axis) for one in group) / len(group) for axis in ("x_mm", "y_mm")) for group in groups]
+    centres = [(sum(one.x_mm for one in group) / len(group), sum(one.y_mm for one in group) / len(group)) for group in groups]
     channels = [sorted(one.channel for one in group) for group in groups]
     own = {channel: index for index, group in enumerate(channels) for channel in group}
-    felt = {
-        channel: None if place is None else min(range(len(groups)), key=lambda n: math.dist(centres[n], (place[0] * 1e3, place[1] * 1e3)))
-        for channel, place in places.items()
-    }  # fmt: skip
+    felt = {channel: None if place is None else _nearest(centres, place) for channel, place in places.items()}
     astray = {channel: at for channel, at in felt.items() if at is not None and at != own[channel]}
     wrong = [f"channel {channel}: nothing was felt: a dead stage, wire or patch" for channel, at in felt.items() if at is None]
+    back = {
+        channel: [other for other, its in astray.items() if own[other] == at and its == own[channel]]
+        for channel, at in astray.items()
+    }
     for channel, at in astray.items():
-        partners = [other for other, its in astray.items() if own[other] == at and its == own[channel]]
-        if len(partners) == 1 and partners[0] < channel:
-            continue  # said with its partner
-        if len(partners) == 1:
-            wrong.append(f"channels {channel} and {partners[0]} are swapped: swap their wires, or their `channel` in board.toml")
+        if len(back[channel]) == 1 and back[back[channel][0]] == [channel]:
+            if channel < (other := back[channel][0]):
+                wrong.append(f"channels {channel} and {other} are swapped: swap their wires, or their `channel` in board.toml")
         else:
             where = ", ".join(map(str, channels[at]))
             wrong.append(f"channel {channel} moves the disc of channels {where}: look at its wire, or at the places in board.toml")
     return ChannelMap(channels, felt, wrong)
+
+
+def _nearest(centres_mm: Sequence[Place], place: Place) -> int:
+    at_mm = place[0] * 1e3, place[1] * 1e3
+    return min(range(len(centres_mm)), key=lambda disc: math.dist(centres_mm[disc], at_mm))

@@ -13,7 +13,7 @@ from controller.workshop.gateware.simulated_link import SimulatedLink
 from controller.workshop.simulation.ghostly_panel import Finger, GhostlyPanel, Ghosts
 
 REACTS_S: Final = 0.4  # from the first edges to the finger, or to the word that nothing is felt
-HOLDS_S: Final = 1.0
+HOLDS_S: Final = 0.5  # lifted before it feels the next
 MISSES_MM: Final = 4.0  # at most, along x and y
 
 
@@ -33,6 +33,8 @@ class FeelingPerson:
     ----------
     panel : GhostlyPanel
         Reports the finger.
+    felt : list of int
+        Outputs that have moved alone, in order.
     """
 
     def __init__(self, board: Board, link: SimulatedLink, wired: Mapping[int, int], dead: Collection[int], seed: int = 1) -> None:
@@ -41,7 +43,7 @@ class FeelingPerson:
         self._link, self._wired, self._dead = link, wired, dead
         self._random = random.Random(seed)
         self._fingers: list[Finger] = []
-        self._answered = -1  # channel
+        self.felt: list[int] = []
         self._says_nothing = False
         self.panel = GhostlyPanel(board, self._fingers, self._feels, Ghosts(0.0, (1, 1)), until_s=1e6)
 
@@ -60,8 +62,8 @@ class FeelingPerson:
         link.gateware.advance(max(link.tick(at_s), link.gateware.now))
         capture = link.take_capture()
         moved = [int(bits).bit_length() - 1 for bits in capture.words[1:] ^ capture.words[:-1] if int(bits).bit_count() == 1]
-        if moved and moved[-1] != self._answered:
-            self._answered = moved[-1]
+        if moved and moved[-1:] != self.felt[-1:]:
+            self.felt.append(moved[-1])
             self._answer(self._wired.get(moved[-1], moved[-1]), at_s)
         return False
 

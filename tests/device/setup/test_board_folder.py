@@ -101,12 +101,12 @@ def test_a_board_that_would_be_refused_leaves_nothing_behind(tmp_path, name, giv
 def test_the_way_is_ticked_off_by_what_is_found(tmp_path):
     board = write_board(tmp_path / "panel", answers(), TOUCH["linux_input"])
     new = {step.name: step.done for step in way(board)}
-    assert list(new.values()) == [True, False, None, None, None, None, False, None, None]
+    assert list(new.values()) == [True, False, None, None, None, None, False, None, None, None]
     found = [Finding("bank", True, ""), Finding("touch panel", False, ""), Finding("responses", True, "", warns=True)]
     later = {
         step.name: step.done for step in way(board, [*found, Finding("identity and settings", True, ""), Finding("bits", True, "")])
     }
-    assert list(later.values()) == [True, False, True, True, True, False, False, False, None]
+    assert list(later.values()) == [True, False, True, True, True, False, False, None, False, None]
     measured = (board.folder / "board.toml").read_text().replace("[217, 0, 0]", "[216.731, 0.102, 0.250]")
     (board.folder / "board.toml").write_text(measured)
     axes = next(step for step in way(load_board(board.folder)) if step.name == "its axes are measured")
