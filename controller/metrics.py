@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Final
 
 import numpy as np
@@ -160,6 +160,9 @@ class Stages:
         return {name: getattr(self, name).export(histograms=histograms) for name in STAGES}
 
 
+NO_EMISSIONS: Final = ("outside_region", "between_emissions", "uploads", "compositions")  # work that was left out, of `Skipped`
+
+
 @dataclass(slots=True)
 class Skipped:
     """Work and emissions that were left out, by cause."""
@@ -180,8 +183,10 @@ class Skipped:
     @property
     def emissions(self) -> int:
         """Emissions that were due and not played, of all causes."""
-        waited = self.merged + self.no_room + self.lifted + self.scene_changed
-        return waited + self.bad_entries + self.refused + self.outputs_off + self.unconfirmed
+        return sum([getattr(self, cause) for cause in NOT_PLAYED])
+
+
+NOT_PLAYED: Final = tuple([cause.name for cause in fields(Skipped) if cause.name not in NO_EMISSIONS])
 
 
 @dataclass(slots=True)

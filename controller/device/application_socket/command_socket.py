@@ -10,12 +10,17 @@ import socket
 import time
 from collections.abc import Callable, Sequence
 
+from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.clients import NOW, Clients
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.emission_notices import EmissionNotices
+from controller.device.application_socket.layer_requests import LayerRequests
 from controller.device.application_socket.notifications import Notifications
+from controller.device.application_socket.operator_requests import OperatorRequests
 from controller.device.application_socket.peers import Peer, peer_of
 from controller.device.application_socket.pending_commands import PendingCommands
+from controller.device.application_socket.play_requests import PlayRequests
+from controller.device.application_socket.questions import Questions
 from controller.device.application_socket.requests import Requests
 from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.board.board import Board
@@ -62,15 +67,15 @@ class CommandSocket:
         self._switched_off = SwitchedOff(settings.path)
         self._scene_changed = False
         self._clock_s = clock_s
+        self._answers = Answers(self._clients, self._pending, self.counters)
+        self._questions = Questions(board, settings, self._clients, self._answers, self._notifications, self._emissions)
         self._requests = Requests(
-            board,
-            settings,
             self._clients,
-            self._pending,
-            self._notifications,
-            self._emissions,
-            self._switched_off,
-            self.counters,
+            self._answers,
+            PlayRequests(board, settings, self._answers),
+            LayerRequests(settings, self._answers),
+            OperatorRequests(board, self._clients.rights, self._answers, self._switched_off),
+            self._questions,
         )
 
     @property
@@ -111,7 +116,7 @@ class CommandSocket:
             self._scene_changed = False
             for client in clients:
                 if client.described:
-                    self._requests.describe_to(client, control)
+                    self._questions.describe_to(client, control)
                     clients.send(client)
         self._emissions.serve(now_s, control)
         self._notifications.lines()
@@ -125,16 +130,16 @@ class CommandSocket:
 
     def outcome(self, ticket: int, outcome: Outcome, age_s: float) -> None:
         """Answer a command to play, `age_s` after it was given."""
-        self._requests.answer_ticket(ticket, outcome.value, age_ms=round(age_s * 1e3, 3))
+        self._answers.outcome(ticket, outcome.value, age_ms=round(age_s * 1e3, 3))
         self._emissions.stirred()
 
     def loaded(self, ticket: int, reason: str) -> None:
         """Answer a command to load a scene; an empty reason: the scene is in force."""
-        self._requests.loaded(ticket, reason)
+        self._answers.loaded(ticket, reason)
 
     def layered(self, ticket: int, result: LayerResult) -> None:
         """Answer a command that replaces a client's regions."""
-        self._requests.layered(ticket, result)
+        self._answers.layered(ticket, result)
 
     def changed(self, condition: Condition) -> None:
         """Keep the panel's new condition, and send it to the clients that subscribed to states."""

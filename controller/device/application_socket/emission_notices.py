@@ -12,10 +12,10 @@ from controller.device.application_socket.messages import Emissions, PlayedFocus
 from controller.device.loop.commands import PanelControl
 from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.playing.records import ENDLESS, Plan
+from controller.metrics import NOT_PLAYED
 
 PERIOD_S: Final = 1 / 30
 NEVER: Final = math.inf
-CAUSES: Final = ("merged", "bad_entries", "refused", "outputs_off", "unconfirmed", "no_room", "lifted", "scene_changed")
 
 
 class EmissionNotices:
@@ -54,7 +54,7 @@ class EmissionNotices:
         subscribers = [client for client in self._clients if client.shown_emissions]
         starts, skipped = self._ring.since(self._sent), self._causes(control)
         lost = self._ring.count - self._sent - len(starts)
-        more = {cause: now - before for cause, now, before in zip(CAUSES, skipped, self._skipped, strict=True) if now != before}
+        more = {cause: now - before for cause, now, before in zip(NOT_PLAYED, skipped, self._skipped, strict=True) if now != before}
         self._sent, self._sent_s, self._skipped, self._stirred = self._ring.count, now_s, skipped, False
         if not subscribers:
             self._ring.wanted = False
@@ -69,7 +69,7 @@ class EmissionNotices:
 
     def _causes(self, control: PanelControl) -> tuple[int, ...]:
         skipped = control.skipped
-        return tuple([getattr(skipped, cause) for cause in CAUSES])
+        return tuple([getattr(skipped, cause) for cause in NOT_PLAYED])
 
 
 def _foci(start_s: float, plan: Plan) -> Iterator[PlayedFocus]:

@@ -1,60 +1,60 @@
-"""A client's regions: whether it may send them now, handed to the loop, and answered."""
+"""A client's regions: whether it may send them now, and what is handed to the loop."""
 
 from __future__ import annotations
 
+from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.messages import Id, LayerAnswer, MoveRegions, Regions, Transform
+from controller.device.application_socket.messages import MoveRegions, Regions, Transform
+from controller.device.application_socket.tickets import FULL
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.commands import PanelControl
-from controller.device.loop.layer_source import AcceptedLayer
 from controller.device.scene.layers import Placement
+from controller.errors import ControllerError
 
 
 class LayerRequests:
-    """Limits of `regions`, and what is handed to the loop.
+    """Takes the layers of one panel's clients.
 
     Parameters
     ----------
     settings : ApplicationSocket
-        Its `layer_regions` and `layers_per_s`.
+        Its `layer_regions`.
     """
 
-    def __init__(self, settings: ApplicationSocket) -> None:
-        self._settings = settings
+    def __init__(self, settings: ApplicationSocket, answers: Answers) -> None:
+        self._most_regions = settings.layer_regions
+        self._answers = answers
 
-    def why_not(self, client: Connection, request: Regions, now_s: float) -> str:
-        """Why a client's regions are refused as a whole, before they are checked; empty: they are not."""
-        count, most = len(request.regions), self._settings.layer_regions
+    def put(self, client: Connection, request: Regions, line: memoryview, now_s: float, control: PanelControl) -> None:
+        """Hand a client's regions to the loop, unless they are too many or come too soon."""
+        count, most = len(request.regions), self._most_regions
         if count > most:
-            return f"regions: {count} of them, a client may have {most}"
-        return "" if client.layer_rate.take(now_s) else "rate"
+            self._answers.answer(client, request.id, "refused", f"regions: {count} of them, a client may have {most}")
+            return
+        if not client.layer_rate.take(now_s):
+            self._answers.answer(client, request.id, "refused", "rate")
+            return
+        ticket = self._answers.ticket(client, request.id)
+        if ticket == FULL:
+            return
+        where = None if request.transform is None else _placement(request.transform)
+        try:
+            control.put_layer(ticket, client.serial, bytes(line), where, now_s)
+        except ControllerError as error:
+            self._answers.outcome(ticket, "refused", reason=str(error))
+        else:
+            client.layered = True
 
-    def put(self, client: Connection, ticket: int, request: Regions, line: memoryview, now_s: float, control: PanelControl) -> None:
-        """Hand a client's regions to the loop.
-
-        Raises
-        ------
-        ControllerError
-            If this panel takes none.
-        """
-        control.put_layer(
-            ticket, client.serial, bytes(line), None if request.transform is None else placement(request.transform), now_s
-        )
-        client.layered = True
-
-
-def layer_answer(number: Id, layer: AcceptedLayer, age_s: float) -> LayerAnswer:
-    """Answer to the request with id `number`: its layer is in force."""
-    return LayerAnswer(
-        id=number,
-        regions=len(layer.regions),
-        off_plate=layer.off_plate,
-        age_ms=round(age_s * 1e3, 3),
-        refused=layer.refused,
-        refused_count=layer.refused_count,
-    )
+    def move(self, client: Connection, request: MoveRegions, control: PanelControl) -> None:
+        """Move a client's regions."""
+        try:
+            control.move_layer(client.serial, _placement(request))
+        except ControllerError as error:
+            self._answers.answer(client, request.id, "refused", str(error))
+        else:
+            self._answers.answer(client, request.id, "done")
 
 
-def placement(transform: Transform | MoveRegions) -> Placement:
+def _placement(transform: Transform | MoveRegions) -> Placement:
     """What a client says of a place, in m."""
     return Placement(transform.x_mm * 1e-3, transform.y_mm * 1e-3, transform.scale)

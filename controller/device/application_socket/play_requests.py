@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
+from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.messages import Aimed, Clip, PlayRequest
+from controller.device.application_socket.messages import Aimed, Clip, Id, PlayRequest
+from controller.device.application_socket.tickets import FULL
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE, ApplicationSocket
 from controller.device.loop.commands import PanelControl
 from controller.device.scene import clips
 from controller.device.scene.clips import read_clip
-from controller.errors import ConfigError
+from controller.errors import ConfigError, ControllerError
 
 MOST_KEPT: Final = 64  # clips under names, of one client
 MOST_KEPT_POINTS: Final = 8000  # of them all: a megabyte
@@ -29,7 +31,7 @@ class Aim(NamedTuple):
 
 
 class PlayRequests:
-    """Reads the requests of one panel's clients.
+    """Hands what one panel's clients want to feel to the loop.
 
     Parameters
     ----------
@@ -39,11 +41,45 @@ class PlayRequests:
         Its `max_amplitude`.
     """
 
-    def __init__(self, board: Board, settings: ApplicationSocket) -> None:
+    def __init__(self, board: Board, settings: ApplicationSocket, answers: Answers) -> None:
         self._board = board
         self._max_amplitude = settings.max_amplitude
+        self._answers = answers
 
-    def aim(self, client: Connection, request: PlayRequest | Clip, control: PanelControl) -> Aim | None:
+    def play(self, client: Connection, request: PlayRequest | Clip, now_s: float, control: PanelControl) -> None:
+        """Play an effect, or keep it, or say why not."""
+        if isinstance(request, Clip) and not client.rate.take(now_s, CLIP_LINES - 1):
+            self._answers.over_rate(client, request.id)
+            return
+        try:
+            aim = self._aim(client, request, control)
+            effect = self._effect(client, request)
+        except ConfigError as error:
+            self._answers.invalid(client, request.id, str(error))
+            return
+        if aim is None:
+            self._answers.answer(client, request.id, "done")
+        elif aim.fingers == ():
+            self._answers.answer(client, request.id, "skipped", f"no finger is in region {request.region!r}")
+        else:
+            self._start(client, request.id, effect, aim, now_s, control)
+
+    def _start(
+        self, client: Connection, number: Id, effect: str | clips.Clip, aim: Aim, now_s: float, control: PanelControl
+    ) -> None:
+        """Play at a point or at fingers; the outcome is that at the first of them."""
+        ticket = self._answers.ticket(client, number)
+        if ticket == FULL:
+            return
+        try:
+            for finger in aim.fingers or (None,):
+                control.play(ticket, effect, aim.x_m, aim.y_m, finger, aim.amplitude, now_s)
+                ticket = FULL  # nobody waits for the others
+        except ControllerError as error:
+            if ticket != FULL:
+                self._answers.outcome(ticket, "refused", reason=str(error))
+
+    def _aim(self, client: Connection, request: PlayRequest | Clip, control: PanelControl) -> Aim | None:
         """Where it is to be played; None: a clip that is only kept.
 
         Raises
@@ -66,7 +102,7 @@ class PlayRequests:
             return Aim(0.0, 0.0, control.fingers_in(client.serial, request.region), amplitude)
         return Aim(*self._point_m(request), None, amplitude)
 
-    def effect(self, client: Connection, request: PlayRequest | Clip) -> str | clips.Clip:
+    def _effect(self, client: Connection, request: PlayRequest | Clip) -> str | clips.Clip:
         """What is to be played: a name of the scene's, or a clip, which is kept if it has a name.
 
         Raises

@@ -6,12 +6,13 @@ import pytest
 from device.application_socket.test_readme import README
 from device.application_socket.test_with_the_loop import serve  # noqa: F401
 
-from controller.device.application_socket.emission_notices import CAUSES, PERIOD_S
+from controller.device.application_socket.emission_notices import PERIOD_S
 from controller.device.application_socket.messages import Emissions, message_decoder
 from controller.device.application_socket.peers import Peer
 from controller.device.loop.emission_ring import SLOTS, EmissionRing
 from controller.device.loop.playing.records import ENDLESS, Batch, Plan
 from controller.device.scene.emission import Emission
+from controller.metrics import NOT_PLAYED
 
 SUBSCRIBE = {"kind": "subscribe", "to": ["emissions"], "id": 1}
 SPOTS = '[[regions]]\nname = "pad"\nshape = "plate"\neffects = ["texture"]\n'
@@ -116,7 +117,7 @@ def test_the_example_of_the_readme_is_such_a_message():
     _, block = [text.partition("```")[0] for text in README.read_text().split("```json\n")[1:]]
     told = message_decoder().decode(block)
     assert isinstance(told, Emissions)
-    assert set(told.skipped) < set(CAUSES)
+    assert set(told.skipped) < set(NOT_PLAYED)
 
 
 def test_a_ring_gives_what_came_since():

@@ -1,0 +1,123 @@
+"""Every line of a client is answered exactly once: at once, or under a ticket when its outcome is known; and counted."""
+
+from __future__ import annotations
+
+from controller.device.application_socket import messages
+from controller.device.application_socket.clients import Clients
+from controller.device.application_socket.connection import Connection, MessageTooLong
+from controller.device.application_socket.counters import SocketCounters
+from controller.device.application_socket.messages import Id, Right
+from controller.device.application_socket.pending_commands import PendingCommands
+from controller.device.application_socket.tickets import FULL
+from controller.device.loop.layer_source import AcceptedLayer, LayerResult
+
+REASON_CHARACTERS = 250
+
+
+class Answers:
+    """Answers to clients, and the tickets of those that are not known yet.
+
+    Attributes
+    ----------
+    counters : SocketCounters
+        Of every line by its outcome.
+    """
+
+    def __init__(self, clients: Clients, pending: PendingCommands, counters: SocketCounters) -> None:
+        self.counters = counters
+        self._clients = clients
+        self._pending = pending
+
+    def answer(self, client: Connection, number: Id, outcome: messages.Outcome, reason: str = "") -> None:
+        """Answer the request with id `number`."""
+        self.counters.count(outcome)
+        client.put(messages.Answer(id=number, outcome=outcome, reason=reason))
+
+    def data(self, client: Connection, message: messages.Data) -> None:
+        """Answer with data; a message that is too long for the client's buffer is refused."""
+        try:
+            client.put(message)
+        except MessageTooLong as error:
+            self.answer(client, message.id, "refused", str(error))
+        else:
+            self.counters.count("done")
+
+    def invalid(self, client: Connection, number: Id, reason: str) -> None:
+        """Refuse what is no request, or impossible on this board."""
+        self.counters.not_valid += 1
+        self.answer(client, number, "refused", reason[:REASON_CHARACTERS])
+
+    def over_rate(self, client: Connection, number: Id) -> None:
+        """Refuse what a client sends too soon."""
+        self.counters.over_rate += 1
+        self.answer(client, number, "refused", "rate")
+
+    def not_allowed(self, client: Connection, number: Id, right: Right) -> None:
+        """Refuse what a client has no right to."""
+        self.counters.not_allowed += 1
+        self.answer(client, number, "refused", self._clients.rights.why_not(client.peer, right))
+
+    def ticket(self, client: Connection, number: Id) -> int:
+        """A ticket for a command; FULL if the command was refused because too many are pending."""
+        ticket = self._pending.take(client, number)
+        if ticket == FULL:
+            most = max(client.waiting, self._pending.of_user[client.peer.uid])
+            self.answer(client, number, "refused", f"{most} commands wait for their outcome already")
+        return ticket
+
+    def outcome(self, ticket: int, outcome: messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
+        """Answer the command that took a ticket, and send the answer.
+
+        Parameters
+        ----------
+        age_ms : float, optional
+            From the command to its outcome.
+        reason : str
+            Of a refusal.
+        """
+        found = self._take_back(ticket, outcome)
+        if found is not None:
+            self._send(found[1], messages.Answer(id=found[0], outcome=outcome, age_ms=age_ms, reason=reason))
+
+    def loaded(self, ticket: int, reason: str) -> None:
+        """Answer a command to load or save a scene; an empty reason: the scene is in force, or saved."""
+        self.outcome(ticket, "refused" if reason else "done", reason=reason)
+
+    def layered(self, ticket: int, result: LayerResult) -> None:
+        """Answer a command that replaces a client's regions."""
+        layer = result.accepted
+        if layer is None:
+            self.outcome(ticket, "refused" if result.reason else "merged", reason=result.reason)
+            return
+        found = self._take_back(ticket, "done")
+        if found is not None:
+            self._send(found[1], _layer_answer(found[0], layer, result.age_s))
+
+    def _take_back(self, ticket: int, outcome: messages.Outcome) -> tuple[Id, Connection] | None:
+        """Take back a ticket; the request's id and the client to answer, or None if it has disconnected."""
+        found = self._pending.give_back(ticket)
+        if found is None:
+            self.counters.stray_outcomes += 1
+            return None
+        self.counters.count(outcome)
+        holder, client = found
+        if client is None:
+            self.counters.unanswered += 1
+            return None
+        return holder.id, client
+
+    def _send(self, client: Connection, message: messages.Answer | messages.LayerAnswer) -> None:
+        client.put(message)
+        self._clients.send(client)
+
+
+def _layer_answer(number: Id, layer: AcceptedLayer, age_s: float) -> messages.LayerAnswer:
+    """Answer to the request with id `number`: its layer is in force."""
+    return messages.LayerAnswer(
+        id=number,
+        regions=len(layer.regions),
+        off_plate=layer.off_plate,
+        age_ms=round(age_s * 1e3, 3),
+        refused=layer.refused,
+        refused_count=layer.refused_count,
+    )

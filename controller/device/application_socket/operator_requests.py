@@ -1,0 +1,91 @@
+"""What operators ask of the panel, and the one order that every client may give: off."""
+
+from __future__ import annotations
+
+from controller.device.application_socket.answers import Answers
+from controller.device.application_socket.connection import Connection
+from controller.device.application_socket.messages import Arm, ChannelTest, Disarm, LoadScene, SaveScene, Stop, WriteTrace
+from controller.device.application_socket.peers import Rights
+from controller.device.application_socket.switched_off import SwitchedOff
+from controller.device.application_socket.tickets import FULL
+from controller.device.board.board import Board
+from controller.device.loop.commands import PanelControl
+from controller.errors import ControllerError
+from controller.log import Event, log
+
+OperatorRequest = LoadScene | SaveScene | ChannelTest | WriteTrace
+
+
+class OperatorRequests:
+    """Carries out the orders to one panel.
+
+    Parameters
+    ----------
+    board : Board
+        Its actuators are what `test_channel` drives.
+    rights : Rights
+        What clients are called in the log.
+    """
+
+    def __init__(self, board: Board, rights: Rights, answers: Answers, switched_off: SwitchedOff) -> None:
+        self._board = board
+        self._rights = rights
+        self._answers = answers
+        self._switched_off = switched_off
+
+    def switch(self, client: Connection, request: Arm | Disarm | Stop, control: PanelControl) -> None:
+        """Arm the panel or switch it off."""
+        on, who = isinstance(request, Arm), self._rights.called(client.peer)
+        control.switch(on=on, by=who)  # before anything that could take time
+        changed = self._switched_off.remember("" if on else who)
+        if changed or "operate" in client.rights:  # not each line of whoever asks to stop again and again
+            did = "arms" if on else "disarms" if isinstance(request, Disarm) else "stops"
+            log(f"{who} {did} the panel", Event.OPERATED)
+        self._answers.answer(client, request.id, "done")
+
+    def carry_out(self, client: Connection, request: OperatorRequest, now_s: float, control: PanelControl) -> None:
+        """Carry out any other order."""
+        match request:
+            case LoadScene() | SaveScene():
+                self._load_or_save(client, request, control)
+            case ChannelTest():
+                self._test_channel(client, request, now_s, control)
+            case WriteTrace():
+                self._write_trace(client, request, control)
+
+    def _load_or_save(self, client: Connection, request: LoadScene | SaveScene, control: PanelControl) -> None:
+        ticket = self._answers.ticket(client, request.id)
+        if ticket == FULL:
+            return
+        did = "saves" if isinstance(request, SaveScene) else "loads"
+        try:
+            if isinstance(request, SaveScene):
+                control.save_scene(ticket, request.name, request.toml)
+            else:
+                control.load_scene(ticket, request.name)
+        except ControllerError as error:
+            self._answers.loaded(ticket, str(error))
+        else:
+            log(f"{self._rights.called(client.peer)} {did} the scene {request.name!r}", Event.OPERATED)
+
+    def _test_channel(self, client: Connection, request: ChannelTest, now_s: float, control: PanelControl) -> None:
+        channel, board = request.channel, self._board
+        patch = next((actuator for actuator in board.actuators if actuator.channel == channel), None)
+        if patch is None:
+            self._answers.invalid(client, request.id, f"channel {channel} drives no actuator of board {board.name!r}")
+            return
+        ticket = self._answers.ticket(client, request.id)
+        if ticket == FULL:
+            return
+        try:
+            control.test_channel(ticket, channel, patch.x_mm * 1e-3, patch.y_mm * 1e-3, now_s)
+        except ControllerError as error:
+            self._answers.outcome(ticket, "refused", reason=str(error))
+
+    def _write_trace(self, client: Connection, request: WriteTrace, control: PanelControl) -> None:
+        try:
+            control.write_trace(f"{self._rights.called(client.peer)} asked for it")
+        except ControllerError as error:
+            self._answers.answer(client, request.id, "refused", str(error))
+        else:
+            self._answers.answer(client, request.id, "done")
