@@ -1,4 +1,4 @@
-"""The process that checks clients' layers for the event loop: warm, of ordinary priority, one request after the other.
+"""The process that checks clients' layers for the event loop: warm, next to it in priority, one request after the other.
 
 It has the board and its bank open from the first message on, and has imported all it needs. A request has a limit of time, the
 process one of memory; each request gets exactly one answer. The process ends when the loop closes the socket.
@@ -21,6 +21,7 @@ from controller.device.scene.layer_tables import CheckedLayer, off_plate, read_l
 from controller.device.scene.layers import Placement, RefusedRegion
 from controller.device.scene.scene import Region, Scene, SpatialIndex
 from controller.device.service.scenes.layer_message import LayerSetup, pack_layer, pack_refusal, unpack_request, unpack_setup
+from controller.device.service.scenes.realtime_share import RealtimeShare
 from controller.device.service.scenes.scene_helper import MEMORY_BYTES, limit_memory, receive
 from controller.errors import BankError, ControllerError
 
@@ -119,8 +120,10 @@ def serve_layers(loop: socket.socket, limit_s: float) -> None:
         checker = LayerChecker(setup)
     except (ControllerError, OSError) as error:
         unusable = str(error)
+    share = RealtimeShare(os.getppid())
     while (message := receive(loop)) is not None:
-        loop.sendall(pack_refusal(unusable) if checker is None else _answer(checker, message, limit_s))
+        with share:
+            loop.sendall(pack_refusal(unusable) if checker is None else _answer(checker, message, limit_s))
 
 
 def _answer(checker: LayerChecker, message: bytes, limit_s: float) -> bytes:
