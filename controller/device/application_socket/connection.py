@@ -190,6 +190,17 @@ class Connection:
             raise LineTooLong(f"a line is at most {self._longest} bytes")
         return None
 
+    def peek(self, into: bytearray) -> int:
+        """Copy what it has sent and `next_line` has not returned, the kernel's part too, as far as it fits; returns the length."""
+        if self._socket is None or self._skipping:
+            return 0
+        have = min(self._end - self._start, len(into))
+        into[:have] = self._received_view[self._start : self._start + have]
+        try:
+            return have + self._socket.recv_into(memoryview(into)[have:], 0, socket.MSG_PEEK)
+        except OSError:
+            return have
+
     @property
     def has_line(self) -> bool:
         """Whether `next_line` would return a line or raise."""

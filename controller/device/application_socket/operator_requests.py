@@ -43,6 +43,13 @@ class OperatorRequests:
             log(f"{who} {did} the panel", Event.OPERATED)
         self._answers.answer(client, request.id, "done")
 
+    def switch_off(self, client: Connection, control: PanelControl) -> None:
+        """Carry out a request to stop before its turn, in which it will be answered."""
+        who = self._rights.called(client.peer)
+        control.switch(on=False, by=who)
+        if self._switched_off.remember(who):
+            log(f"{who} stops the panel", Event.OPERATED)
+
     def carry_out(self, client: Connection, request: OperatorRequest, now_s: float, control: PanelControl) -> None:
         """Carry out any other order."""
         match request:

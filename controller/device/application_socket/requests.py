@@ -15,11 +15,11 @@ from controller.device.application_socket.messages import LINE_BYTES, AnyRequest
 from controller.device.application_socket.operator_requests import OperatorRequests
 from controller.device.application_socket.play_requests import PlayRequests
 from controller.device.application_socket.questions import Questions
+from controller.device.application_socket.stop_ahead import AHEAD_BYTES, STOP, stops_ahead
 from controller.device.board.descriptions import type_info
 from controller.device.board.validation import NO_JSON, explain
 from controller.device.loop.commands import PanelControl
 
-STOP: Final = b'"stop"'
 NEEDED: Final[dict[Any, Right]] = {
     messages.PlayRequest: "play",
     messages.Clip: "play",
@@ -50,9 +50,19 @@ class Requests:
         self._decoder = messages.request_decoder()
         type_info(AnyRequest)  # made now: it takes a millisecond, and the first invalid line comes between two turns of the loop
         self._ids = msgspec.json.Decoder(messages.Numbered)
+        self._ahead = bytearray(AHEAD_BYTES)
 
     def serve(self, client: Connection, most: int, now_s: float, control: PanelControl) -> int:
-        """Answer at most `most` lines of a client; returns how many there were."""
+        """Answer at most `most` lines of a client; returns how many there were.
+
+        A client over its rate is read slowly from then on; if it has sent a request to stop, that takes effect now.
+        """
+        done = self._serve_lines(client, most, now_s, control)
+        if client.resume_s > now_s and stops_ahead(self._ahead, client.peek(self._ahead), self._stops):
+            self._operators.switch_off(client, control)
+        return done
+
+    def _serve_lines(self, client: Connection, most: int, now_s: float, control: PanelControl) -> int:
         counters = self._answers.counters
         for done in range(most):
             if client.leaving_reason:

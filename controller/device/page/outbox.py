@@ -59,6 +59,11 @@ class Outbox:
         if self._bytes > self._bytes_max:
             raise TooSlow(f"more than {self._bytes_max:,} bytes wait to be read")
 
+    def put_if_room(self, line: bytes) -> None:
+        """Add a line, unless half of what may wait does: who floods and does not read misses answers, and keeps its connection."""
+        if 2 * self._bytes <= self._bytes_max:
+            self.put(line)
+
     def take(self) -> str:
         """The line that has waited longest."""
         key = next(iter(self._lines))

@@ -19,7 +19,8 @@ from controller.device.page.settings import PageSettings
 
 LINE_BYTES_MAX: Final = 1 << 20  # of the panel, whose figures are the longest
 SLOW_S: Final = 10.0  # that a frame may wait for a page to read
-PAUSE_S: Final = 0.005  # after each message that is not passed on: a page that floods is read slowly
+REFUSED_AT_ONCE: Final = 64  # messages of a page, of which a stop may be the next
+PAUSE_S: Final = 0.001  # after as many: a page that floods takes no whole core
 PANEL_S: Final = 5.0  # that the panel's socket may take to accept
 
 
@@ -104,6 +105,7 @@ async def _requests(
     news: asyncio.Event,
     judge: _Judge,
 ) -> None:
+    refused = 0
     async for frame in page:
         if not isinstance(frame, str):
             raise Ended(CloseCode.UNSUPPORTED_DATA, "a frame has to be text: one JSON object")
@@ -112,9 +114,10 @@ async def _requests(
             to_panel.write(line)
             await to_panel.drain()
         else:
-            outbox.put(answer.encode())
+            outbox.put_if_room(answer.encode())
             news.set()
-            await asyncio.sleep(PAUSE_S)
+            refused += 1
+            await asyncio.sleep(0 if refused % REFUSED_AT_ONCE else PAUSE_S)
 
 
 async def _lines(from_panel: asyncio.StreamReader, outbox: Outbox, news: asyncio.Event) -> None:
