@@ -9,7 +9,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, Layer, laminate, softest
-from controller.device.board.records import NotNegative, PlaceMm, Positive, Record, Share, SizeMm, left_out
+from controller.device.board.records import LONGEST_PLATE_MM, NotNegative, PlaceMm, Positive, Record, Share, SizeMm, left_out
 
 CHANNELS = 32
 EDGE_WINDOW_S = 0.25  # over which the FPGA counts the edges of a stage
@@ -59,6 +59,9 @@ class Foam(Record, frozen=True):
     stiffness_n_m3: Annotated[float, Meta(ge=1e5, le=1e11)]
     width_mm: Annotated[float, Meta(ge=0.5, le=500)]
     dashpot_pa_s_m: Annotated[float, Meta(ge=0, le=1e7)] = 0.0
+
+
+PlateMm = Annotated[float, Meta(ge=20, le=LONGEST_PLATE_MM)]
 
 
 class DecayAt(Record, frozen=True):
@@ -130,8 +133,8 @@ class Plate(Record, frozen=True, kw_only=True):
         Left out: `decay_time_ms` for all modes.
     """
 
-    length_mm: Annotated[float, Meta(ge=20, le=4000)]
-    width_mm: Annotated[float, Meta(ge=20, le=4000)]
+    length_mm: PlateMm
+    width_mm: PlateMm
     thickness_mm: Annotated[float, Meta(ge=0.05, le=20)] = msgspec.field(default_factory=float)
     young_modulus_pa: Annotated[float, Meta(ge=1e9, le=1e12)] = msgspec.field(default_factory=float)
     poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)] = msgspec.field(default_factory=left_out)

@@ -32,11 +32,12 @@ KEY = re.compile(r" is missing\b|: unknown key\b")  # what msgspec or a record s
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
-LEAST_MM, MOST_MM = -1000, 5000  # of a place; a plate has at most 4 m, and what lies off it is refused with the plate's size
+LONGEST_PLATE_MM: Final = 4000
+LEAST_MM, MOST_MM = -1000, LONGEST_PLATE_MM + 1000  # of a place: what lies off the plate is refused with the plate's size
 PlaceMm = Annotated[float, Meta(ge=LEAST_MM, le=MOST_MM)]
-PlaceM = Annotated[float, Meta(ge=LEAST_MM * 1e-3, le=MOST_MM * 1e-3)]
 SizeMm = Annotated[float, Meta(gt=0, le=MOST_MM)]
-SizeM = Annotated[float, Meta(gt=0, le=MOST_MM * 1e-3)]
+SizeM = Annotated[float, Meta(ge=0, le=MOST_MM * 1e-3)]  # 0: the least size in mm, rounded
+PlaceM = Annotated[float, Meta(ge=(LEAST_MM - MOST_MM) * 1e-3, le=(MOST_MM + MOST_MM) * 1e-3)]  # of a side
 Share = Annotated[float, Meta(gt=0, le=1)]
 
 
