@@ -308,6 +308,11 @@ class Waveform(Record, frozen=True):
         return round(self.duration_ms * 1e-3 * self.bit_clock_hz)
 
     @property
+    def band_hz(self) -> tuple[float, float]:
+        """Both edges of the band."""
+        return self.band_low_hz, self.band_high_hz
+
+    @property
     def middle_hz(self) -> float:
         """Middle of the band."""
         return (self.band_low_hz + self.band_high_hz) / 2

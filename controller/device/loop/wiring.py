@@ -62,7 +62,8 @@ def assemble(
         What of the work is left out: all that can be; less to measure what it saves.
     """
     board = context.board
-    selection = Selection(bank, bank.snap_m(board) if skips.cells else -1.0, board.idle_word, ready=skips.cells)
+    snap_m = bank.snap_m(board) if skips.cells else -1.0
+    selection = Selection(bank, snap_m, board.idle_word, board.waveform.band_hz, ready=skips.cells)
     occupancy = Occupancy(context.clock_estimate, board.waveform.duration_s, board.limits.max_duty)
     timing = HostTiming(
         board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),

@@ -8,11 +8,10 @@ import numpy as np
 
 from controller.device.bank.packing import CHANNELS
 
-CHIRP_HZ: Final = (20e3, 70e3)  # the band of the paper's plate
 SAMPLES_A_PERIOD: Final = 6  # at least; a bit clock too slow for the band's end goes as far as that
 
 
-def chirp_words(channel: int, samples: int, bit_clock_hz: float, idle_word: int) -> memoryview:
+def chirp_words(channel: int, samples: int, bit_clock_hz: float, idle_word: int, band_hz: tuple[float, float]) -> memoryview:
     """Drive words of a linear chirp on one channel, which begins at that channel's idle level.
 
     Parameters
@@ -23,6 +22,8 @@ def chirp_words(channel: int, samples: int, bit_clock_hz: float, idle_word: int)
         Length of an emission.
     idle_word : int
         Level of each channel at rest: bit q is channel q.
+    band_hz : (float, float)
+        Where it begins and ends: the band of the board.
 
     Returns
     -------
@@ -36,7 +37,7 @@ def chirp_words(channel: int, samples: int, bit_clock_hz: float, idle_word: int)
     """
     if not 0 <= channel < CHANNELS:
         raise ValueError(f"channel {channel} is not 0 to {CHANNELS - 1}")
-    low_hz, high_hz = CHIRP_HZ[0], min(CHIRP_HZ[1], bit_clock_hz / SAMPLES_A_PERIOD)
+    low_hz, high_hz = (min(end_hz, bit_clock_hz / SAMPLES_A_PERIOD) for end_hz in band_hz)
     at_s = np.arange(samples) / bit_clock_hz
     periods = at_s * (low_hz + (high_hz - low_hz) * at_s / (2 * samples / bit_clock_hz))
     is_turned = np.floor(2 * periods).astype(np.int64) % 2 == 1

@@ -44,6 +44,8 @@ class Selection:
         A single point of full amplitude at most this far from a cell's centre plays that cell.
     idle_word : int
         Level of each channel at rest: bit q is channel q.
+    band_hz : (float, float), optional
+        Of the board, for the test of a channel; None: none is tested.
     ready : bool
         False: what the bank has composed beforehand is composed all the same.
 
@@ -55,7 +57,9 @@ class Selection:
         A waveform for a place this near serves as well.
     """
 
-    def __init__(self, bank: Bank, snap_m: float, idle_word: int, *, ready: bool = True) -> None:
+    def __init__(
+        self, bank: Bank, snap_m: float, idle_word: int, band_hz: tuple[float, float] | None = None, *, ready: bool = True
+    ) -> None:
         self._bank = bank
         self.lattice_m = LATTICE_M * bank.wave_scale
         self._null_apart_m = NULL_APART_M * bank.wave_scale
@@ -63,6 +67,7 @@ class Selection:
         self._compositions = bank.drive.compositions if ready else {}
         self._snap_m = snap_m
         self._idle_word = idle_word
+        self._band_hz = band_hz
         self._composer: Composer | None = None
 
     @property
@@ -147,7 +152,8 @@ class Selection:
         if isinstance(key, int):
             return ReadyFrames(*self._bank.drive.frames(key))
         if key[0][2] == CHANNEL:
-            return chirp_words(key[0][0], self._bank.samples, self._bank.header.bit_clock_hz, self._idle_word)
+            assert self._band_hz is not None
+            return chirp_words(key[0][0], self._bank.samples, self._bank.header.bit_clock_hz, self._idle_word, self._band_hz)
         if key in self._compositions:
             with contextlib.suppress(BankError):
                 return ReadyFrames(*self._bank.drive.composed(key))

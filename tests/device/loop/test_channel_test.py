@@ -4,47 +4,56 @@ import zlib
 
 import numpy as np
 import pytest
+from device.board.changed_board import changed
 from pins_and_counters import emissions_on_pins
 
 from controller.clocks import VirtualClock
 from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board, simulated
+from controller.device.board.lookup import find_board
 from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.wiring import assemble
 from controller.device.scene.scene import load_scene
 from controller.device.service.drivers import open_session, tracked
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.recordings.replay import RecordingSource
-from controller.device.waveforms.channel_test import CHIRP_HZ, chirp_words
+from controller.device.waveforms.channel_test import chirp_words
 from controller.errors import FaultError
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.gateware.simulated_link import open_simulated
 
 IDLE = 0x99999999
+PAPER_HZ = (20e3, 70e3)
+BANDS_HZ = (PAPER_HZ, (24e3, 55e3))
 TRAIN = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ when = "press", rate_hz = 50, count = 20 }]\n'
 NOTHING = '[[regions]]\nname = "all"\nshape = "plate"\neffects = []\n'
 
 
-def words_of(channel, samples=1000, bit_clock_hz=500e3):
-    return np.frombuffer(chirp_words(channel, samples, bit_clock_hz, IDLE), "<u4")
+def words_of(channel, samples=1000, bit_clock_hz=500e3, band_hz=PAPER_HZ):
+    return np.frombuffer(chirp_words(channel, samples, bit_clock_hz, IDLE, band_hz), "<u4")
 
 
+@pytest.mark.parametrize("band_hz", BANDS_HZ)
 @pytest.mark.parametrize("channel", [0, 5, 31])
-def test_one_channel_moves_through_the_band_and_no_other(channel):
-    words = words_of(channel)
+def test_one_channel_moves_through_the_band_and_no_other(channel, band_hz):
+    words = words_of(channel, band_hz=band_hz)
     assert words.size == 1000
     assert ((words ^ IDLE) & ~np.uint32(1 << channel) == 0).all()
     assert words[0] == IDLE, "it begins where the channel rests"
     level = ((words >> channel) & 1).astype(float) * 2 - 1
     edges = np.flatnonzero(np.diff(level)).size
-    assert edges == pytest.approx(2 * np.mean(CHIRP_HZ) * 2e-3, abs=2)
+    assert edges == pytest.approx(2 * np.mean(band_hz) * 2e-3, abs=2)
     power = np.abs(np.fft.rfft(level)) ** 2
     hz = np.fft.rfftfreq(1000, 2e-6)
-    in_band = (hz > 0.9 * CHIRP_HZ[0]) & (hz < 1.1 * CHIRP_HZ[1])
+    in_band = (hz > 0.9 * band_hz[0]) & (hz < 1.1 * band_hz[1])
     assert power[in_band].sum() > 0.75 * power[1:].sum(), "the rest are harmonics of a square wave"
     assert power[(hz > 0) & (hz < 16e3)].sum() < 0.02 * power[1:].sum(), "it is hardly heard"
 
 
-def test_a_slow_bit_clock_goes_as_far_as_it_can():
-    level = (words_of(3, 500, 250e3) >> 3) & 1
+@pytest.mark.parametrize("band_hz", [PAPER_HZ, (60e3, 90e3)])
+def test_a_slow_bit_clock_goes_as_far_as_it_can(band_hz):
+    level = (words_of(3, 500, 250e3, band_hz) >> 3) & 1
     changes = np.flatnonzero(np.diff(level.astype(int)))
     assert np.diff(changes).min() >= 2, "no pulse of a single bit"
 
@@ -52,14 +61,15 @@ def test_a_slow_bit_clock_goes_as_far_as_it_can():
 @pytest.mark.parametrize("channel", [-1, 32])
 def test_there_are_32(channel):
     with pytest.raises(ValueError, match="is not 0 to 31"):
-        chirp_words(channel, 1000, 500e3, IDLE)
+        chirp_words(channel, 1000, 500e3, IDLE, PAPER_HZ)
 
 
 @pytest.fixture
 def run(board, bank_file, tmp_path, evemu_text):
     """A loop whose `progress` may ask its control for something; pins, counters, what was played, outcomes."""
 
-    def play(asks, *, scene_text=NOTHING, until_s=0.6, reports=((0.0, {}), (5.0, {0: (100.0, 70.0)}))):
+    def play(asks, *, on=(board, bank_file), scene_text=NOTHING, until_s=0.6, reports=((0.0, {}), (5.0, {0: (100.0, 70.0)}))):
+        board, bank_file = on
         (tmp_path / "s.toml").write_text(scene_text)
         clock, played, outcomes = VirtualClock(), [], []
         link = open_simulated(board, clock.now_s)
@@ -93,10 +103,25 @@ def test_its_pin_plays_the_chirp_and_a_second_time_it_is_resident(run, board):
     capture, counters, played, outcomes = run(asks)
     assert outcomes == [(1, "played"), (2, "played"), (3, "played")]
     bit_ticks = board.link.clock_hz / board.waveform.bit_clock_hz
-    expected = [zlib.crc32(chirp_words(channel, 1000, board.waveform.bit_clock_hz, board.idle_word)) for channel in (5, 31, 5)]
+    expected = [
+        zlib.crc32(chirp_words(channel, 1000, board.waveform.bit_clock_hz, board.idle_word, PAPER_HZ)) for channel in (5, 31, 5)
+    ]
     assert [crc for _, crc in emissions_on_pins(capture, round(bit_ticks))] == expected
     assert (counters.emissions, counters.uploads, counters.resident) == (3, 2, 1)
     assert [start.emissions[0].region for start in played] == ["channel 5", "channel 31", "channel 5"]
+
+
+def test_on_a_shipped_board_it_goes_through_that_boards_band(run, tmp_path):
+    band = {"waveform__band_low_hz": 24e3, "waveform__band_high_hz": 55e3}
+    board = simulated(changed(load_board(find_board("ulx3s")), **band, bank__pitch_mm=12.0, bank__coarse=True))
+    build_bank(BankRequest(board, tmp_path / "other.bank", 12e-3))
+    asks = [(0.2, lambda control, now_s: control.test_channel(1, 9, 0.05, 0.05, now_s))]
+    capture, _, _, outcomes = run(asks, on=(board, tmp_path / "other.bank"))
+    assert outcomes == [(1, "played")]
+    waveform = board.waveform
+    words = chirp_words(9, waveform.samples, waveform.bit_clock_hz, board.idle_word, (24e3, 55e3))
+    ((_, crc),) = emissions_on_pins(capture, board.bit_ticks)
+    assert crc == zlib.crc32(words)
 
 
 def test_between_the_pulses_of_a_train_it_is_played_alone(run):

@@ -177,7 +177,8 @@ class SceneChanger:
             return PreparedScene(ticket, said)
         try:
             bank = Bank.open(self._bank.path, self._board)
-            selection = Selection(bank, bank.snap_m(self._board), self._board.idle_word)
+            board = self._board
+            selection = Selection(bank, bank.snap_m(board), board.idle_word, board.waveform.band_hz)
             selection.prepare()
         except ControllerError as error:
             return PreparedScene(ticket, None, reason=str(error))
