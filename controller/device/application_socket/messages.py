@@ -125,7 +125,7 @@ class Stop(Request, frozen=True, kw_only=True, tag="stop", gc=False):
 
 
 class ChannelTest(Request, frozen=True, kw_only=True, tag="test_channel", gc=False):
-    """Play a chirp on one channel alone, which moves its patch and no other; answered as `PlayRequest`."""
+    """Play a chirp through the band on one channel alone: its patch moves and no other; answered as `PlayRequest`."""
 
     channel: Annotated[int, Meta(ge=0, le=31)]
 

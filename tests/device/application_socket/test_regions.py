@@ -1,8 +1,11 @@
 """A client's regions: who may send them, how many, how long and how often, and that they go with their client."""
 
+import contextlib
 import grp
 import json
 import os
+import signal
+import socket
 
 import pytest
 
@@ -168,3 +171,48 @@ def test_who_has_regions_does_not_give_way_as_silent(panel_with):
     panel.ask(page)
     assert panel.ask(panel.connect(OTHER))[0]["reason"] == "1 clients are connected already"
     assert panel.control.dropped == []
+
+
+@pytest.mark.parametrize("cut", [None, 10, 4000])
+def test_the_regions_of_a_process_that_is_killed_are_gone_in_the_turn_that_sees_it(panel_with, cut):
+    """Whether it waited for nothing, or was in the middle of its next line."""
+    panel = panel_with()
+    line = json.dumps(REGIONS).encode() + b"\n"
+    sent = line + (b"" if cut is None else (line * 100)[:cut].replace(b"\n", b" "))
+    reads, writes = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        with contextlib.suppress(BaseException), socket.socket(socket.AF_UNIX) as client:
+            client.connect(panel.settings.path)
+            client.sendall(sent)
+            os.write(writes, b"1")
+            signal.pause()
+        os._exit(1)
+    os.read(reads, 1)
+    panel.settle()
+    in_force(panel)
+    ((_, owner, *_),) = panel.control.layers
+    assert panel.control.dropped == []
+    os.kill(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
+    assert panel.turn()
+    assert panel.control.dropped == [owner]
+    assert panel.socket._clients.connected == 0
+    os.close(reads)
+    os.close(writes)
+
+
+@pytest.mark.parametrize("region", ["{}", "1", '{"name":"a"}', "[" * 5 + "]" * 5])
+def test_a_hundred_thousand_regions_are_one_refusal_however_long_a_line_may_be(panel_with, region):
+    panel = panel_with(layer_regions=1000, layer_bytes=131_072)
+    client = panel.connect()
+    for count in (1001, 40_000, 100_000):
+        line = b'{"kind":"regions","id":1,"regions":[' + ",".join([region] * count).encode() + b"]}\n"
+        (answer,) = panel.ask(client, line)
+        assert answer["outcome"] == "refused"
+        too_long = len(line) > 131_072
+        assert answer["reason"] == (
+            "a line is at most 131072 bytes" if too_long else f"regions: {count} of them, a client may have 1000"
+        )
+    assert panel.control.layers == []
+    assert panel.ask(client, {"kind": "unsubscribe"})[0]["outcome"] == "done"

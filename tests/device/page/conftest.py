@@ -50,6 +50,7 @@ class Bridge:
     """A process of `haptic-panel page`."""
 
     def __init__(self, folder, socket, text="", www=None):
+        self.ends_with = 0
         self.settings = folder / "page.toml"
         self.settings.write_text(text)
         self._said = tempfile.TemporaryFile("w+")  # noqa: SIM115
@@ -137,7 +138,7 @@ def bridge_with(served, tmp_path):
         return bridges[-1]
 
     yield make
-    assert [bridge.end() for bridge in bridges] == [0] * len(bridges)
+    assert [bridge.end() for bridge in bridges] == [bridge.ends_with for bridge in bridges]
 
 
 @pytest.fixture

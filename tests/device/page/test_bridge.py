@@ -12,11 +12,15 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from device.page.conftest import PLAYS
 from device.page.test_screen import PLACE, SCREEN
 from patience import wait_for
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from controller.device.application_socket.client import PanelClient
+
 PATIENCE_S = 60.0
+RANDOM_FRAMES, AT_ONCE = 10_000, 50
 REGION = {"name": "a", "shape": "rectangle", "x_mm": 20, "y_mm": 30, "width_mm": 40, "height_mm": 12, "effects": ["click"]}
 
 
@@ -173,9 +177,10 @@ def test_random_frames_get_an_answer_each_and_the_panel_plays_on(bridge_with, as
     ]
     with bridge.open() as page:
         page.recv(PATIENCE_S)
-        for _ in range(300):
-            page.send("".join(source.choices(words, k=source.randint(0, 12))))
-            assert json.loads(page.recv(PATIENCE_S))["outcome"] == "refused"
+        for _ in range(RANDOM_FRAMES // AT_ONCE):
+            for _ in range(AT_ONCE):
+                page.send("".join(source.choices(words, k=source.randint(0, 12))))
+            assert [json.loads(page.recv(PATIENCE_S))["outcome"] for _ in range(AT_ONCE)] == ["refused"] * AT_ONCE
         assert asks(page, kind="play", effect="click", x_mm=100, y_mm=70)["outcome"] == "played"
 
 
@@ -278,6 +283,19 @@ def test_a_layer_is_gone_with_its_page(bridge, asks):
         assert asks(page, kind="figures")["figures"]["application_socket"]["clients_connected"] == 1
     with bridge.open() as page:
         wait_for("its end", lambda: asks(page, kind="figures")["figures"]["application_socket"]["clients_connected"] == 1)
+
+
+def test_a_bridge_that_is_killed_takes_its_layers_along_and_another_one_serves(bridge_with, asks, served):
+    bridge = bridge_with()
+    bridge.ends_with = -signal.SIGKILL
+    with PanelClient(served.socket, timeout_s=PATIENCE_S) as panel, bridge.open() as page:
+        assert asks(page, kind="regions", regions=[REGION])["regions"] == 1
+        page.send(json.dumps({"kind": "regions", "regions": [REGION | {"name": f"r{n}", "x_mm": n} for n in range(150)]}))
+        bridge.process.kill()
+        wait_for("its end", lambda: panel.describe().clients.connected == 1)
+        assert panel.state().state in PLAYS
+    with bridge_with().open() as page:
+        assert asks(page, kind="regions", regions=[REGION])["regions"] == 1
 
 
 def test_beyond_this_machine_only_with_tls_and_token(bridge_with, tmp_path):
