@@ -27,7 +27,7 @@ from controller.device.service.scenes.layer_message import (
     unpack_setup,
 )
 from controller.device.service.scenes.layer_preparer import LayerPreparer
-from controller.device.service.scenes.scene_message import MessageError
+from controller.device.service.scenes.message_frame import MessageError
 
 
 def rectangles(count=5, **more):

@@ -15,18 +15,11 @@ from tables import each_row
 
 from controller.device.bank.reader import Bank
 from controller.device.scene.scene import Scene, load_scene
-from controller.device.service.scenes import helper_process, scene_message, scene_reload
+from controller.device.service.scenes import helper_process, message_frame, scene_reload
 from controller.device.service.scenes.helper_process import HelperProcess
+from controller.device.service.scenes.message_frame import HEADER, MOST_BYTES, MessageError
 from controller.device.service.scenes.prepare_scene import populate
-from controller.device.service.scenes.scene_message import (
-    HEADER,
-    MOST_BYTES,
-    MessageError,
-    pack_request,
-    pack_scene,
-    unpack_request,
-    unpack_scene,
-)
+from controller.device.service.scenes.scene_message import pack_request, pack_scene, unpack_request, unpack_scene
 from controller.device.service.scenes.scene_reload import SceneChanger
 from controller.errors import BankError, ConfigError
 
@@ -284,8 +277,8 @@ def scene_data(board, folder):
     return pack_scene(load_scene(folder / "scene.toml", board))
 
 
-def framed(data, version=scene_message.VERSION):
-    return HEADER.pack(b"HPsc", version, len(data), scene_message.zlib.crc32(data)) + data
+def framed(data, version=message_frame.VERSION):
+    return HEADER.pack(b"HPsc", version, len(data), message_frame.zlib.crc32(data)) + data
 
 
 def test_a_scene_comes_over_as_it_was_and_a_request_too(board):
@@ -358,8 +351,8 @@ def test_a_value_that_cannot_be_is_refused_though_the_message_is_whole(board, fo
         lambda message: message[:10],
         lambda _: b"",
         lambda message: b"PK" + message[2:],
-        lambda message: framed(message[HEADER.size :], version=scene_message.VERSION + 1),
-        lambda message: HEADER.pack(b"HPsc", scene_message.VERSION, 0xFFFFFFFF, 0) + message[HEADER.size :],
+        lambda message: framed(message[HEADER.size :], version=message_frame.VERSION + 1),
+        lambda message: HEADER.pack(b"HPsc", message_frame.VERSION, 0xFFFFFFFF, 0) + message[HEADER.size :],
         lambda _: framed(b"\x90" * 5000),
         lambda _: framed(b"\x91" * 5000),
         lambda _: framed(b"\xdd\xff\xff\xff\xff"),
@@ -439,5 +432,5 @@ def test_whatever_the_helper_answers_the_loop_gets_a_scene_that_is_right_or_a_li
 
 
 def test_an_answer_that_says_it_is_too_large_is_refused_before_it_is_there(lied_to):
-    assert "too large" in lied_to(HEADER.pack(b"HPsc", scene_message.VERSION, MOST_BYTES + 1, 0)).reason
-    assert "ends again and again" in lied_to(HEADER.pack(b"HPsc", scene_message.VERSION, MOST_BYTES, 0) + b"not as much").reason
+    assert "too large" in lied_to(HEADER.pack(b"HPsc", message_frame.VERSION, MOST_BYTES + 1, 0)).reason
+    assert "ends again and again" in lied_to(HEADER.pack(b"HPsc", message_frame.VERSION, MOST_BYTES, 0) + b"not as much").reason

@@ -1,4 +1,4 @@
-"""Messages between the event loop and the process that prepares layers, framed as those about scenes (`scene_message`).
+"""Messages between the event loop and the process that prepares layers, in the form of `message_frame`.
 
 What many regions have in common is sent once, as a style: 200 regions with their effects have 12 kB, and the loop takes them over
 in less than half a millisecond.
@@ -6,7 +6,6 @@ in less than half a millisecond.
 
 from __future__ import annotations
 
-from itertools import chain
 from pathlib import Path
 from typing import Annotated
 
@@ -22,18 +21,19 @@ from controller.device.scene.scene import Region, SpatialIndex
 from controller.device.scene.scene_file import Shape
 from controller.device.scene.spacings import Spacing
 from controller.device.scene.trains import Train
-from controller.device.service.scenes.scene_message import (
+from controller.device.service.scenes.message_frame import (
     MOST_BYTES,
     REASON_CHARACTERS,
     MessageError,
     board_of,
-    checked,
+    data_of,
     encoder,
     framed,
     one_line,
     require_own,
+    require_within,
+    unfit,
 )
-from controller.errors import ConfigError
 
 Trains = tuple[Train, ...]
 Count = Annotated[int, Meta(ge=0)]
@@ -106,12 +106,9 @@ def unpack_setup(message: bytes) -> LayerSetup:
     MessageError
         If it does not fit.
     """
-    try:
-        setup = _setups.decode(checked(message))
-        require_own(setup.software)
-        return LayerSetup(setup.software, board_of(setup.board), setup.bank, setup.checked)
-    except (msgspec.MsgspecError, ConfigError) as error:
-        raise MessageError(f"the message does not fit: {error}") from error
+    setup = data_of(message, _setups)
+    require_own(setup.software)
+    return LayerSetup(setup.software, board_of(setup.board), setup.bank, setup.checked)
 
 
 def pack_request(line: bytes, placement: Placement) -> bytes:
@@ -127,10 +124,7 @@ def unpack_request(message: bytes) -> LayerRequest:
     MessageError
         If it does not fit.
     """
-    try:
-        return _requests.decode(checked(message))
-    except msgspec.MsgspecError as error:
-        raise MessageError(f"the message does not fit: {error}") from error
+    return data_of(message, _requests)
 
 
 def pack_layer(regions: tuple[Region, ...], index: SpatialIndex, off_plate: int, refused: tuple[RefusedRegion, ...]) -> bytes:
@@ -177,17 +171,13 @@ def unpack_layer(message: bytes) -> AcceptedLayer | str:
     MessageError
         If the message does not fit.
     """
-    try:
-        reply = _replies.decode(checked(message))
-    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
-        raise MessageError(one_line(f"the message does not fit: {error}")) from error
+    reply = data_of(message, _replies)
     if reply.index is None:
         return reply.reason or "no reason given"
     styles, places, index = reply.styles, reply.places, reply.index
     if max([place.style for place in places], default=-1) >= len(styles):
-        raise MessageError("the message does not fit: a region has a style that it does not have")
-    if max(chain.from_iterable(index.candidates), default=-1) >= len(places):
-        raise MessageError("the message does not fit: its spatial index names a region that it does not have")
+        raise unfit("a region has a style that it does not have")
+    require_within(index, len(places))
     regions = tuple([_region(place, styles[place.style]) for place in places])
     return AcceptedLayer(regions, index.lookup(regions), reply.off_plate, reply.refused, reply.refused_count)
 

@@ -13,7 +13,7 @@ from controller.device.loop.layer_source import AcceptedLayer
 from controller.device.scene.layers import Placement
 from controller.device.service.scenes.helper_process import HelperProcess
 from controller.device.service.scenes.layer_message import pack_request, pack_setup, unpack_layer
-from controller.device.service.scenes.scene_message import HEADER, MessageError, length
+from controller.device.service.scenes.message_frame import HEADER, MessageError, length
 
 LIMIT_S = 1.0  # time limit of one layer
 GRACE_S = 5.0  # after that, until the helper counts as hanging: it may still be importing, or reading the bank from a slow card

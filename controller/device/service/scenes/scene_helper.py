@@ -18,17 +18,10 @@ import socket
 import time
 from pathlib import Path
 
+from controller.device.service.scenes.message_frame import HEADER, MOST_BYTES, length
 from controller.device.service.scenes.prepare_scene import prepare
 from controller.device.service.scenes.saved_scene import BYTES_MAX, save_scene
-from controller.device.service.scenes.scene_message import (
-    HEADER,
-    MOST_BYTES,
-    length,
-    pack_refusal,
-    pack_saved,
-    pack_scene,
-    unpack_request,
-)
+from controller.device.service.scenes.scene_message import pack_refusal, pack_saved, pack_scene, unpack_request
 from controller.errors import ControllerError
 
 MEMORY_BYTES = 256 << 20  # limit for a preparation, in addition to the bank's size

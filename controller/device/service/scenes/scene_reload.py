@@ -16,7 +16,8 @@ from controller.device.loop.scene_source import PreparedScene
 from controller.device.scene.scene import Scene
 from controller.device.scene.scene_file import find_scene
 from controller.device.service.scenes.helper_process import HelperProcess
-from controller.device.service.scenes.scene_message import HEADER, MessageError, length, pack_request, unpack_scene
+from controller.device.service.scenes.message_frame import HEADER, MessageError, length
+from controller.device.service.scenes.scene_message import pack_request, unpack_scene
 from controller.device.waveforms.selection import Selection
 from controller.errors import ConfigError, ControllerError
 
