@@ -165,7 +165,7 @@ def _parts(board: Board) -> Iterator[str]:
         pairs.append(("patches.mass_kg_m2", patches.mass_kg_m2, on.mass_kg_m2))
         pairs.append(("patches.stiffness_ratio", patches.stiffness_ratio, on.stiffness_ratio))
     for key, given, made in pairs:
-        if not 1 / PARTS_DIFFER <= given / made <= PARTS_DIFFER:
+        if not made / PARTS_DIFFER <= given <= made * PARTS_DIFFER:
             yield f"{key} = {given:.3g}, of {board.parts.called} {made:.3g}: measure it, or give the parts that the panel has"
 
 
