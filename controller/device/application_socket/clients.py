@@ -15,6 +15,7 @@ from controller.device.application_socket.connection import NOT_LOGGED, UNWATCHE
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.messages import Farewell, Right
 from controller.device.application_socket.peers import Peer, Rights
+from controller.device.application_socket.places import offered
 from controller.device.application_socket.socket_file import SocketFile
 from controller.device.board.devices import ApplicationSocket
 
@@ -67,8 +68,7 @@ class Clients:
         self.gone: list[int] = []
         self._counters = counters
         self._peer_of = peer_of
-        self._clients_per_user = settings.clients_per_user
-        self._idle_s = settings.idle_s
+        self._settings = settings
         self._file = SocketFile(settings)
         self._listener_fd = self._file.listener.fileno()
         self._listen_s = NEVER  # when the listener is watched again
@@ -195,45 +195,20 @@ class Clients:
             self._counters.without_right += 1
             _send_away(accepted, self.rights.why_not(peer, "play"), "play")
             return
-        place, reason = self._place_for(peer, rights, now_s)
+        place, reason = offered(self.places, peer, rights, self.rights, self._settings, now_s)
         if place is None:
             self._counters.turned_away += 1
             _send_away(accepted, reason)
             return
+        if place.open:
+            self._counters.gave_way += 1
+            place.leave("its place was needed, and it had been silent for longest")
+            place.flush()
+            self._disconnect(place)
         self._counters.clients_accepted += 1
         place.begin(accepted, self._counters.clients_accepted, now_s, peer, rights)
         self._watch(place, select.EPOLLIN)
         self._count_users()
-
-    def _place_for(self, peer: Peer, rights: tuple[Right, ...], now_s: float) -> tuple[Connection | None, str]:
-        """A free place, or None and why there is none.
-
-        A user without the right to operate has at most `clients_per_user` places. If no place is free, the client that has
-        been silent for longest is disconnected, provided that it was silent for `idle_s`. A client that may operate, and so
-        disarm the panel, always gets a place: if nobody was silent for that long, that of the client without the right to
-        operate that was heard longest ago.
-        """
-        operator = "operate" in rights
-        there = list(self)
-        own = [client for client in there if client.peer.uid == peer.uid]
-        reason = ""
-        if not operator and len(own) >= self._clients_per_user:
-            there, reason = own, f"{len(own)} clients of {self.rights.called(peer)} are connected already"
-        elif len(there) == len(self.places):
-            reason = f"{len(there)} clients are connected already"
-        else:
-            return next(client for client in self.places if not client.open), ""
-        idle = [client for client in there if client.silent and now_s - client.heard_s >= self._idle_s]
-        if operator and not idle:
-            idle = [client for client in there if "operate" not in client.rights]
-        if not idle:
-            return None, reason
-        gone = min(idle, key=lambda client: (not client.silent, client.heard_s))
-        self._counters.gave_way += 1
-        gone.leave("its place was needed, and it had been silent for longest")
-        gone.flush()
-        self._disconnect(gone)
-        return gone, ""
 
     def _watch(self, client: Connection, wanted: int) -> None:
         if client.watched == UNWATCHED:
