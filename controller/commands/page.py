@@ -107,8 +107,9 @@ def _simulated_panel(socket: str) -> Iterator[None]:
     """`haptic-panel serve` as another process, which plays by now, and ends with this one."""
     read_end, write_end = os.pipe()
     command = [sys.executable, "-m", "controller", "serve", "--fingers", str(FINGERS), "--ready-fd", str(write_end), "--", socket]
+    traces = os.environ | {"RUNTIME_DIRECTORY": str(Path(socket).parent)}
     with os.fdopen(read_end, "rb") as answer:
-        panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(write_end,), start_new_session=True)
+        panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(write_end,), start_new_session=True, env=traces)
         os.close(write_end)
         try:
             if not answer.read(1):

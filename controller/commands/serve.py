@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import number
 from controller.console import tell
 from controller.programs import SHOWN_EVERY_S, end, repeat
 
@@ -36,6 +37,13 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
         "--touched-s", type=float, default=3600.0, metavar="S", help="for how long fingers are down (default: 3600)"
     )
     command.add_argument("--fingers", type=int, default=2, choices=range(5), metavar="N", help="that move, 0 to 4 (default: 2)")
+    command.add_argument(
+        "--ghosts",
+        type=_probability,
+        default=0.0,
+        metavar="P",
+        help="probability of a false contact during an emission (default: 0)",
+    )
     command.add_argument("--background", action="store_true", help="return once the panel plays; it runs until it is ended")
     command.add_argument(
         "--ready-fd",
@@ -79,9 +87,16 @@ def run(options: argparse.Namespace) -> int:
         tell(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
         started_s = time.monotonic()
         with Bank.open(path, board) as bank:
-            serve(board, settings, bank, options.touched_s, ready, options.fingers)
+            serve(board, settings, bank, options.touched_s, ready, options.fingers, options.ghosts)
     tell(f"served for {time.monotonic() - started_s:.0f} s")
     return 0
+
+
+def _probability(text: str) -> float:
+    probability = number(text)
+    if not 0 <= probability <= 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number from 0 to 1")
+    return probability
 
 
 def _leave_output() -> None:
@@ -99,7 +114,7 @@ def _in_background(options: argparse.Namespace) -> int:
     """
     command = [sys.executable, "-m", "controller", "serve", "--board", options.board]
     command += ["--commands-per-s", str(options.commands_per_s), "--touched-s", str(options.touched_s)]
-    command += ["--fingers", str(options.fingers)]
+    command += ["--fingers", str(options.fingers), "--ghosts", str(options.ghosts)]
     read_end, write_end = os.pipe()
     with os.fdopen(read_end, "rb") as answer, tempfile.TemporaryFile() as said:
         command += ["--ready-fd", str(write_end), "--", options.socket]

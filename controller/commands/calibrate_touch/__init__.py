@@ -51,6 +51,11 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     what = command.add_mutually_exclusive_group()
     what.add_argument("--ghosts", action="store_true", help="instead: play while nobody touches the panel, and determine ghost_ms")
+    command.add_argument(
+        "--socket",
+        metavar="S",
+        help="for axes and --ghosts: of a panel whose service plays, by its application socket; prints the lines",
+    )
     what.add_argument("--lag", action="store_true", help="instead: slide a finger together with a mouse, and determine lag_ms")
     command.add_argument("--bank", metavar="FILE", help="with --ghosts: play from this bank")
     command.add_argument("--reference", metavar="DEVICE", help="with --lag: the mouse, best by its path below /dev/input/by-id")
@@ -64,6 +69,10 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def calibrate_touch(options: argparse.Namespace) -> int:
     """Ask for touches and print, or write, the map that follows; with --ghosts or --lag determine these values instead."""
     _refuse_what_makes_no_sense(options)
+    if options.socket is not None:
+        from controller.commands.calibrate_touch.running import calibrate_running
+
+        return calibrate_running(options)
     if options.ghosts:
         from controller.commands.calibrate_touch.ghosts import calibrate_ghosts
 
@@ -111,6 +120,9 @@ def _refuse_what_makes_no_sense(options: argparse.Namespace) -> None:
         if getattr(options, name) is not None and mode not in modes:
             wanted = f"it goes with {' or '.join(modes)}" if modes[0] else f"it is for the axes, without {mode}"
             raise UsageError(f"--{name} is of no use here: {wanted}")
+    for name in ("lag", "bank", "out", "replay", "write"):
+        if options.socket is not None and getattr(options, name):
+            raise UsageError(f"--{name} is of no use with --socket: stop the service, and leave out --socket")
     for name in ("out", "reference", "seconds", "bank"):
         if options.replay and getattr(options, name) is not None:
             raise UsageError(f"--{name} is of no use with --replay: nothing is measured")

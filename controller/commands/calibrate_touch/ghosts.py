@@ -34,7 +34,7 @@ SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what th
 
 def calibrate_ghosts(options: argparse.Namespace) -> int:
     """Play, record the panel, and print or write `ghost_ms`; or determine it from such a recording."""
-    return calibrate_value(options, "ghost_ms", _measured, ghost_figures, _figures, _table)
+    return calibrate_value(options, "ghost_ms", _measured, ghost_figures, figures, table)
 
 
 def _measured(options: argparse.Namespace, board: Board) -> str:
@@ -95,7 +95,8 @@ def _simulated_panel(board: Board, link: Link) -> EventReader:
     return GhostlyPanel(board, (), pins_of(link), ghosts, until_s=1e6)
 
 
-def _figures(found: GhostFigures) -> dict[str, Any]:
+def figures(found: GhostFigures) -> dict[str, Any]:
+    """The result, ready for JSON."""
     appears, gone, size = found.appears_ms, found.gone_ms, found.size_mm
     return {
         "emissions": found.emissions,
@@ -109,7 +110,8 @@ def _figures(found: GhostFigures) -> dict[str, Any]:
     }
 
 
-def _table(figures: dict[str, Any]) -> list[str]:
+def table(figures: dict[str, Any]) -> list[str]:
+    """The result as lines for people."""
     if not figures["ghosts"]:
         return [f"no ghost in {figures['emissions']} emissions: below {100 * figures['rate_below']:.1f} % of them, at 95 %"]
     gone, appears, size = figures["gone_ms"], figures["appears_ms"], figures["size_mm"]

@@ -63,7 +63,7 @@ complete haptic-panel \
         'n/--role/(root targets snapshot timestamp)/' \
         'n/--settings/f/' \
         'p/1/(run serve status client doctor setup board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)/' \
-        'n/client/(play touches emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)/' \
+        'n/client/(play touches contacts emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check build info load)/' \
         'n/bank/(build choices info verify)/' \

@@ -18,9 +18,10 @@ import msgspec
 from msgspec import Raw
 
 from controller.device.application_socket import messages
-from controller.device.application_socket.client_link import PanelLink
+from controller.device.application_socket.client_link import PanelLink, T
 from controller.device.application_socket.messages import (
     Answer,
+    Contact,
     Description,
     Emissions,
     FaultNotice,
@@ -178,6 +179,30 @@ class PanelClient:
     def touches(self) -> Iterator[Touch]:
         """Every touch from this call on, until the iterator is closed."""
         return self._link.follow(Touch, "touches")
+
+    def contacts(self) -> Iterator[Contact]:
+        """Every contact as the touch panel has it, ghosts too, from this call on, until the iterator is closed, as for `states`.
+
+        Raises
+        ------
+        ControllerError
+            If this user does not have the right to operate.
+        """
+        return self._link.follow(Contact, "contacts")
+
+    def subscribe(self, *topics: messages.Topic) -> None:
+        """Have the panel send what belongs to these topics, for `heard`.
+
+        Raises
+        ------
+        ControllerError
+            If it is refused.
+        """
+        self._link.done(messages.Subscribe(id=self._link.new_id(), to=topics))
+
+    def heard(self, kind: type[T], wait_s: float) -> list[T]:
+        """What has come of a kind that was subscribed to; if nothing has, wait up to `wait_s` for a message of any kind."""
+        return self._link.heard(kind, wait_s)
 
     def emissions(self) -> Iterator[Emissions]:
         """What is played from this call on, and what is not, until the iterator is closed, as for `states`."""

@@ -53,6 +53,9 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
         case "touches":
             for touch in panel.touches():
                 _show(touch)
+        case "contacts":
+            for contact in panel.contacts():
+                _show(contact)
         case "emissions":
             for emissions in panel.emissions():
                 _show(emissions)
@@ -161,6 +164,7 @@ def declare_requests(parser: argparse.ArgumentParser) -> None:
     play.add_argument("--table", type=Path, metavar="FILE.toml", help="[effects.EFFECT] of this file, as `effect import` writes it")
     play.add_argument("--amplitude", type=float, metavar="A", help="0.1 to 1 (default: the largest that is allowed)")
     commands.add_parser("touches", help="print every touch until Ctrl-C")
+    commands.add_parser("contacts", help="print every contact as the touch panel has it, ghosts too, until Ctrl-C; for operators")
     commands.add_parser("emissions", help="print what is played, and what is not and why, until Ctrl-C")
     regions = commands.add_parser("regions", help="lay the regions of a scene.toml over the scene until Ctrl-C")
     regions.add_argument("file", type=Path, metavar="SCENE.toml")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import grp
 import os
 import pwd
@@ -18,6 +19,7 @@ from controller.device.application_socket.messages import (
     Answer,
     AnyMessage,
     AnyRequest,
+    Contact,
     Data,
     Description,
     Emissions,
@@ -35,8 +37,12 @@ D = TypeVar("D", bound="Reply")
 RECEIVE_BYTES = 65536
 MAX_KEPT = 1000  # of each kind that arrive while an answer is awaited; older ones are dropped
 
-Notice = Touch | Emissions | StateAnswer | FaultNotice | Description | LogLine
+Notice = Touch | Contact | Emissions | StateAnswer | FaultNotice | Description | LogLine
 Reply = Answer | LayerAnswer | Data
+
+
+class Silent(LinkError):
+    """Nothing has come in time."""
 
 
 class PanelLink:
@@ -84,6 +90,16 @@ class PanelLink:
         """Everything of a topic from this call on, until the iterator is closed, which ends all topics."""
         self.done(messages.Subscribe(id=self.new_id(), to=(topic,)))
         return self._follow(self._notices[kind])
+
+    def heard(self, kind: type[T], wait_s: float) -> list[T]:
+        """What has come of a kind that was subscribed to; if nothing has, wait so long for a message of any kind."""
+        kept = self._notices[kind]
+        if not kept:
+            with contextlib.suppress(Silent):
+                self._keep(self._receive(wait_s))
+        found = list(kept)
+        kept.clear()
+        return found
 
     def _follow(self, kept: deque[T]) -> Iterator[T]:
         try:
@@ -175,8 +191,8 @@ class PanelLink:
             try:
                 self._socket.settimeout(timeout_s)
                 more = self._socket.recv(RECEIVE_BYTES)
-            except TimeoutError:
-                raise LinkError(f"{self._path}: the panel does not answer within {self._timeout_s:g} s") from None
+            except (TimeoutError, BlockingIOError):  # the latter without any wait
+                raise Silent(f"{self._path}: the panel does not answer within {self._timeout_s:g} s") from None
             except OSError as error:
                 raise LinkError(f"{self._path}: the panel has ended the connection ({error.strerror})") from error
             if not more:

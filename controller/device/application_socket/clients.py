@@ -154,7 +154,7 @@ class Clients:
     def unsubscribe(self, client: Connection) -> None:
         """Have a client receive nothing but answers."""
         self.subscribe(client, touches=False)
-        client.shown_emissions = client.informed = client.described = client.warned = False
+        client.overhears = client.shown_emissions = client.informed = client.described = client.warned = False
         client.lines_sent = NOT_LOGGED
 
     def send(self, client: Connection) -> None:

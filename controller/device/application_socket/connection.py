@@ -53,6 +53,7 @@ class Connection:
         self.rights: tuple[Right, ...] = ()
         self.heard_s = -math.inf  # when its last line arrived, in s of the host's clock
         self.subscribed = False  # to touches
+        self.overhears = False  # subscribed to contacts
         self.shown_emissions = False  # subscribed to emissions
         self.informed = False  # subscribed to states
         self.described = False  # subscribed to descriptions
@@ -99,7 +100,7 @@ class Connection:
         self.peer, self.rights, self.heard_s = peer, rights, now_s
         self.fd = client.fileno()
         self.serial = serial
-        self.subscribed = self.shown_emissions = self.informed = self.described = self.warned = False
+        self.subscribed = self.overhears = self.shown_emissions = self.informed = self.described = self.warned = False
         self.lines_sent = NOT_LOGGED
         self.ended = self.deaf = self.layered = self._skipping = False
         self.leaving_reason = ""
@@ -129,6 +130,7 @@ class Connection:
         """Whether it has subscribed to anything."""
         return (
             self.subscribed
+            or self.overhears
             or self.shown_emissions
             or self.informed
             or self.described

@@ -103,6 +103,7 @@ class Describer:
             board_digest=self._board.digest().hex(),
             length_mm=self._board.plate.length_mm,
             width_mm=self._board.plate.width_mm,
+            emission_ms=round(self._board.waveform.duration_s * 1e3, 6),
             patches=self._patches,
             axes=self._axes,
             scene=name,

@@ -23,7 +23,7 @@ Word = Annotated[str, Meta(min_length=1, max_length=64)]
 PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
 Right = Literal["look", "play", "regions", "operate"]
 ShiftMm = Annotated[float, Meta(ge=-MOST_SHIFT_MM, le=MOST_SHIFT_MM)]
-Topic = Literal["touches", "emissions", "state", "description", "faults", "log"]
+Topic = Literal["touches", "contacts", "emissions", "state", "description", "faults", "log"]
 Outcome = Literal["played", "merged", "skipped", "refused", "done"]
 
 
@@ -70,10 +70,10 @@ class Clip(Aimed, frozen=True, kw_only=True, tag="clip", gc=False):
 class Subscribe(Request, frozen=True, kw_only=True, tag="subscribe", gc=False):
     """Send touches, emissions or faults from now on, state or description of the panel now and at each change, the log from now on.
 
-    The log's last 50 lines come first. It is for operators; touches and emissions are for who may play.
+    The log's last 50 lines come first. It is for operators, and so are contacts; touches and emissions are for who may play.
     """
 
-    to: Annotated[tuple[Topic, ...], Meta(min_length=1, max_length=6)] = ("touches",)
+    to: Annotated[tuple[Topic, ...], Meta(min_length=1, max_length=7)] = ("touches",)
 
 
 class Unsubscribe(Request, frozen=True, kw_only=True, tag="unsubscribe", gc=False):
@@ -222,6 +222,13 @@ class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc
     size_mm: float
 
 
+class Contact(Touch, frozen=True, kw_only=True, tag="contact", gc=False):
+    """As `Touch`, of each contact as the touch panel has it, before it is decided which are fingers: ghosts too.
+
+    `finger` is the source's own number, which may differ from that of the same finger as a `Touch`.
+    """
+
+
 class PlayedFocus(Struct, frozen=True, kw_only=True, omit_defaults=True, gc=False):
     """One focus of an emission that started at `time_s` (CLOCK_MONOTONIC): where it is, how strong, of which region or effect.
 
@@ -274,7 +281,7 @@ class PatchPlace(Struct, frozen=True, gc=False):
 
 
 class Axes(Struct, frozen=True, gc=False):
-    """How a touch panel's axes become millimetres: x_mm = a + b X + c Y of its own units, and so y_mm."""
+    """How a touch panel's axes, 0 to 1, become millimetres: x_mm = a X + b Y + c, and so y_mm."""
 
     x_mm_from_axes: tuple[float, float, float]
     y_mm_from_axes: tuple[float, float, float]
@@ -326,8 +333,8 @@ class LogLine(Struct, frozen=True, kw_only=True, tag_field="kind", tag="log", gc
 class Description(Struct, frozen=True, kw_only=True, tag_field="kind", tag="description", gc=False):
     """The panel: the answer to `Describe` or, with an id of null, a notification to subscribers.
 
-    `release` is the name of the installed release, empty outside of one; of the scene's `region_count` regions `regions` has the
-    first, without those of clients; `faults` are the last 50, the oldest first.
+    `release` is the name of the installed release, empty outside of one; `emission_ms` is how long one emission lasts; of the
+    scene's `region_count` regions `regions` has the first, without those of clients; `faults` are the last 50, the oldest first.
     """
 
     id: Id
@@ -338,6 +345,7 @@ class Description(Struct, frozen=True, kw_only=True, tag_field="kind", tag="desc
     board_digest: str
     length_mm: float
     width_mm: float
+    emission_ms: float
     patches: tuple[PatchPlace, ...]
     axes: Axes
     scene: str
@@ -362,7 +370,7 @@ AnyRequest = AnyOrder | AnyQuestion
 OPERATIONS = Arm | Disarm | LoadScene | SaveScene | ChannelTest | WriteTrace  # for operators
 LONG = Regions | SaveScene  # lines of these kinds have at most `layer_bytes`
 Data = Greeting | FiguresAnswer | StateAnswer | Description
-AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Emissions | LogLine | Farewell
+AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Contact | Emissions | LogLine | Farewell
 
 
 def request_decoder() -> msgspec.json.Decoder[AnyRequest]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 
 from controller.device.application_socket import messages
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import NOT_LOGGED, Connection
 from controller.device.application_socket.description import Faults
 from controller.device.board.panel_state import Condition
+from controller.device.loop.commands import PanelControl
 from controller.device.touch.source import TouchSample
 from controller.log import LAST_LINES, LOG
 
@@ -29,6 +31,7 @@ class Notifications:
         self.faults = Faults()
         self._clients = clients
         self._lines_sent = NOT_LOGGED
+        self._control: PanelControl | None = None  # whose contacts are heard
         self._logged_to = False  # whether anybody has subscribed to the log
 
     def touches(self, samples: Sequence[TouchSample]) -> None:
@@ -37,18 +40,37 @@ class Notifications:
             return
         for client in self._clients.places:
             if client.subscribed:
-                for finger, x_m, y_m, time_s, contact, size_m in samples:
-                    client.put(
-                        messages.Touch(
-                            finger=finger,
-                            x_mm=round(x_m * 1e3, 3),
-                            y_mm=round(y_m * 1e3, 3),
-                            time_s=time_s,
-                            contact=contact,
-                            size_mm=round(size_m * 1e3, 3),
-                        )
-                    )
-                self._clients.send(client)
+                self._send(client, samples, messages.Touch)
+
+    def contacts_to(self, client: Connection, control: PanelControl) -> None:
+        """Have a client receive the contacts of each report from now on."""
+        client.overhears = True
+        self._control = control
+        control.hear(self._contacts)
+
+    def _contacts(self, samples: Sequence[TouchSample]) -> None:
+        """Send the contacts of one report, until the last client that wanted them has gone."""
+        wanted = False
+        for client in self._clients.places:
+            if client.overhears:
+                wanted = True
+                self._send(client, samples, messages.Contact)
+        if not wanted and self._control is not None:
+            self._control.hear(None)
+
+    def _send(self, client: Connection, samples: Sequence[TouchSample], kind: type[messages.Touch]) -> None:
+        for finger, x_m, y_m, time_s, contact, size_m in samples:
+            client.put(
+                kind(
+                    finger=finger,
+                    x_mm=round(x_m * 1e3, 3),
+                    y_mm=round(y_m * 1e3, 3),
+                    time_s=time_s,
+                    contact=contact,
+                    size_mm=round(size_m * 1e3, 3) if isfinite(size_m) else 0.0,
+                )
+            )
+        self._clients.send(client)
 
     def changed(self, condition: Condition, now_s: float) -> None:
         """Keep the panel's new condition, of host time `now_s`, and send it, and the fault if it is one."""

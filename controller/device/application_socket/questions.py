@@ -93,6 +93,8 @@ class Questions:
         client.warned |= "faults" in to
         if "log" in to:
             self._notifications.log_to(client)
+        if "contacts" in to:
+            self._notifications.contacts_to(client, control)
         if "emissions" in to:
             client.shown_emissions = True
             self._emissions.begin(control)

@@ -26,7 +26,12 @@ NEEDED: Final[dict[Any, Right]] = {
     messages.Regions: "regions",
     messages.MoveRegions: "regions",
 } | dict.fromkeys(get_args(messages.OPERATIONS), "operate")
-NEEDED_TO_FOLLOW: Final[dict[messages.Topic, Right]] = {"log": "operate", "touches": "play", "emissions": "play"}
+NEEDED_TO_FOLLOW: Final[dict[messages.Topic, Right]] = {
+    "log": "operate",
+    "contacts": "operate",
+    "touches": "play",
+    "emissions": "play",
+}
 
 
 class Requests:

@@ -12,7 +12,7 @@ from controller.device.loop.layer_source import LayerResult
 from controller.device.scene.clips import Clip
 from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene
-from controller.device.touch.source import TouchSample
+from controller.device.touch.source import Heard, TouchSample
 from controller.metrics import Skipped
 
 
@@ -105,6 +105,9 @@ class PanelControl(Protocol):
         ConfigError
             If nothing writes it.
         """
+
+    def hear(self, heard: Heard | None) -> None:
+        """Have the contacts of each report handed on as the touch panel has them, ghosts too; None: no longer."""
 
     def load_scene(self, ticket: int, name: str) -> None:
         """Prepare another scene outside the loop and take it over; `CommandSource.loaded` follows.

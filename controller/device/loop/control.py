@@ -13,6 +13,7 @@ from controller.device.loop.scheduler import Scheduler
 from controller.device.scene.clips import Clip
 from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene
+from controller.device.touch.source import Heard
 from controller.errors import ConfigError, FaultError
 
 
@@ -43,6 +44,7 @@ class LoopControl:
         self._counters = context.counters
         self.emissions = context.emissions
         self._trace = context.trace
+        self._source = context.source
         self.skipped = context.counters.skipped
         self._change = change
         self._timing = timing
@@ -95,6 +97,10 @@ class LoopControl:
         if not self._trace.is_written:
             raise ConfigError("this panel writes no traces: it has no folder for them, as the service has")
         self._trace.asked(reason, by_hand=True)
+
+    def hear(self, heard: Heard | None) -> None:
+        """Hand contacts on; see `PanelControl.hear`."""
+        self._source.heard = heard
 
     def load_scene(self, ticket: int, name: str) -> None:
         """Prepare another scene; see `PanelControl.load_scene`.

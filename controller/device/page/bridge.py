@@ -76,6 +76,7 @@ class Bridge:
         self._connections = 0
         self._pages = 0
         self._shown: set[str] = set()
+        self._running: set[str] = set()  # for its pages
 
     async def run(self, ready: Callable[[list[str]], None]) -> None:
         """Serve until SIGTERM or SIGINT.
@@ -178,7 +179,7 @@ class Bridge:
         assert isinstance(connection, PageConnection)
         self._pages += 1
         try:
-            await relay(connection, connection.rights, self._settings, self._screen)
+            await relay(connection, connection.rights, self._settings, self._screen, self._running)
         finally:
             self._pages -= 1
 

@@ -31,9 +31,19 @@ RIGHT_OF: Final = {
     "save_scene": "operate",
     "test_channel": "operate",
     "trace": "operate",
-    "screen": "screen",  # which the bridge itself answers
+    "screen": "screen",  # which the bridge itself answers, and these:
+    "traces": "operate",
+    "read_trace": "operate",
+    "explain_trace": "operate",
+    "calibrate": "operate",
+    "cancel": "operate",
 }
-TOPICS: Final = {"touches": "play", "emissions": "play", "log": "operate"}  # that need another right than to look
+TOPICS: Final = {
+    "touches": "play",
+    "emissions": "play",
+    "log": "operate",
+    "contacts": "operate",
+}  # that need another right than to look
 # A right that brings another: whoever may operate may do all, as at the socket.
 BRINGS: Final = {"operate": ("play", "regions", "screen")}
 

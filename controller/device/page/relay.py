@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+from pathlib import Path
 from typing import Final
 
 import msgspec
@@ -13,9 +14,11 @@ from websockets.frames import CloseCode
 
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.outbox import Outbox, TooSlow
-from controller.device.page.requests import judged
+from controller.device.page.requests import OwnKinds, judged, outcome
 from controller.device.page.screen import Screen, ScreenPlace
 from controller.device.page.settings import PageSettings
+from controller.device.page.tools import PageTools
+from controller.device.page.traces import Traces
 
 LINE_BYTES_MAX: Final = 1 << 20  # of the panel, whose figures are the longest
 SLOW_S: Final = 10.0  # that a frame may wait for a page to read
@@ -32,13 +35,15 @@ class Ended(Exception):
         self.code = code
 
 
-async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSettings, screen: Screen) -> None:
+async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSettings, screen: Screen, running: set[str]) -> None:
     """Pass messages on until page or panel ends the connection; the other side is then ended too.
 
     Parameters
     ----------
     screen : Screen
         Where the screen lies on the plate: the page is greeted with it, and again when it changes.
+    running : set of str
+        As in `PageTools`, of all pages.
     """
     try:
         async with asyncio.timeout(PANEL_S):
@@ -49,14 +54,19 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
         return
     outbox, news = Outbox(), asyncio.Event()
 
-    def greet() -> None:
+    def put(line: bytes) -> None:
         with contextlib.suppress(TooSlow):  # which whatever comes from the panel finds out, too
-            outbox.put(greeting(rights, screen.place))
+            outbox.put(line)
         news.set()
+
+    def greet() -> None:
+        put(greeting(rights, screen.place))
 
     greet()
     forget = screen.watch(greet)
-    judge = _Judge(rights, TokenBucket(settings.messages_per_s, settings.burst), screen)
+    tools = PageTools(settings.socket, Traces(Path(settings.socket).parent), running, put)
+    own = {"screen": lambda message: {"kind": "answer"} | outcome(screen.keep(message))} | dict(tools.kinds)
+    judge = _Judge(rights, TokenBucket(settings.messages_per_s, settings.burst), own)
     tasks = [
         asyncio.create_task(_requests(page, to_panel, outbox, news, judge)),
         asyncio.create_task(_lines(from_panel, outbox, news)),
@@ -67,6 +77,7 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
         await _end(page, next(task.exception() for task in done))
     finally:
         forget()
+        await tools.close()
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
@@ -87,11 +98,11 @@ def greeting(rights: frozenset[str], place: ScreenPlace | None) -> bytes:
 class _Judge:
     """Judges the frames of one page."""
 
-    def __init__(self, rights: frozenset[str], rate: TokenBucket, screen: Screen) -> None:
+    def __init__(self, rights: frozenset[str], rate: TokenBucket, own: OwnKinds) -> None:
         self._rights = rights
         self._rate = rate
         self._clock = asyncio.get_running_loop().time
-        self._own = {"screen": screen.keep}
+        self._own = own
         rate.fill(self._clock())
 
     def __call__(self, frame: str) -> tuple[bytes, str]:
@@ -114,8 +125,9 @@ async def _requests(
             to_panel.write(line)
             await to_panel.drain()
         else:
-            outbox.put_if_room(answer.encode())
-            news.set()
+            if answer:
+                outbox.put_if_room(answer.encode())
+                news.set()
             refused += 1
             await asyncio.sleep(0 if refused % REFUSED_AT_ONCE else PAUSE_S)
 

@@ -10,6 +10,7 @@ import msgspec
 from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.permissions import refused
+from controller.errors import ControllerError
 
 FRAME_BYTES: Final = 65536  # of what may be long; a page's share of `layer_bytes`
 LONG_KINDS: Final = ("regions", "save_scene")
@@ -18,11 +19,12 @@ _encoder: Final = msgspec.json.Encoder()
 NOTHING: Final[Mapping[str, Any]] = {}
 
 
-OwnKinds = Mapping[str, Callable[[dict[str, Any]], str]]
+# What the bridge answers itself: the fields of the answer, a ControllerError for a refusal, or None for an answer that comes later.
+OwnKinds = Mapping[str, Callable[[dict[str, Any]], Mapping[str, Any] | None]]
 
 
 def judged(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, own: OwnKinds = NOTHING) -> tuple[bytes, str]:
-    """A line for the panel, or an answer to the page; one of the two is empty.
+    """A line for the panel, or an answer to the page; one of the two is empty, or both where the bridge answers later.
 
     A request to stop is always within the rate.
 
@@ -33,7 +35,7 @@ def judged(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, 
     rights : frozenset of str
         Of the page.
     own : mapping
-        What carries out the kinds of messages that are for the bridge, and says why it does not.
+        What carries out the kinds of messages that are for the bridge.
     """
     try:
         message = _decoder.decode(frame)
@@ -53,12 +55,28 @@ def judged(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, 
     if message["kind"] != "stop" and not rate.take(now_s, 1 + len(line) // LINE_BYTES):
         return b"", answer(message.get("id"), "rate")
     if message["kind"] in own:
-        return b"", answer(message.get("id"), own[message["kind"]](message))
+        return b"", _answered_here(message, own)
     return line, ""
+
+
+def _answered_here(message: dict[str, Any], own: OwnKinds) -> str:
+    try:
+        fields = own[message["kind"]](message)
+    except ControllerError as error:
+        return answer(message.get("id"), str(error))
+    return "" if fields is None else _encoder.encode({"id": _known(message.get("id"))} | dict(fields)).decode()
 
 
 def answer(number: Any, reason: str) -> str:
     """Answer to a request that the bridge refuses for this reason, or has carried out if there is none, as the panel's own."""
-    known = number if isinstance(number, int) or (isinstance(number, str) and len(number) <= 64) else None
-    became = {"outcome": "refused", "reason": reason} if reason else {"outcome": "done"}
-    return _encoder.encode({"kind": "answer", "id": known} | became).decode()
+    return _encoder.encode({"kind": "answer", "id": _known(number)} | outcome(reason)).decode()
+
+
+def _known(number: Any) -> int | str | None:
+    """An id as the panel takes it; None for anything else."""
+    return number if isinstance(number, int) or (isinstance(number, str) and len(number) <= 64) else None
+
+
+def outcome(reason: str) -> dict[str, Any]:
+    """Why something was refused, or that it is done."""
+    return {"outcome": "refused", "reason": reason} if reason else {"outcome": "done"}

@@ -165,8 +165,19 @@ class TouchSource(Protocol):
         """Close the device or file."""
 
 
+Heard = Callable[[Sequence[TouchSample]], None]
+
+
 class TrackedTouch(TouchSource, Protocol):
-    """A source behind the tracker: confirmed fingers with predicted positions."""
+    """A source behind the tracker: confirmed fingers with predicted positions.
+
+    Attributes
+    ----------
+    heard : callable or None
+        Given the contacts of each report as the source has them, before it is decided which are fingers.
+    """
+
+    heard: Heard | None
 
     def down(self) -> Sequence[int]:
         """Numbers of the fingers that are down."""

@@ -24,7 +24,7 @@ from controller.device.touch import plausibility
 from controller.device.touch.ghost_guard import GhostGuard, QuietBudget
 from controller.device.touch.prediction import MAX_INTERVAL_S, SILENT_PERIODS, Motion
 from controller.device.touch.reports import MAX_PERIOD_S, ReportRate
-from controller.device.touch.source import Counts, TouchSample, TouchSource
+from controller.device.touch.source import Counts, Heard, TouchSample, TouchSource
 
 BRIDGE_RADIUS_M: Final = 5e-3  # from its predicted position, at least
 BRIDGE_SPEED: Final = 0.25  # m/s: by so much its velocity may have been unknown; on a slow panel that is farther
@@ -105,6 +105,8 @@ class Tracker:
         Reports, contacts and fingers of the source.
     touched : bool
         Of the source: see `TouchSource.touched`.
+    heard : callable or None
+        See `TrackedTouch`.
     tracking : TrackerCounts
         Contacts held back and bridged.
     rate : ReportRate
@@ -122,6 +124,7 @@ class Tracker:
     ) -> None:
         self.counts: Counts = source.counts
         self.touched = False
+        self.heard: Heard | None = None
         self.tracking = TrackerCounts()
         self.rate = ReportRate()
         self._source = source
@@ -180,6 +183,8 @@ class Tracker:
         if now_s >= self._quiet.retry_s:
             self._quiet.retry_s = inf
         samples = self._source.read(now_s)
+        if samples and self.heard is not None:
+            self.heard(samples)
         known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may follow this one
         self.touched = touched = self._source.touched
         if not samples and not touched and now_s < self._due_s:

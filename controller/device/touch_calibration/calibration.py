@@ -10,12 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan, degrees, dist, hypot, inf
 from statistics import median
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.board.panel import Plate
 from controller.device.touch.source import TouchSample
 from controller.errors import CalibrationError
 
@@ -35,6 +34,20 @@ MIN_SCALE, MAX_SCALE = 0.5, 5.0  # an axis' length over the plate's side along i
 MAX_SKEW_DEG: Final = 15.0  # of an axis against the plate's side
 
 Point = tuple[float, float]
+
+
+class Plate(Protocol):
+    """What a calibration has to know of a plate."""
+
+    @property
+    def length_mm(self) -> float:
+        """Along x."""
+
+    @property
+    def width_mm(self) -> float:
+        """Along y."""
+
+
 Row = tuple[float, float, float]
 
 

@@ -28,7 +28,9 @@ MARGIN_FEW_MS = 20.0  # of fewer
 RULE_OF_THREE = 3.0  # none among n: below 3 / n at 95 %
 
 
-class _Contact(NamedTuple):
+class Contact(NamedTuple):
+    """One contact that a panel has reported."""
+
     begin_s: float
     end_s: float  # inf: it was still down at the end
     size_m: float
@@ -93,9 +95,29 @@ def ghost_figures(recording: Recording, board: Board) -> GhostFigures:
     emissions = [(at_s, at_s + us * 1e-6) for kind, code, us, at_s in recording.events if (kind, code) == (EV_SND, SND_CLICK)]
     if not emissions:
         raise CalibrationError(f"{recording.name} has no emissions in it: make one with calibrate-touch --ghosts --out FILE")
+    return figures_of(emissions, _contacts(recording, board), recording.name)
+
+
+def figures_of(emissions: Sequence[tuple[float, float]], contacts: Sequence[Contact], name: str) -> GhostFigures:
+    """Evaluate emissions on an untouched panel.
+
+    Parameters
+    ----------
+    emissions : sequence of (float, float)
+        Start and end of each in s, in order; at least one.
+    contacts : sequence of Contact
+        All that the panel reported meanwhile, in order.
+    name : str
+        Of the measurement, for messages.
+
+    Raises
+    ------
+    CalibrationError
+        If there are too few emissions, or contacts that cannot be ghosts.
+    """
     if any(later - end_s < MAX_GHOST_LIFE_S for (_, end_s), (later, _) in pairwise(emissions)):
-        raise CalibrationError(f"{recording.name}: emissions less than {MAX_GHOST_LIFE_S:g} s apart: ghosts have no certain cause")
-    contacts = [contact for contact in _contacts(recording, board) if contact.end_s > emissions[0][0]]
+        raise CalibrationError(f"{name}: emissions less than {MAX_GHOST_LIFE_S:g} s apart: ghosts have no certain cause")
+    contacts = [contact for contact in contacts if contact.end_s > emissions[0][0]]
     of = _emissions_of(contacts, emissions)
     if len(emissions) < MIN_EMISSIONS:
         raise CalibrationError(f"only {len(emissions)} emissions: {MIN_EMISSIONS} are needed to judge")
@@ -114,23 +136,23 @@ def ghost_figures(recording: Recording, board: Board) -> GhostFigures:
     )
 
 
-def _contacts(recording: Recording, board: Board) -> list[_Contact]:
+def _contacts(recording: Recording, board: Board) -> list[Contact]:
     source = RecordingSource(recording, recording.axes(board), 0.0)
-    down: dict[int, _Contact] = {}
-    found: list[_Contact] = []
+    down: dict[int, Contact] = {}
+    found: list[Contact] = []
     while (at_s := source.next_time_s()) is not None:
         samples = source.read(at_s)
         ending = source.next_time_s() is None  # then it releases what is still down
         for sample in samples:
             if sample.contact:
-                before = down.get(sample.finger, _Contact(sample.time_s, inf, 0.0))
+                before = down.get(sample.finger, Contact(sample.time_s, inf, 0.0))
                 down[sample.finger] = before._replace(size_m=max(before.size_m, sample.size_m))
             elif sample.finger in down:
                 found.append(down.pop(sample.finger)._replace(end_s=inf if ending else sample.time_s))
     return sorted(found + list(down.values()))
 
 
-def _emissions_of(contacts: Sequence[_Contact], emissions: Sequence[tuple[float, float]]) -> list[int]:
+def _emissions_of(contacts: Sequence[Contact], emissions: Sequence[tuple[float, float]]) -> list[int]:
     """Index of the emission that caused each contact; refuses contacts that none can have caused."""
     starts_s = [start_s for start_s, _ in emissions]
     of = [bisect_right(starts_s, contact.begin_s) - 1 for contact in contacts]
@@ -143,5 +165,5 @@ def _emissions_of(contacts: Sequence[_Contact], emissions: Sequence[tuple[float,
     return of
 
 
-def _stray(number: int, contact: _Contact, emissions: Sequence[tuple[float, float]]) -> bool:
+def _stray(number: int, contact: Contact, emissions: Sequence[tuple[float, float]]) -> bool:
     return number < 0 or max(contact.begin_s, contact.end_s) - emissions[number][1] > MAX_GHOST_LIFE_S

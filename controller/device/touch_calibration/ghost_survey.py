@@ -14,7 +14,7 @@ from controller.clocks import NEVER
 from controller.device.board.panel_state import Condition
 from controller.device.loop.commands import Outcome, PanelControl
 from controller.device.loop.layer_source import LayerResult
-from controller.device.touch.source import Counts, TouchSample, TouchSource
+from controller.device.touch.source import Counts, Heard, TouchSample, TouchSource
 from controller.device.touch_calibration.ghost_figures import MAX_GHOST_LIFE_S, MIN_EMISSIONS, MIN_GHOSTS
 from controller.errors import ControllerError, FaultError
 
@@ -39,12 +39,15 @@ class Overheard:
     ----------
     ghosts : int
         Contacts so far.
+    heard : None
+        Nobody else listens.
     since_s : float
         Start of the contact that has lasted longest, in s of the host's clock; inf: there is none.
     """
 
     def __init__(self, source: TouchSource) -> None:
         self.ghosts = 0
+        self.heard: Heard | None = None
         self.since_s = NEVER
         self._source = source
         self._down: dict[int, float] = {}

@@ -64,8 +64,8 @@ class GhostlyPanel:
         Scan period; each scan is reported at once.
     protocol : Protocol
         Multi-touch protocol of the events.
-    until_s : float
-        Time of the last scan.
+    from_s, until_s : float
+        Times between which it scans.
 
     Attributes
     ----------
@@ -82,6 +82,7 @@ class GhostlyPanel:
         *,
         period_s: float = PERIOD_S,
         protocol: Protocol = Protocol.B,
+        from_s: float = 0.0,
         until_s: float = 10.0,
     ) -> None:
         plate = board.plate
@@ -103,7 +104,7 @@ class GhostlyPanel:
         self._period_s = period_s
         self._size = round(UNITS_PER_MM * ghosts.size_mm)
         self._until_s = until_s
-        self._scan = 1
+        self._scan = int(from_s / period_s) + 1
         self._alive: dict[str, tuple[Place, int]] = {}  # ghosts: place, and reports left
         self._slots: dict[str, int] = {}  # by contact
         self._reported: dict[str, Place] = {}

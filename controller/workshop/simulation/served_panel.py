@@ -24,10 +24,13 @@ from controller.device.service.scenes.layer_preparer import LayerPreparer
 from controller.device.service.scenes.prepare_scene import cells_of, populate
 from controller.device.service.scenes.scene_reload import SceneChanger
 from controller.device.service.systemd import Notifier, Watchdog
+from controller.device.service.tracing.trace_file import TraceFile
+from controller.device.touch.live_source import LiveSource
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.recordings.replay import RecordingSource
 from controller.log import Priority, log
-from controller.workshop.gateware.simulated_link import open_simulated
+from controller.workshop.gateware.simulated_link import SimulatedLink, open_simulated
+from controller.workshop.simulation.ghostly_panel import GhostlyPanel, Ghosts, pins_of
 
 REPORT_S = 1 / 60
 SWING_S = 4.0
@@ -38,11 +41,18 @@ SWINGS_MM = (  # of each finger its centre, x and y, and how far it goes along x
     (168.0, 42.0, 0.0, 20.0),
 )
 AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0 0 0\n"  # tenths of a millimetre on the plate
+GHOST_LIVES, GHOST_MM = (1, 3), 6.0  # reports that a ghost lasts, and its size
 DRAIN_S = 1.0  # interval at which the captured pins are discarded
 
 
 def serve(
-    board: Board, settings: ApplicationSocket, bank: Bank, touched_s: float, ready: Callable[[], None], fingers: int = 2
+    board: Board,
+    settings: ApplicationSocket,
+    bank: Bank,
+    touched_s: float,
+    ready: Callable[[], None],
+    fingers: int = 2,
+    ghosts: float = 0.0,
 ) -> None:
     """Run the simulated panel until SIGTERM or SIGINT.
 
@@ -58,6 +68,8 @@ def serve(
         Called once the outputs are on.
     fingers : int
         How many, at most `len(SWINGS_MM)`.
+    ghosts : float
+        Probability that a scan of the touch panel during an emission finds a contact that is none.
 
     Raises
     ------
@@ -68,11 +80,13 @@ def serve(
     scene = load_scene(find_scene(board), board)
     populate(bank, scene, board.scene)
     layers = LayerPreparer(board, bank, cells_of(bank, scene, board.scene))
-    recording = Recording(_moving(touched_s, fingers), "fingers that move to and fro")
     commands = CommandSocket(board, settings)
     link = open_simulated(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
-    source = tracked(RecordingSource(recording, recording.axes(board), clock.now_s() + 0.2), board)
+    begin_s = clock.now_s() + 0.2
+    source = tracked(
+        _ghostly(board, link, begin_s, touched_s, fingers, ghosts) if ghosts else _replay(board, begin_s, touched_s, fingers), board
+    )
     change = SceneChanger(board, board.scene, bank)
     for warning in enter_realtime(board.realtime):
         log(warning, Priority.WARNING)
@@ -81,28 +95,53 @@ def serve(
     def progress(now_s: float) -> None:
         nonlocal drain_s
         housekeeping.progress(now_s)
-        if now_s >= drain_s:
+        if now_s >= drain_s and not ghosts:  # its panel takes them
             drain_s = now_s + DRAIN_S
             link.take_capture()
 
     notifier = Notifier("")
+    trace = TraceFile.from_environment(board.name, board.waveform.duration_s)
     housekeeping = Housekeeping(board, session, notifier, Watchdog(notifier, math.inf), None)
+    context = LoopContext(board, clock, session, source, layers=layers)
+    trace.watch(context.trace)
     try:
         assembly = assemble(
-            LoopContext(board, clock, session, source, layers=layers),
+            context,
             scene,
             bank,
             commands=commands,
             change=change,
-            watch=Watch(progress, housekeeping.emission_started, housekeeping.scene_changed),
+            watch=Watch(progress, housekeeping.emission_started, housekeeping.scene_changed, (trace,)),
         )
         housekeeping.watch(assembly.loop, None, [commands.changed])
         assembly.loop.run(ready)
     finally:
+        trace.close(clock.now_s())
         change.close()
         layers.close()
         commands.close()
         link.close()
+
+
+def _replay(board: Board, begin_s: float, seconds: float, fingers: int) -> RecordingSource:
+    recording = Recording(_moving(seconds, fingers), "fingers that move to and fro")
+    return RecordingSource(recording, recording.axes(board), begin_s)
+
+
+def _ghostly(board: Board, link: SimulatedLink, begin_s: float, seconds: float, fingers: int, probability: float) -> LiveSource:
+    """A panel in front of this link's pins, with fingers that move, and ghosts."""
+    moving = [
+        (begin_s, begin_s + seconds, lambda at_s, number=number: _place_mm(number, at_s - begin_s)) for number in range(fingers)
+    ]
+    ghosts = Ghosts(probability, GHOST_LIVES, GHOST_MM)
+    return LiveSource(GhostlyPanel(board, moving, pins_of(link), ghosts, from_s=begin_s, until_s=math.inf), board)
+
+
+def _place_mm(number: int, since_s: float) -> tuple[float, float]:
+    """Where a finger is, so long after it began."""
+    angle = 2 * math.pi * since_s / SWING_S
+    centre_x_mm, centre_y_mm, along_x_mm, along_y_mm = SWINGS_MM[number]
+    return centre_x_mm + along_x_mm * math.sin(angle), centre_y_mm + along_y_mm * math.cos(angle)
 
 
 def _moving(seconds: float, fingers: int) -> str:
@@ -110,9 +149,8 @@ def _moving(seconds: float, fingers: int) -> str:
     lines = [AXES]
     for number in range(math.ceil(seconds / REPORT_S)):
         at_s = number * REPORT_S
-        angle = 2 * math.pi * at_s / SWING_S
-        for slot, (centre_x_mm, centre_y_mm, along_x_mm, along_y_mm) in enumerate(SWINGS_MM[:fingers]):
-            x_mm, y_mm = centre_x_mm + along_x_mm * math.sin(angle), centre_y_mm + along_y_mm * math.cos(angle)
+        for slot in range(fingers):
+            x_mm, y_mm = _place_mm(slot, at_s)
             events = [(0x2F, slot), *([(0x39, slot)] if number == 0 else []), (0x35, 10 * x_mm), (0x36, 10 * y_mm)]
             lines += [f"E: {at_s:.6f} 0003 {code:04x} {round(value):04d}\n" for code, value in events]
         lines.append(f"E: {at_s:.6f} 0000 0000 0000\n")

@@ -42,6 +42,7 @@ class WritesDown:
         self.moves = []
         self.fingers = {"ok": (3, 7), "nobody's": ()}  # by the region that they are in
         self.dropped = []
+        self.heard = None
         self.times_reported = 0
 
     def play(self, ticket, effect, x_m, y_m, finger, amplitude, now_s):  # noqa: ARG002
@@ -60,6 +61,9 @@ class WritesDown:
 
     def test_channel(self, ticket, channel, x_m, y_m, now_s):  # noqa: ARG002
         self.tests.append((ticket, channel, x_m, y_m))
+
+    def hear(self, heard):
+        self.heard = heard
 
     def write_trace(self, reason):
         self.traces.append(reason)

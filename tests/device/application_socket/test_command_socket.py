@@ -130,7 +130,7 @@ def test_the_very_edges_are_accepted(panel, edge):
         ),
         (
             {"kind": "subscribe", "to": ["touch"]},
-            "to[0] = 'touch': must be one of 'description', 'emissions', 'faults', 'log', 'state', 'touches';"
+            "to[0] = 'touch': must be one of 'contacts', 'description', 'emissions', 'faults', 'log', 'state', 'touches';"
             " did you mean touches?",
         ),
         (

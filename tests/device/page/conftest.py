@@ -33,7 +33,7 @@ class Served:
         """Return once it plays."""
         command = [sys.executable, "-m", "controller", "serve", "--background", "--fingers", "4"]
         command += ["--commands-per-s", "5000", self.socket]
-        environment = os.environ | {"STATE_DIRECTORY": str(self.state)}
+        environment = os.environ | {"STATE_DIRECTORY": str(self.state), "RUNTIME_DIRECTORY": str(Path(self.socket).parent)}
         done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         assert done.returncode == 0, done.stderr
         self._pid = int(re.search(r"`kill (\d+)`", done.stderr)[1])

@@ -165,6 +165,17 @@ def test_each_report_of_another_finger_counts_once():
     assert [len(t.read(1 + k * PERIOD_S)) for k in range(4)] == [0, 0, 0, 2]
 
 
+def test_what_the_panel_reports_is_heard_before_ghosts_are_rejected():
+    t = tracker(*reports(100, None), ghost_ms=30.0)
+    t.heard = (heard := []).append
+    t.emitted(0.999, 1.001)
+    assert t.read(1.0) == t.read(1.01) == ()
+    assert [in_short(samples) for samples in heard] == [[(0, 100, 1.0, True)], [(0, 100, 1.01, False)]]
+    assert t.tracking.ghosts == 1
+    t.heard = None
+    t.read(1.02)
+
+
 def test_a_finger_that_becomes_a_palm_is_released_at_once_and_a_suspect_is_no_ghost_then():
     palm = touch(0, 100)._replace(size_m=math.inf)  # what the stage before says of it
 

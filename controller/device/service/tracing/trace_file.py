@@ -60,8 +60,9 @@ def events_of(record: TurnRecord | StartRecord, origin_s: float, emission_s: flo
 
 
 def _event(name: str, track: int, begin_s: float, length_s: float, args: str = "") -> str:
-    times = f'"ts":{begin_s * 1e6:.1f},"dur":{max(length_s, 0.0) * 1e6:.1f}'
-    return f'{{"name":"{name}","ph":"X","pid":1,"tid":{track},{times},"args":{{{args}}}}}'
+    begin_us, end_us = round(begin_s * 1e6, 1), round((begin_s + length_s) * 1e6, 1)  # what follows begins where this ends
+    times = f'"ts":{begin_us:.1f},"dur":{max(end_us - begin_us, 0.0):.1f}'
+    return f'{{"name":"{name}","cat":"panel","ph":"X","pid":1,"tid":{track},{times},"args":{{{args}}}}}'
 
 
 def head_of(reason: str, board: str, release: str) -> str:

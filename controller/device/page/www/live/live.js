@@ -219,7 +219,6 @@
     if (at("ask-arm").returnValue === "yes") panel.send({ kind: "arm" }).then((answer) => answer.reason && happened(`Not armed: ${answer.reason}`));
     at("ask-arm").returnValue = "";
   });
-  at("trace").addEventListener("click", () => panel.send({ kind: "trace" }).then((answer) => answer.reason && happened(`No trace: ${answer.reason}`)));
   asking = setInterval(() => !document.hidden && plate && panel.send({ kind: "figures" }), ASK_MS);
   addEventListener("pagehide", () => clearInterval(asking));
 })();

@@ -1,0 +1,73 @@
+"""`haptic-panel calibrate-touch --socket`: axes or ghosts of a panel whose service plays, through its application socket."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+import msgspec
+
+from controller.commands.calibrate_touch import ghosts
+from controller.commands.common.output import progress_bar
+from controller.console import flush, say, tell
+from controller.device.application_socket.client import PanelClient
+from controller.device.touch_calibration.calibration import MAX_TARGETS, Point, check_targets, default_targets
+from controller.device.touch_calibration.running import Progress, running_axes, running_ghosts
+from controller.device.touch_calibration.touch_table import board_lines, value_line
+
+
+def calibrate_running(options: argparse.Namespace) -> int:
+    """Calibrate, and print the lines for board.toml; with --json each step as an object on a line of its own, the result last."""
+    with PanelClient(options.socket) as panel:
+        if options.ghosts:
+            figures, words = _ghosts(panel, _progress(options, "emissions"))
+        else:
+            figures, words = _axes(panel, options, _progress(options, ""))
+    if options.json:
+        _line(figures | {"words": words})
+    else:
+        say("\n".join([*figures["lines"], *words, "for [touch] of board.toml; the service takes it when it starts again"]))
+    return 0
+
+
+def _axes(panel: PanelClient, options: argparse.Namespace, progress: Progress) -> tuple[dict[str, Any], list[str]]:
+    about = panel.describe()
+    targets = [(x, y) for x, y in options.at] if options.at else default_targets(about, options.targets or MAX_TARGETS)
+    check_targets(targets, about)
+    found = running_axes(panel, targets, progress)
+    residual = found.rms_mm and {"rms": round(found.rms_mm, 3), "worst": round(found.worst_mm or 0.0, 3)}
+    words = ["residual: none with 3 targets, which any map meets; take 4 or 5 to see whether they agree"]
+    if residual:
+        words = [
+            f"residual: {found.rms_mm:.2f} mm rms, {found.worst_mm:.2f} mm at the worst of {len(targets)}, each against the others"
+        ]
+    return {"board": about.board, "lines": list(board_lines(found)), "residual_mm": residual}, words
+
+
+def _ghosts(panel: PanelClient, progress: Progress) -> tuple[dict[str, Any], list[str]]:
+    found = running_ghosts(panel, progress)
+    figures = ghosts.figures(found)
+    lines = [value_line("ghost_ms", found.ghost_ms)]
+    return {"board": panel.describe().board, "lines": lines} | figures, ghosts.table(figures)
+
+
+def _progress(options: argparse.Namespace, bar: str) -> Progress:
+    """Where progress goes: lines of JSON, a bar, or sentences."""
+    shown = progress_bar(bar)
+    if bar and not options.json:
+        tell("hands off the panel for one to three minutes: it plays by itself")
+
+    def progress(step: int, of: int, words: str, at_mm: Point | None = None) -> None:
+        if options.json:
+            _line({"step": step, "of": of, "say": words, "at_mm": at_mm})
+        elif bar:
+            shown(step, of)
+        else:
+            tell(words)
+
+    return progress
+
+
+def _line(what: dict[str, Any]) -> None:
+    say(msgspec.json.encode(what).decode())
+    flush()

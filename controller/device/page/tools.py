@@ -1,0 +1,171 @@
+"""Commands of this program that the bridge runs for a page, as processes that end with it: what takes NumPy or minutes."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from typing import Annotated, Any, Final, Literal
+
+import msgspec
+from msgspec import Meta
+
+from controller.device.page.requests import OwnKinds, outcome
+from controller.device.page.traces import Traces
+from controller.errors import ConfigError
+
+LINE_BYTES: Final = 1 << 16
+SAID_BYTES: Final = 1 << 12  # of what a command complains of: the last
+ENVIRONMENT: Final = {"OPENBLAS_NUM_THREADS": "1", "COLUMNS": "1000"}
+PointMm = tuple[float, float]
+LAG: Final = (
+    "the lag is measured against a mouse that is held to the finger, by the kernel's times of both, and the bridge may read no"
+    " input devices: stop the service, then `haptic-panel calibrate-touch --lag --reference /dev/input/by-id/…-event-mouse`"
+)
+
+
+class Calibrate(msgspec.Struct, forbid_unknown_fields=True, tag_field="kind", tag="calibrate"):
+    """Request to calibrate the touch panel, with targets of the page's own."""
+
+    what: Literal["axes", "ghosts", "lag"]
+    at_mm: Annotated[tuple[PointMm, ...], Meta(max_length=5)] = ()
+    id: int | str | None = None
+
+
+class PageTools:
+    """What one page has had started.
+
+    Parameters
+    ----------
+    socket : str
+        The panel's.
+    running : set of str
+        Kinds of requests that are being carried out for any page: one of each at a time.
+    put : callable
+        Sends a line to the page.
+    """
+
+    def __init__(self, socket: str, traces: Traces, running: set[str], put: Callable[[bytes], None]) -> None:
+        self._socket = socket
+        self._traces = traces
+        self._running = running
+        self._put = put
+        self._tasks: dict[str, asyncio.Task[None]] = {}
+
+    @property
+    def kinds(self) -> OwnKinds:
+        """What it answers."""
+        return {
+            "traces": self._traces.listed,
+            "read_trace": self._traces.part,
+            "explain_trace": self._explain,
+            "calibrate": self._calibrate,
+            "cancel": self._cancel,
+        }
+
+    async def close(self) -> None:
+        """End what still runs."""
+        for task in self._tasks.values():
+            task.cancel()
+        await asyncio.gather(*self._tasks.values(), return_exceptions=True)
+
+    def _explain(self, message: dict[str, Any]) -> None:
+        lines: list[str] = []
+        words = ["trace", str(self._traces.path(message.get("name")))]
+        self._start(message, words, lines.append, lambda: {"kind": "explained", "lines": lines})
+
+    def _calibrate(self, message: dict[str, Any]) -> None:
+        try:
+            asked = msgspec.convert(message, Calibrate)
+        except msgspec.ValidationError as error:
+            raise ConfigError(str(error)) from error
+        if asked.what == "lag":
+            raise ConfigError(LAG)
+        words = ["calibrate-touch", "--socket", self._socket, "--json", *(["--ghosts"] if asked.what == "ghosts" else [])]
+        for x_mm, y_mm in asked.at_mm:
+            words += ["--at", repr(x_mm), repr(y_mm)]
+        self._start(message, words, self._progress, lambda: {"kind": "answer"} | outcome(""))
+
+    def _cancel(self, _: dict[str, Any]) -> dict[str, Any]:
+        task = self._tasks.get("calibrate")
+        if task is None:
+            raise ConfigError("nothing to cancel: this page has no calibration running")
+        task.cancel()
+        return {"kind": "answer"} | outcome("")
+
+    def _progress(self, line: str) -> None:
+        with contextlib.suppress(msgspec.DecodeError):
+            self._send(None, {"kind": "calibration"} | dict(msgspec.json.decode(line, type=dict[str, Any])))
+
+    def _start(
+        self, message: dict[str, Any], words: Sequence[str], heard: Callable[[str], None], done: Callable[[], Mapping[str, Any]]
+    ) -> None:
+        """Run a command beside everything else; the answer to the message follows when it has ended."""
+        kind = message["kind"]
+        if kind in self._running:
+            raise ConfigError(
+                f"{kind}: {'this' if kind in self._tasks else 'another'} page has one running; wait until it has ended"
+            )
+
+        async def run() -> None:
+            try:
+                reason = await _run(words, heard)
+            except asyncio.CancelledError:
+                self._send(message.get("id"), {"kind": "answer"} | outcome("it was cancelled"))
+                raise
+            self._send(message.get("id"), {"kind": "answer"} | outcome(reason) if reason else done())
+
+        def ended(_: asyncio.Task[None]) -> None:
+            self._running.discard(kind)
+            del self._tasks[kind]
+
+        self._running.add(kind)
+        self._tasks[kind] = asyncio.create_task(run())
+        self._tasks[kind].add_done_callback(ended)  # one that is cancelled at once does not even begin
+
+    def _send(self, number: Any, fields: Mapping[str, Any]) -> None:
+        self._put(msgspec.json.encode({"id": number} | dict(fields)))
+
+
+async def _run(words: Sequence[str], heard: Callable[[str], None]) -> str:
+    """Why a command of this program failed, empty if it did not; it is killed if nobody waits for it any more."""
+    process = await asyncio.create_subprocess_exec(
+        sys.executable,
+        "-m",
+        "controller",
+        *words,
+        stdin=asyncio.subprocess.DEVNULL,
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.PIPE,
+        env=os.environ | ENVIRONMENT,
+        limit=LINE_BYTES,
+    )
+    assert process.stdout is not None
+    assert process.stderr is not None
+    complaints = asyncio.create_task(_end_of(process.stderr))
+    try:
+        while line := await process.stdout.readline():
+            heard(line.decode(errors="replace").rstrip("\n"))
+        said = await complaints
+        return "" if await process.wait() == 0 else _last_line(said)
+    finally:
+        complaints.cancel()
+        if process.returncode is None:
+            process.kill()
+            await process.wait()
+
+
+async def _end_of(stream: asyncio.StreamReader) -> str:
+    """The end of what is written to a stream."""
+    said = b""
+    while more := await stream.read(SAID_BYTES):
+        said = (said + more)[-SAID_BYTES:]
+    return said.decode(errors="replace")
+
+
+def _last_line(said: str) -> str:
+    """Why a command failed, as it says without its name."""
+    lines = [line.strip() for line in said.splitlines() if line.strip()] or ["it ended without a word"]
+    return lines[-1].removeprefix("haptic-panel: ")
