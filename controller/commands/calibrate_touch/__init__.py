@@ -188,13 +188,13 @@ def _figures(board: Board, targets: Sequence[Point], found: Calibration, written
 
 
 def _table(figures: dict[str, Any]) -> str:
-    residual = figures["residual_mm"]
-    if residual is None:
-        evaluated = "residual: none with 3 targets, which any map meets; take 4 or 5 to see whether they agree"
-    else:
-        evaluated = (
-            f"residual: {residual['rms']:.2f} mm rms, {residual['worst']:.2f} mm at the worst of {len(figures['targets_mm'])},"
-            " each against the others"
-        )
+    evaluated = residual_words(figures["residual_mm"], len(figures["targets_mm"]))
     where = f"written to {figures['written']}" if figures["written"] else "for [touch] of board.toml (--write puts them there)"
     return "\n".join([*figures["lines"], evaluated, where])
+
+
+def residual_words(residual: dict[str, float | None] | None, targets: int) -> str:
+    """How well the touches of so many targets agree, in words."""
+    if residual is None:
+        return "residual: none with 3 targets, which any map meets; take 4 or 5 to see whether they agree"
+    return f"residual: {residual['rms']:.2f} mm rms, {residual['worst']:.2f} mm at the worst of {targets}, each against the others"

@@ -7,7 +7,7 @@ from typing import Any
 
 import msgspec
 
-from controller.commands.calibrate_touch import ghosts
+from controller.commands.calibrate_touch import ghosts, residual_words
 from controller.commands.common.output import progress_bar
 from controller.console import flush, say, tell
 from controller.device.application_socket.client import PanelClient
@@ -35,13 +35,9 @@ def _axes(panel: PanelClient, options: argparse.Namespace, progress: Progress) -
     targets = [(x, y) for x, y in options.at] if options.at else default_targets(about, options.targets or MAX_TARGETS)
     check_targets(targets, about)
     found = running_axes(panel, targets, progress)
-    residual = found.rms_mm and {"rms": round(found.rms_mm, 3), "worst": round(found.worst_mm or 0.0, 3)}
-    words = ["residual: none with 3 targets, which any map meets; take 4 or 5 to see whether they agree"]
-    if residual:
-        words = [
-            f"residual: {found.rms_mm:.2f} mm rms, {found.worst_mm:.2f} mm at the worst of {len(targets)}, each against the others"
-        ]
-    return {"board": about.board, "lines": list(board_lines(found)), "residual_mm": residual}, words
+    residual = {"rms": found.rms_mm, "worst": found.worst_mm} if found.residuals_mm else None
+    figures = {"board": about.board, "lines": list(board_lines(found)), "residual_mm": residual}
+    return figures, [residual_words(residual, len(targets))]
 
 
 def _ghosts(panel: PanelClient, progress: Progress) -> tuple[dict[str, Any], list[str]]:

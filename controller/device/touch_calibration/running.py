@@ -165,7 +165,9 @@ def running_ghosts(panel: PanelClient, progress: Progress) -> GhostFigures:
     if not state.panel_present:
         raise CalibrationError("no touch panel answers: no ghosts can be seen")
     if fixed := [region.name for region in about.regions if "always" in region.occasions]:
-        raise CalibrationError(f"the scene plays without a finger at {fixed[0]!r}: load another scene, which does not, before")
+        raise CalibrationError(
+            f"the scene plays without a finger at {fixed[0]!r}: load another scene before, with `haptic-panel client load NAME`"
+        )
     panel.subscribe("contacts", "emissions")
     layer = panel.put_regions([{"name": "untouched", "shape": "plate", "effects": []}])
     if layer.refused:

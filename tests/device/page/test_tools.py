@@ -169,7 +169,10 @@ def test_a_calibration_ends_with_its_page(bridge_with, asks):
         ({"what": "axes", "at_mm": [[-20, 20], [190, 20], [100, 130]]}, "target (-20, 20) mm is not on the plate"),
         ({"what": "axes", "at_mm": [[20, 20], [30, 30], [40, 40]]}, "the targets lie on one line"),
         ({"what": "ghosts", "socket": "/x"}, "unknown field `socket`"),
-        ({"what": "ghosts"}, "the scene plays without a finger at 'beacon': load another scene, which does not, before"),
+        (
+            {"what": "ghosts"},
+            "the scene plays without a finger at 'beacon': load another scene before, with `haptic-panel client load NAME`",
+        ),
     ],
 )
 def test_what_cannot_be_calibrated_is_refused_in_plain_words(bridge_with, asks, message, reason):
