@@ -9,8 +9,6 @@ import pytest
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page import relay
 from controller.device.page.outbox import WAITING_BYTES_MAX, Outbox
-from controller.device.page.screen import Screen
-from controller.device.page.settings import PageSettings
 
 STOP = '{"kind":"stop","id":1}'
 PAUSES_S = 0.1  # of all before a stop is passed on; 0.005 after each would be half a minute
@@ -29,7 +27,7 @@ def paused(monkeypatch):
     return pauses
 
 
-def passed_on(frames, outbox, folder):
+def passed_on(frames, outbox):
     """Lines that the panel gets of a page's frames."""
 
     async def page():
@@ -40,7 +38,7 @@ def passed_on(frames, outbox, folder):
         ours, theirs = socket.socketpair()
         with theirs:
             _, to_panel = await asyncio.open_connection(sock=ours)
-            judge = relay._Judge(frozenset({"look", "play"}), TokenBucket(1e-3, 1), Screen(PageSettings(), folder / "screen.json"))
+            judge = relay._Judge(frozenset({"look", "play"}), TokenBucket(1e-3, 1), {})
             await relay._requests(page(), to_panel, outbox, asyncio.Event(), judge)
             to_panel.close()
             await to_panel.wait_closed()
@@ -50,8 +48,8 @@ def passed_on(frames, outbox, folder):
 
 
 @pytest.mark.parametrize("frame", ['{"kind":"state","id":7}', '{"kind":"arm"}', "[", '{"kind":"state","id":"' + "x" * 7000 + '"}'])
-def test_a_stop_waits_for_no_message_that_was_refused_before_it(paused, tmp_path, frame):
-    lines = passed_on([frame] * 6000 + [STOP], Outbox(), tmp_path)
+def test_a_stop_waits_for_no_message_that_was_refused_before_it(paused, frame):
+    lines = passed_on([frame] * 6000 + [STOP], Outbox())
     assert json.loads(lines[-1])["kind"] == "stop"
     assert len(lines) <= 2  # one state is within the rate
     assert sum(paused) <= PAUSES_S
@@ -59,9 +57,9 @@ def test_a_stop_waits_for_no_message_that_was_refused_before_it(paused, tmp_path
     assert len(paused) >= 5999  # others get their turn in between
 
 
-def test_answers_to_a_page_that_does_not_read_are_left_out_before_it_is_dropped(paused, tmp_path):
+def test_answers_to_a_page_that_does_not_read_are_left_out_before_it_is_dropped(paused):
     outbox = Outbox()
-    passed_on(['{"kind":"state","id":7}'] * 6000 + [STOP], outbox, tmp_path)
+    passed_on(['{"kind":"state","id":7}'] * 6000 + [STOP], outbox)
     assert WAITING_BYTES_MAX / 2 < sum(map(len, outbox._lines.values())) < WAITING_BYTES_MAX / 2 + 100
     outbox.put(b'{"kind":"touch","finger":1}')
     assert 0 < len(outbox) < 6000
