@@ -67,21 +67,11 @@ def stage(root: Path) -> dict[Path, str]:
     return pictures(folder) | {folder / "README.md": with_figures((folder / "README.md").read_text(encoding="utf-8"))}
 
 
-def names(root: Path) -> dict[Path, str]:
-    """Names of haptics elsewhere, in haptic.js."""
-    from controller.device.page.names import with_names
-
-    page = root / "controller/device/page"
-    script = page / "www/haptic.js"
-    return {script: with_names(script.read_text(encoding="utf-8"), page / "names.toml")}
-
-
 GENERATORS: Final[Mapping[str, Callable[[Path], dict[Path, str]]]] = {
     "registers": registers,
     "board": board_files,
     "protocol": protocol,
     "command-line": command_line,
-    "names": names,
     "timing": timing,
     "stage": stage,
 }

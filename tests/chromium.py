@@ -59,6 +59,12 @@ class Page:
         self.call("Page.navigate", url=address)
         wait_for(address, lambda: self.value("location.href !== 'about:blank' && document.readyState === 'complete'"))
 
+    def leave(self):
+        """Leave the page and forget what it said: one whose bridge has ended complains."""
+        self.call("Page.navigate", url="about:blank")
+        self.until("location.href === 'about:blank'")
+        self.said.clear()
+
     def size(self, width, height, scale=1, *, mobile=False):
         """Give the window a size in CSS pixels."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=mobile)

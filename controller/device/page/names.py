@@ -1,8 +1,7 @@
-"""names.toml, names of haptics elsewhere, as a table of haptic.js."""
+"""names.toml: names of haptics elsewhere; each page is greeted with them."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -10,12 +9,11 @@ from msgspec import Meta
 
 from controller.device.board.records import as_record, read_tables
 
-BEGIN: Final = "// names: begin"
-END: Final = "  // names: end"
+TABLE: Final = Path(__file__).with_name("names.toml")
 Share = Annotated[float, Meta(gt=0, le=1)]
 
 
-def load_names(file: Path) -> dict[str, tuple[str, float]]:
+def load_names(file: Path = TABLE) -> dict[str, tuple[str, float]]:
     """Effect and share of the amplitude of each name, of all tables together.
 
     Raises
@@ -32,21 +30,3 @@ def load_names(file: Path) -> dict[str, tuple[str, float]]:
             raise ValueError(f"{file}: {min(both)} stands there twice")
         names |= known
     return names
-
-
-def with_names(script: str, file: Path) -> str:
-    """The text of haptic.js with the names of a file.
-
-    Raises
-    ------
-    ValueError
-        If the text has no place for them.
-    """
-    head, begin, rest = script.partition(BEGIN)
-    line, _, rest = rest.partition("\n")
-    _, end, tail = rest.partition(END)
-    if not begin or not end:
-        raise ValueError(f"haptic.js has no lines {BEGIN!r} and {END.strip()!r}")
-    rows = [f"{name}: {json.dumps(list(effect))}" for name, effect in load_names(file).items()]
-    table = "".join(f"    {', '.join(rows[at : at + 4])},\n" for at in range(0, len(rows), 4))
-    return f"{head}{begin}{line}\n  const NAMES = {{\n{table}  }};\n{end}{tail}"

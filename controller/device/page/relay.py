@@ -13,6 +13,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 
 from controller.device.application_socket.token_bucket import TokenBucket
+from controller.device.page.names import load_names
 from controller.device.page.outbox import Outbox, TooSlow
 from controller.device.page.requests import OwnKinds, judged, outcome
 from controller.device.page.screen import Screen, ScreenPlace
@@ -24,6 +25,7 @@ LINE_BYTES_MAX: Final = 1 << 20  # of the panel, whose figures are the longest
 SLOW_S: Final = 10.0  # that a frame may wait for a page to read
 REFUSED_AT_ONCE: Final = 64  # messages of a page, of which a stop may be the next
 PAUSE_S: Final = 0.001  # after as many: a page that floods takes no whole core
+NAMES: Final = load_names()
 PANEL_S: Final = 5.0  # that the panel's socket may take to accept
 
 
@@ -85,12 +87,13 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
 
 
 def greeting(rights: frozenset[str], place: ScreenPlace | None) -> bytes:
-    """The first line that a page gets: its rights, and how the screen's pixels lie on the plate, null where nobody has said."""
+    """The first line that a page gets: rights, how the screen's pixels lie on the plate (null where nobody has said), effects' other names."""
     message = {
         "kind": "page",
         "rights": sorted(rights),
         "x_mm_from_pixels": None if place is None else place.x_mm_from_pixels,
         "y_mm_from_pixels": None if place is None else place.y_mm_from_pixels,
+        "names": NAMES,
     }
     return msgspec.json.encode(message)
 

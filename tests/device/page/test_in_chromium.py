@@ -44,7 +44,7 @@ def elements(page, bridge_with, tmp_path):
         shutil.copy(FOLDER / name, tmp_path / "www")
     shutil.copy(FOLDER / "elements.html", tmp_path / "www" / "index.html")
     bridge = bridge_with("messages_per_s = 1000\nburst = 1000", www=tmp_path / "www")
-    page.said.clear()
+    page.leave()
     page.size(1000, 700)
     page.open(bridge.address)
     settled(page)
@@ -170,7 +170,7 @@ def test_four_taps_say_where_the_screen_lies(page, bridge_with, touched_panel, t
     panel, socket = touched_panel
     bridge = bridge_with('[origins]\nself = ["screen", "play"]', socket=socket)
     truth = np.array([[0.0805, 0.0012, 11.0], [0.0011, -0.0795, 139.0]])  # mm from device pixels
-    page.said.clear()
+    page.leave()
     page.size(1000, 700, 2)
     page.open(f"{bridge.address}live/screen.html")
     page.until("!document.getElementById('begin').disabled")
@@ -208,7 +208,7 @@ def test_four_taps_say_where_the_screen_lies(page, bridge_with, touched_panel, t
 
 def test_what_is_drawn_is_felt_and_saved_as_a_scene(page, bridge_with, board, tmp_path):
     bridge = bridge_with()
-    page.said.clear()
+    page.leave()
     page.size(1280, 900)
     page.open(f"{bridge.address}live/editor.html")
     page.value("layers = []; HapticPanel.addEventListener('layer', ({detail}) => layers.push(detail)); 0")
@@ -282,7 +282,7 @@ def test_the_live_page(page, bridge_with, asks, tmp_path):
     """Also that a stop by its button is one, and that arming asks."""
     bridge = bridge_with('[origins]\nself = ["operate"]')
     folder = Path(PICTURES) if PICTURES else tmp_path
-    page.said.clear()
+    page.leave()
     page.size(1280, 900)
     page.dark("light")
     page.open(f"{bridge.address}live/")

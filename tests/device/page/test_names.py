@@ -13,23 +13,17 @@ from controller.device.page.files import OWN
 from controller.device.scene import library
 from controller.errors import ConfigError
 
-TABLE = Path(names.__file__).parent / "names.toml"
 
 
 def test_every_name_is_an_effect_that_can_be_played():
     effects = tomllib.loads((Path(library.__file__).parent / "effects.toml").read_text())["effects"]
-    for name, (effect, share) in names.load_names(TABLE).items():
+    for name, (effect, share) in names.load_names().items():
         assert effect in effects, name
         assert MIN_AMPLITUDE <= share <= 1, f"{name}: below the least amplitude"
 
 
 def test_the_standards_words_are_there():
-    assert {"hint", "edge", "tick", "align"} <= names.load_names(TABLE).keys()
-
-
-def test_the_script_has_the_table():
-    script = (OWN / "haptic.js").read_text()
-    assert names.with_names(script, TABLE) == script
+    assert {"hint", "edge", "tick", "align"} <= names.load_names().keys()
 
 
 @pytest.mark.parametrize(
@@ -46,11 +40,6 @@ def test_a_table_that_cannot_be_is_refused(tmp_path, text, error):
         names.load_names(tmp_path / "names.toml")
 
 
-def test_a_script_without_a_place_for_names_is_refused():
-    with pytest.raises(ValueError, match="has no lines"):
-        names.with_names("let x;", TABLE)
-
-
 def test_the_pages_need_nothing_that_a_strict_policy_forbids():
     for file in OWN.rglob("*.html"):
         text = file.read_text()
@@ -60,4 +49,4 @@ def test_the_pages_need_nothing_that_a_strict_policy_forbids():
 
 
 def test_the_script_is_small():
-    assert len(gzip.compress((OWN / "haptic.js").read_bytes())) <= 6600
+    assert len(gzip.compress((OWN / "haptic.js").read_bytes())) <= 5120
