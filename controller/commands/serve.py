@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from controller.commands.common.arguments import number
 from controller.console import tell
+from controller.errors import UsageError
 from controller.programs import SHOWN_EVERY_S, end, repeat
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
         metavar="P",
         help="probability of a false contact during an emission (default: 0)",
     )
+    command.add_argument("--replay", type=Path, metavar="FILE", help="fingers of this recording instead, from the start once")
     command.add_argument("--background", action="store_true", help="return once the panel plays; it runs until it is ended")
     command.add_argument(
         "--ready-fd",
@@ -63,15 +65,22 @@ def run(options: argparse.Namespace) -> int:
     from controller.device.board.devices import ApplicationSocket
     from controller.device.board.lookup import find_board
     from controller.device.board.records import as_record
+    from controller.device.touch.recordings.recording import Recording
     from controller.workshop.bank_builder.build import build_bank
     from controller.workshop.bank_builder.request import BankRequest
-    from controller.workshop.simulation.served_panel import serve
+    from controller.workshop.simulation.served_panel import ghostly, moving, replayed, serve
 
     board = load_board(find_board(options.board))
     asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
     settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
     if options.background:
         return _in_background(options)
+    if options.replay and options.ghosts:
+        raise UsageError("--replay and --ghosts: give one of both")
+    if options.ghosts:
+        touched = ghostly(options.touched_s, options.fingers, options.ghosts)
+    else:
+        touched = replayed(Recording.open(options.replay) if options.replay else moving(options.touched_s, options.fingers))
 
     def ready() -> None:
         tell(f"playing; its socket is {options.socket}, and `kill {os.getpid()}` or Ctrl-C ends it")
@@ -87,7 +96,7 @@ def run(options: argparse.Namespace) -> int:
         tell(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
         started_s = time.monotonic()
         with Bank.open(path, board) as bank:
-            serve(board, settings, bank, options.touched_s, ready, options.fingers, options.ghosts)
+            serve(board, settings, bank, touched, ready)
     tell(f"served for {time.monotonic() - started_s:.0f} s")
     return 0
 
@@ -115,6 +124,7 @@ def _in_background(options: argparse.Namespace) -> int:
     command = [sys.executable, "-m", "controller", "serve", "--board", options.board]
     command += ["--commands-per-s", str(options.commands_per_s), "--touched-s", str(options.touched_s)]
     command += ["--fingers", str(options.fingers), "--ghosts", str(options.ghosts)]
+    command += ["--replay", str(options.replay)] if options.replay else []
     read_end, write_end = os.pipe()
     with os.fdopen(read_end, "rb") as answer, tempfile.TemporaryFile() as said:
         command += ["--ready-fd", str(write_end), "--", options.socket]

@@ -1,12 +1,13 @@
 """A simulated panel in real time with an application socket, to develop a user interface against.
 
-Loop, scene, bank, socket and scheduling are those of the device. The FPGA is its model; up to four fingers move.
+Loop, scene, bank, socket and scheduling are those of the device. The FPGA is its model; fingers are those of a recording.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 from controller.clocks import MonotonicClock
 from controller.device.application_socket.command_socket import CommandSocket
@@ -28,6 +29,7 @@ from controller.device.service.tracing.trace_file import TraceFile
 from controller.device.touch.live_source import LiveSource
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.recordings.replay import RecordingSource
+from controller.device.touch.source import TouchSource
 from controller.log import Priority, log
 from controller.workshop.gateware.simulated_link import SimulatedLink, open_simulated
 from controller.workshop.simulation.ghostly_panel import GhostlyPanel, Ghosts, pins_of
@@ -45,15 +47,22 @@ GHOST_LIVES, GHOST_MM = (1, 3), 6.0  # reports that a ghost lasts, and its size
 DRAIN_S = 1.0  # interval at which the captured pins are discarded
 
 
-def serve(
-    board: Board,
-    settings: ApplicationSocket,
-    bank: Bank,
-    touched_s: float,
-    ready: Callable[[], None],
-    fingers: int = 2,
-    ghosts: float = 0.0,
-) -> None:
+class Touched(NamedTuple):
+    """Who touches the panel.
+
+    Attributes
+    ----------
+    touches : callable
+        Makes the touches of a board's panel before a link, from a time in s of the host's clock on.
+    takes_pins : bool
+        Whether they consume what the pins did.
+    """
+
+    touches: Callable[[Board, SimulatedLink, float], TouchSource]
+    takes_pins: bool
+
+
+def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touched, ready: Callable[[], None]) -> None:
     """Run the simulated panel until SIGTERM or SIGINT.
 
     Parameters
@@ -62,14 +71,10 @@ def serve(
         Settings of the socket, instead of the board's.
     bank : Bank
         Bank of the whole plate.
-    touched_s : float
-        How long the fingers are down.
+    touched : Touched
+        Makes the touches.
     ready : callable
         Called once the outputs are on.
-    fingers : int
-        How many, at most `len(SWINGS_MM)`.
-    ghosts : float
-        Probability that a scan of the touch panel during an emission finds a contact that is none.
 
     Raises
     ------
@@ -84,9 +89,7 @@ def serve(
     link = open_simulated(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
     begin_s = clock.now_s() + 0.2
-    source = tracked(
-        _ghostly(board, link, begin_s, touched_s, fingers, ghosts) if ghosts else _replay(board, begin_s, touched_s, fingers), board
-    )
+    source = tracked(touched.touches(board, link, begin_s), board)
     change = SceneChanger(board, board.scene, bank)
     for warning in enter_realtime(board.realtime):
         log(warning, Priority.WARNING)
@@ -95,7 +98,7 @@ def serve(
     def progress(now_s: float) -> None:
         nonlocal drain_s
         housekeeping.progress(now_s)
-        if now_s >= drain_s and not ghosts:  # its panel takes them
+        if now_s >= drain_s and not touched.takes_pins:
             drain_s = now_s + DRAIN_S
             link.take_capture()
 
@@ -123,18 +126,26 @@ def serve(
         link.close()
 
 
-def _replay(board: Board, begin_s: float, seconds: float, fingers: int) -> RecordingSource:
-    recording = Recording(_moving(seconds, fingers), "fingers that move to and fro")
-    return RecordingSource(recording, recording.axes(board), begin_s)
+def replayed(recording: Recording) -> Touched:
+    """Fingers of a recording, from the start once; those that it leaves down are lifted after its last event."""
+
+    def touches(board: Board, _link: SimulatedLink, begin_s: float) -> TouchSource:
+        return RecordingSource(recording, recording.axes(board), begin_s)
+
+    return Touched(touches, takes_pins=False)
 
 
-def _ghostly(board: Board, link: SimulatedLink, begin_s: float, seconds: float, fingers: int, probability: float) -> LiveSource:
-    """A panel in front of this link's pins, with fingers that move, and ghosts."""
-    moving = [
-        (begin_s, begin_s + seconds, lambda at_s, number=number: _place_mm(number, at_s - begin_s)) for number in range(fingers)
-    ]
-    ghosts = Ghosts(probability, GHOST_LIVES, GHOST_MM)
-    return LiveSource(GhostlyPanel(board, moving, pins_of(link), ghosts, from_s=begin_s, until_s=math.inf), board)
+def ghostly(seconds: float, fingers: int, probability: float) -> Touched:
+    """A panel in front of the pins, with fingers that move, and ghosts."""
+
+    def touches(board: Board, link: SimulatedLink, begin_s: float) -> TouchSource:
+        moved = [
+            (begin_s, begin_s + seconds, lambda at_s, number=number: _place_mm(number, at_s - begin_s)) for number in range(fingers)
+        ]
+        ghosts = Ghosts(probability, GHOST_LIVES, GHOST_MM)
+        return LiveSource(GhostlyPanel(board, moved, pins_of(link), ghosts, from_s=begin_s, until_s=math.inf), board)
+
+    return Touched(touches, takes_pins=True)
 
 
 def _place_mm(number: int, since_s: float) -> tuple[float, float]:
@@ -144,8 +155,8 @@ def _place_mm(number: int, since_s: float) -> tuple[float, float]:
     return centre_x_mm + along_x_mm * math.sin(angle), centre_y_mm + along_y_mm * math.cos(angle)
 
 
-def _moving(seconds: float, fingers: int) -> str:
-    """Recording of fingers that stay down and move to and fro, or round and round."""
+def moving(seconds: float, fingers: int) -> Recording:
+    """Fingers, at most `len(SWINGS_MM)`, that stay down and move to and fro, or round and round."""
     lines = [AXES]
     for number in range(math.ceil(seconds / REPORT_S)):
         at_s = number * REPORT_S
@@ -154,4 +165,4 @@ def _moving(seconds: float, fingers: int) -> str:
             events = [(0x2F, slot), *([(0x39, slot)] if number == 0 else []), (0x35, 10 * x_mm), (0x36, 10 * y_mm)]
             lines += [f"E: {at_s:.6f} 0003 {code:04x} {round(value):04d}\n" for code, value in events]
         lines.append(f"E: {at_s:.6f} 0000 0000 0000\n")
-    return "".join(lines)
+    return Recording("".join(lines), "fingers that move to and fro")

@@ -24,14 +24,14 @@ PLAYS = ("armed", "playing")
 class Served:
     """A panel of `haptic-panel serve`, which can die and come back."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, *options):
         self.socket = str(folder / "panel.sock")
         self.state = folder / "panel-state"
-        self._process = None
+        self._options = options or ("--fingers", "4")
 
     def begin(self):
         """Return once it plays."""
-        command = [sys.executable, "-m", "controller", "serve", "--background", "--fingers", "4"]
+        command = [sys.executable, "-m", "controller", "serve", "--background", *self._options]
         command += ["--commands-per-s", "5000", self.socket]
         environment = os.environ | {"STATE_DIRECTORY": str(self.state), "RUNTIME_DIRECTORY": str(Path(self.socket).parent)}
         done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
@@ -122,6 +122,23 @@ def another_panel(folder):
     panel = Served(folder / "own")
     yield panel
     panel.end()
+
+
+@pytest.fixture
+def panel_of(folder):
+    """Makes one of a recording."""
+    panels = []
+
+    def make(recording):
+        place = folder / f"replay{len(panels)}"
+        place.mkdir()
+        panels.append(Served(place, "--replay", str(recording)))
+        panels[-1].begin()
+        return panels[-1]
+
+    yield make
+    for panel in panels:
+        panel.end()
 
 
 @pytest.fixture

@@ -1,21 +1,20 @@
-// haptic.js: a page describes its elements, and the panel's loop plays them under each finger (README.md).
+// A page describes its elements, and the panel's loop plays them under each finger: README.md.
 (() => {
   "use strict";
   if (window.HapticPanel) return;
-  const LEAST = 0.1, MOST_REGIONS = 250; // of the panel
-  const SEND_MS = 40; // between two layers
+  const RETRY_MS = 1000, SEND_MS = 40; // between two connections, two layers
   const SETTLE_MS = 100; // after the last event of a scroll
   const LOOK_MS = 500; // for what no event announces
   const panel = new EventTarget(), roots = new Set(), names = new WeakMap();
   const waiting = new Map(), scrolling = new Map(), pointers = new Map();
   const address = new URL("panel", document.currentScript?.src || location);
-  let socket, greeting, lastPoint, known, shown, sentAt = 0, frame = 0, retries = 0, lastId = 0, lastName = 0;
-  let root = window; // the outermost page of this origin describes its frames, too
-  try { while (root.parent !== root && root.parent.document) root = root.parent; } catch { /* another origin */ }
+  let socket, greeting, plate, lastPoint, known, shown, sentAt = 0, frame = 0, lastId = 0, lastName = 0;
+  let root = window; // the outermost page of this origin: it describes its frames
+  try { while (root.parent !== root && root.parent.document) root = root.parent; } catch {}
 
   // ---- the connection
   const refused = (reason) => ({ kind: "answer", outcome: "refused", reason });
-  function tell(type, detail, plate = panel.plate, to = roots) {
+  function tell(type, detail, to = roots) {
     for (const { defaultView } of to)
       if (defaultView) Object.assign(defaultView.HapticPanel, greeting, { plate }).dispatchEvent(new CustomEvent(type, { detail }));
   }
@@ -25,21 +24,20 @@
     socket.onclose = ({ reason }) => {
       waiting.forEach((answer) => answer(refused(reason || "no panel")));
       waiting.clear();
-      shown = "";
-      tell("close", reason, null);
-      setTimeout(connect, Math.min(10000, 250 * 2 ** retries++));
+      plate = shown = "";
+      tell("close", reason);
+      setTimeout(connect, RETRY_MS);
     };
   }
   async function receive(message) {
-    if (message.kind === "page") greeting = message; // again, when the screen lies elsewhere
+    if (message.kind === "page") greeting = message;
     tell("message", message);
     waiting.get(message.id)?.(message);
     waiting.delete(message.id);
     if (greeting !== message) return;
-    const hello = panel.plate || await send({ kind: "hello" });
+    const hello = plate || await send({ kind: "hello" });
     if (hello.kind !== "hello") return;
-    retries = 0;
-    if (!panel.plate) tell("open", hello, hello);
+    if (!plate) tell("open", plate = hello);
     soon();
   }
   async function send(message) {
@@ -52,7 +50,6 @@
   // ---- where things lie, in CSS pixels of the outermost page
   const up = (node) => node.assignedSlot || node.parentNode || node.host || node.defaultView?.frameElement;
   const nearest = (node, is) => { while (node && !is(node)) node = up(node); return node; };
-  const within = (node, other) => nearest(node, (one) => one === other);
   const inside = (element) => element.shadowRoot || element.contentDocument;
   const once = (key, matrix) => known.get(key) || known.set(key, matrix()).get(key);
   const linear = (node) => once(node, () => {
@@ -61,14 +58,16 @@
     const { rotate, scale, transform } = getComputedStyle(node);
     return linear(up(node)).rotate(parseFloat(rotate) || 0).scale(...scale.split(" ").map((x) => parseFloat(x) || 1)).multiply(new DOMMatrix(transform));
   });
-  const viewOf = (node) => (node.ownerDocument || node).defaultView;
   const whole = ({ frameElement, innerWidth, innerHeight }) => frameElement ? inner(frameElement) : new DOMMatrix().scale(innerWidth, innerHeight);
-  const viewport = (view) => once(view, () => whole(view).scale(1 / view.innerWidth, 1 / view.innerHeight));
+  function viewport(node) {
+    const view = (node.ownerDocument || node).defaultView;
+    return once(view, () => whole(view).scale(1 / view.innerWidth, 1 / view.innerHeight));
+  }
   function outer(element) { // from the unit square to its box
     const { left, top, width, height } = element.getBoundingClientRect(), { offsetWidth: w, offsetHeight: h } = element;
-    const { a, b, c, d, is2D } = linear(element), zoom = width / (Math.abs(a * w) + Math.abs(c * h));
-    const sides = is2D && w && Math.abs(b) + Math.abs(c) > 1e-6 ? [a * w, b * w, c * h, d * h].map((x) => x * zoom) : [width, 0, 0, height];
-    return viewport(viewOf(element)).multiply(new DOMMatrix([...sides, left + width / 2, top + height / 2])).translate(-0.5, -0.5);
+    const { a, b, c, d } = linear(element), zoom = width / (Math.abs(a * w) + Math.abs(c * h));
+    const sides = w && (b || c) ? [a * w, b * w, c * h, d * h].map((x) => x * zoom) : [width, 0, 0, height];
+    return viewport(element).multiply(new DOMMatrix([...sides, left + width / 2, top + height / 2])).translate(-0.5, -0.5);
   }
   function inner(element) {
     const { offsetWidth: w, offsetHeight: h, clientLeft, clientTop, clientWidth, clientHeight } = element;
@@ -97,31 +96,31 @@
     return points;
   }
   function* stack(point, root = document) { // the uppermost first
-    for (const node of root.elementsFromPoint(...place(viewport(viewOf(root)).inverse(), point))) {
+    for (const node of root.elementsFromPoint(...place(viewport(root).inverse(), point))) {
       if (node.getRootNode() !== root) continue;
       if (inside(node)) yield* stack(point, inside(node));
       yield node;
     }
   }
   function mapping() { // to mm
-    const { plate, x_mm_from_pixels: x, y_mm_from_pixels: y } = panel, { offsetLeft, offsetTop, scale } = visualViewport;
+    const { x_mm_from_pixels: x, y_mm_from_pixels: y } = panel, { offsetLeft, offsetTop, scale } = visualViewport;
     const drawn = document.querySelector("[data-haptic-plate]")?.getBoundingClientRect();
     const { left, top, width, height } = drawn || new DOMRect(offsetLeft, offsetTop, innerWidth / scale, innerHeight / scale);
-    if (!plate || !(drawn ? width * height : window === window.top && matchMedia("(display-mode: fullscreen)").matches)) return null; // where is it?
+    if (!plate || !(drawn ? width * height : window === window.top && matchMedia("(display-mode: fullscreen)").matches)) return null;
     if (!drawn && x) return new DOMMatrix(x.flatMap((k, i) => [k, y[i]])).scale(devicePixelRatio * scale).translate(-left, -top);
     return new DOMMatrix([plate.length_mm / width, 0, 0, -plate.width_mm / height, 0, plate.width_mm]).translate(-left, -top);
   }
 
   // ---- the layer, the uppermost first; what only covers has no effects
   const named = (word) => !panel.plate.effects.includes(word) && panel.names[word] || [word, 1];
-  const amplified = (x) => Math.max(LEAST, Math.min(panel.plate.max_amplitude, x));
+  const amplified = (x) => Math.max(0.1, Math.min(panel.plate.max_amplitude, x));
   const shows = (element) => element.checkVisibility({ opacityProperty: true, visibilityProperty: true });
   function wanted(element) {
     const style = getComputedStyle(element), { haptic, hapticAmplitude, hapticOn } = element.dataset || {};
-    const said = haptic ?? style.getPropertyValue("--haptic");
-    if (!said && element.localName !== "haptic-region") return null;
-    if (element.matches(":disabled, [aria-disabled=true]") || style.pointerEvents === "none" || !shows(element)) return null;
+    const said = haptic ?? style.getPropertyValue("--haptic"), disabled = element.matches(":disabled, [aria-disabled=true], [aria-disabled=true] *");
+    if (!said && !disabled && element.localName !== "haptic-region" || style.pointerEvents === "none") return null;
     if (element.getAttribute("scroll") !== "pan" && nearest(element, (node) => scrolling.has(node))) return null; // it would lag behind
+    if (disabled || !shows(element)) return [];
     const words = (said || "click").split(/[\s,]+/), when = hapticOn?.match(/\w+/g) || undefined;
     return words.filter((word) => isNaN(word) && word !== "none").map((word) => {
       const [effect, own] = word === "edge" ? [word, 1] : named(word);
@@ -139,34 +138,34 @@
   }
   function layer(m) {
     const found = new Map(), result = [];
-    const put = (one) => found.set(one.element, { over: new Set(), ...one }).get(one.element);
+    const put = (element, effects, points, touched) => found.set(element, { element, effects, points, touched, over: new Set() });
     const felt = (node) => nearest(node, (one) => found.has(one));
     roots.clear();
     for (const element of everything(document)) {
       const effects = wanted(element), points = effects && visible(element);
       if (!(points?.length > 2)) continue;
       found.get(felt(element))?.over.add(element);
-      put({ element, effects, points });
+      put(element, effects, points);
     }
     for (const one of found.values()) {
-      const middle = mean(one.points);
-      for (const p of [middle, ...one.points]) {
-        const hits = [...stack(toward(p, middle, 0.1))].map((node) => felt(node) || node);
+      const middle = mean(one.points), around = (other) => nearest(one.element, (node) => node === other);
+      for (const corner of [middle, ...one.points]) {
+        const p = toward(corner, middle, 0.1), hits = [...stack(p)].map((node) => felt(node) === one.element || !around(felt(node)) ? felt(node) || node : node);
         const depth = hits.indexOf(one.element);
-        if (depth !== hits.findIndex((hit) => within(one.element, hit))) continue; // not there, or behind its parent
+        if (depth !== hits.findIndex(around)) continue; // not there, or behind its parent
         one.touched = true;
-        hits.slice(0, depth).forEach((hit) => one.over.add(hit));
+        for (const hit of hits.slice(0, depth)) if (clipped([p], visible(hit)).length) one.over.add(hit); // hit tests round
       }
     }
     const append = (element) => {
-      const one = found.get(element) || put({ element, effects: [], points: visible(element), touched: true });
+      const one = found.get(element) || put(element, found.get(felt(element))?.effects || [], visible(element), true).get(element);
       if (!one.touched) return;
       one.touched = false; // by this: in its place
       one.over.forEach(append);
       result.push(region(one, m));
     };
-    [...found.keys()].reverse().forEach(append); // mostly, later is above
-    return result.filter((one) => one).slice(0, MOST_REGIONS);
+    [...found.keys()].reverse().forEach(append); // later is above, if nothing is known
+    return result.filter((one) => one).slice(0, 250);
   }
   function region({ element, effects, points }, m) {
     if (!names.has(element)) names.set(element, `${(element.id || element.localName).slice(0, 40)} ${++lastName}`);
@@ -179,8 +178,8 @@
   }
 
   // ---- when to look
-  function look() { // true: again
-    if (!panel.plate || !panel.rights.includes("regions")) return false;
+  function look() {
+    if (!plate || !panel.rights.includes("regions")) return false;
     const now = performance.now(), m = !document.hidden && mapping();
     for (const [box, at] of scrolling) if (now > at + SETTLE_MS) scrolling.delete(box);
     known = new Map();
@@ -190,7 +189,7 @@
       shown = text;
       sentAt = now;
       send({ kind: "regions", regions }).then((answer) => {
-        if (answer.kind !== "layer" && text === shown) shown = ""; // as after `rate`
+        if (answer.kind !== "layer" && text === shown) shown = "";
         tell("layer", { regions, answer });
       });
     }
@@ -213,13 +212,13 @@
     roots.add(tree);
     watcher.observe(tree, { subtree: true, childList: true, attributes: true });
     for (const type of ["scroll", "load", "toggle", "transitionrun", "animationstart"]) tree.addEventListener(type, happened, true);
-    if (panel.plate && tree.defaultView?.HapticPanel.plate === undefined) tell("open", panel.plate, panel.plate, [tree]);
+    if (plate && tree.defaultView?.HapticPanel.plate === undefined) tell("open", plate, [tree]);
   }
   function begin() {
     attend(document);
     document.addEventListener("visibilitychange", look);
     for (const type of ["resize", "scroll"]) visualViewport.addEventListener(type, soon);
-    addEventListener("pagehide", () => socket.close()); // and the layer with it
+    addEventListener("pagehide", () => socket.close()); // and its layer
     setInterval(soon, LOOK_MS);
     setInterval(() => moving() && soon(), LOOK_MS / 5); // scripts' animations
     connect();
@@ -227,18 +226,17 @@
 
   // ---- what a page calls
   function toPlate(x, y) {
-    const m = mapping();
     known = new Map();
-    const p = place(viewport(window), [x, y]);
-    if (root !== window) return root.HapticPanel?.toPlate(...p);
-    return m && place(m, p);
+    const p = place(viewport(document), [x, y]), m = mapping();
+    return root === window ? m && place(m, p) : root.HapticPanel?.toPlate(...p);
   }
   async function play(effect, where = lastPoint, amplitude = 1) {
     const box = where?.getBoundingClientRect?.(), at = box ? { x: box.left + box.width / 2, y: box.top + box.height / 2 } : pointers.get(where) || where;
     if (isNaN(at?.x)) return refused("no such place");
-    const found = toPlate(at.x, at.y), [name, own] = named(effect);
+    const found = toPlate(at.x, at.y);
     if (!found) return refused("the page's place on the plate is unknown");
-    return send({ kind: name.at ? "play" : "clip", effect: name, x_mm: found[0], y_mm: found[1], amplitude: amplified(amplitude * own) });
+    const [x_mm, y_mm] = found, [name, own] = named(effect);
+    return send({ kind: name.at ? "play" : "clip", effect: name, x_mm, y_mm, amplitude: amplified(amplitude * own) });
   }
   navigator.vibrate = (pattern) => {
     let at = 0;
@@ -254,6 +252,6 @@
       if (/up|cancel/.test(type)) pointers.delete(pointerId);
     }, true);
   window.HapticPanel = Object.assign(panel, { play, send, toPlate, look: soon, stop: () => send({ kind: "stop" }), rights: [] });
-  try { CSS.registerProperty({ name: "--haptic", syntax: "*", inherits: false }); } catch { /* the page has */ }
+  try { CSS.registerProperty({ name: "--haptic", syntax: "*", inherits: false }); } catch {}
   if (root === window) document.readyState === "loading" ? addEventListener("DOMContentLoaded", begin) : begin();
 })();
