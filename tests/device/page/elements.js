@@ -16,9 +16,24 @@ function inside(one, x, y) {
 function touched(x, y) {
   let hit = document.elementFromPoint(x, y);
   while (hit?.shadowRoot) hit = hit.shadowRoot.elementFromPoint(x, y);
+  if (hit?.contentDocument) {
+    if (getComputedStyle(hit).opacity === "0") return "";
+    const [inner_x, inner_y] = HOMES[hit.id](x, y);
+    hit = hit.contentDocument.elementFromPoint(inner_x, inner_y);
+  }
   while (hit && !hit.dataset.expected) hit = hit.parentElement || hit.getRootNode().host;
   return hit?.dataset.expected === "felt" && !hit.matches(":disabled") ? hit.id : "";
 }
+
+// From the page into each frame, by hand: where its upper left corner is, its border of 6 px, its angle and scale.
+const HOMES = {
+  plain: (x, y) => [x - 166, y - 26],
+  turned: (x, y) => {
+    const dx = (x - 630) / 1.2, dy = (y - 160) / 1.2, angle = (-25 * Math.PI) / 180;
+    return [Math.cos(angle) * dx - Math.sin(angle) * dy + 124, Math.sin(angle) * dx + Math.cos(angle) * dy + 94];
+  },
+  scrolled: (x, y) => { const box = document.getElementById("box"); return [x - 29, y - 369 + box.scrollTop]; },
+};
 
 const BESIDE = [[-1, 0], [1, 0], [0, -1], [0, 1]]; // in CSS pixels
 

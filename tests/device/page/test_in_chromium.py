@@ -320,3 +320,86 @@ def test_the_live_page(page, bridge_with, asks, tmp_path):
     page.until("document.getElementById('state-word').textContent === 'no panel'")
     page.picture(folder / "live_page_no_panel.png")
     assert all("ERR_CONNECTION_REFUSED" in said or "WebSocket" in said for said in page.said), page.said
+
+
+@pytest.fixture
+def framed(page, bridge_with, tmp_path):
+    """A page of four frames of its own origin."""
+    (tmp_path / "www").mkdir()
+    for name in ("elements.css", "elements.js", "frames.html", "frames.css", "framed.html", "framed.css", "framed.js"):
+        shutil.copy(FOLDER / name, tmp_path / "www")
+    bridge = bridge_with("messages_per_s = 1000\nburst = 1000", www=tmp_path / "www")
+    page.leave()
+    page.size(1000, 700)
+    page.open(f"{bridge.address}frames.html")
+    settled(page)
+    yield page, bridge
+    page.leave()
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "0",
+        "document.getElementById('box').scrollTop = 120",
+        "document.getElementById('plain').contentWindow.scrollTo(0, 90)",
+        "document.getElementById('turned').contentDocument.querySelector('.turned').style.rotate = '60deg'",
+        "document.getElementById('cover').style.left = '200px'",
+    ],
+)
+def test_elements_in_frames_are_felt_where_they_are_seen(framed, change):
+    page, _ = framed
+    page.value(f"{change}; 0")
+    page.value("new Promise((done) => setTimeout(done, 700))")
+    right(page)
+    names = page.value("layers.at(-1).regions.filter((one) => one.effects.length).map((one) => one.name)")
+    assert {"plain", "turned", "scrolled"} <= {one.partition("-")[0] for one in names}
+    assert not [one for one in names if one.startswith(("transparent-", "plain-3 "))], names
+
+
+def test_a_frame_has_its_pages_connection_and_its_own_coordinates(framed):
+    page, _ = framed
+    inner = "document.getElementById('turned').contentWindow"
+    assert page.value(f"{inner}.told.includes('open') && {inner}.told.includes('layer')")
+    assert page.value(f"{inner}.HapticPanel.plate.board") == "simulated"
+    middle = page.value(f"{inner}.HapticPanel.toPlate(124, 94)")
+    assert middle == pytest.approx([0.63 * 210, (1 - 160 / 700) * 148], abs=0.05)
+    assert page.value(f"{inner}.HapticPanel.play('click', {{x: 20, y: 20}})")["outcome"] == "played"
+    assert page.value(f"{inner}.HapticPanel.play('tick', {inner}.document.querySelector('button'))")["outcome"] == "played"
+    clients = page.value("HapticPanel.send({kind: 'describe'})")["clients"]
+    assert clients["connected"] == 1, "the four frames have no connection of their own"
+    page.value("document.getElementById('turned').remove(); 0")
+    page.value("new Promise((done) => setTimeout(done, 700))")
+    names = page.value("layers.at(-1).regions.map((one) => one.name)")
+    assert not [one for one in names if one.startswith("turned-")]
+
+
+def test_a_frame_of_another_origin_is_not_felt(page, bridge_with, tmp_path):
+    """What it covers of the page around is not, either."""
+    for folder, files in {
+        "other": ("framed.html", "framed.css", "framed.js"),
+        "www": ("elements.css", "elements.js", "frames.css"),
+    }.items():
+        (tmp_path / folder).mkdir()
+        for name in files:
+            shutil.copy(FOLDER / name, tmp_path / folder)
+    other = bridge_with(www=tmp_path / "other")
+    (tmp_path / "www" / "index.html").write_text(
+        (FOLDER / "frames.html").read_text().partition("<iframe")[0]
+        + f'<button id="below" data-haptic="click" data-expected="felt">below</button><iframe id="plain" src="{other.address}framed.html?plain">'
+    )
+    (tmp_path / "www" / "frames.css").write_text(
+        (FOLDER / "frames.css").read_text() + "#below { left: 100px; top: 100px; width: 200px; height: 80px; }"
+    )
+    page.leave()
+    page.size(1000, 700)
+    page.call("Page.addScriptToEvaluateOnNewDocument", source="heard = []; onmessage = ({data}) => heard.push(data)")
+    page.open(bridge_with("messages_per_s = 1000\nburst = 1000\ncontent_security_policy = ''", www=tmp_path / "www").address)
+    settled(page)
+    page.until("heard.some(({type}) => type === 'layer')")
+    assert {(one["regions"], one["outcome"]) for one in page.value("heard.filter(({type}) => type === 'layer')")} == {
+        (0, "the page's place on the plate is unknown")
+    }
+    right(page)
+    regions = page.value("layers.at(-1).regions.map((one) => [one.name.replace(/ \\d+$/, ''), one.effects.length])")
+    assert regions == [["plain", 0], ["below", 1], ["beside", 1]]

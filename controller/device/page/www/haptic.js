@@ -1,15 +1,15 @@
-// A page describes its elements, and the panel's loop plays them under each finger: README.md.
+// A page describes its elements; the panel's loop plays them under each finger: README.md
 (() => {
   "use strict";
   if (window.HapticPanel) return;
-  const RETRY_MS = 1000, SEND_MS = 40; // between two connections, two layers
+  const RETRY_MS = 1000, SEND_MS = 40;
   const SETTLE_MS = 100; // after the last event of a scroll
   const LOOK_MS = 500; // for what no event announces
   const panel = new EventTarget(), roots = new Set(), names = new WeakMap();
   const waiting = new Map(), scrolling = new Map(), pointers = new Map();
   const address = new URL("panel", document.currentScript?.src || location);
-  let socket, greeting, plate, lastPoint, known, shown, sentAt = 0, frame = 0, lastId = 0, lastName = 0;
-  let root = window; // the outermost page of this origin: it describes its frames
+  let socket, greeting, plate, lastPoint, known, shown, sentAt = 0, frame = 0, last = 0;
+  let root = window; // the page that describes its frames, too
   try { while (root.parent !== root && root.parent.document) root = root.parent; } catch {}
 
   // ---- the connection
@@ -43,8 +43,8 @@
   async function send(message) {
     if (root !== window) return root.HapticPanel?.send(message) ?? refused("no panel");
     if (socket?.readyState !== 1) return refused("no panel");
-    socket.send(JSON.stringify({ ...message, id: ++lastId }));
-    return new Promise((answer) => waiting.set(lastId, answer));
+    socket.send(JSON.stringify({ ...message, id: ++last }));
+    return new Promise((answer) => waiting.set(last, answer));
   }
 
   // ---- where things lie, in CSS pixels of the outermost page
@@ -75,7 +75,7 @@
   }
   const place = (m, [x, y]) => (({ x, y }) => [x, y])(m.transformPoint({ x, y }));
   const corners = (m) => [[0, 0], [1, 0], [1, 1], [0, 1]].map((p) => place(m, p));
-  function clipped(points, by) { // both convex
+  function clipped(points, by) {
     by.forEach(([x, y], i) => {
       const [u, v] = by.at(i - 1), side = ([p, q]) => (x - u) * (q - v) - (y - v) * (p - u), sign = Math.sign(side(by.at(i - 2)));
       points = points.flatMap((p, j) => {
@@ -96,11 +96,12 @@
     return points;
   }
   function* stack(point, root = document) { // the uppermost first
-    for (const node of root.elementsFromPoint(...place(viewport(root).inverse(), point))) {
-      if (node.getRootNode() !== root) continue;
-      if (inside(node)) yield* stack(point, inside(node));
-      yield node;
-    }
+    for (const ask of ["elementFromPoint", "elementsFromPoint"])
+      for (const node of [root[ask](...place(viewport(root).inverse(), point))].flat()) {
+        if (node?.getRootNode() !== root) continue;
+        if (inside(node)) yield* stack(point, inside(node));
+        yield node;
+      }
   }
   function mapping() { // to mm
     const { x_mm_from_pixels: x, y_mm_from_pixels: y } = panel, { offsetLeft, offsetTop, scale } = visualViewport;
@@ -111,7 +112,7 @@
     return new DOMMatrix([plate.length_mm / width, 0, 0, -plate.width_mm / height, 0, plate.width_mm]).translate(-left, -top);
   }
 
-  // ---- the layer, the uppermost first; what only covers has no effects
+  // ---- the layer, the uppermost first
   const named = (word) => !panel.plate.effects.includes(word) && panel.names[word] || [word, 1];
   const amplified = (x) => Math.max(0.1, Math.min(panel.plate.max_amplitude, x));
   const shows = (element) => element.checkVisibility({ opacityProperty: true, visibilityProperty: true });
@@ -119,7 +120,7 @@
     const style = getComputedStyle(element), { haptic, hapticAmplitude, hapticOn } = element.dataset || {};
     const said = haptic ?? style.getPropertyValue("--haptic"), disabled = element.matches(":disabled, [aria-disabled=true], [aria-disabled=true] *");
     if (!said && !disabled && element.localName !== "haptic-region" || style.pointerEvents === "none") return null;
-    if (element.getAttribute("scroll") !== "pan" && nearest(element, (node) => scrolling.has(node))) return null; // it would lag behind
+    if (element.getAttribute("scroll") !== "pan" && nearest(element, (node) => scrolling.has(node))) return null; // it would lag
     if (disabled || !shows(element)) return [];
     const words = (said || "click").split(/[\s,]+/), when = hapticOn?.match(/\w+/g) || undefined;
     return words.filter((word) => isNaN(word) && word !== "none").map((word) => {
@@ -138,37 +139,43 @@
   }
   function layer(m) {
     const found = new Map(), result = [];
-    const put = (element, effects, points, touched) => found.set(element, { element, effects, points, touched, over: new Set() });
+    const put = (element, one) => found.set(element, { element, over: new Set(), ...one }).get(element);
     const felt = (node) => nearest(node, (one) => found.has(one));
     roots.clear();
     for (const element of everything(document)) {
-      const effects = wanted(element), points = effects && visible(element);
-      if (!(points?.length > 2)) continue;
+      const effects = wanted(element), points = effects ? visible(element) : [];
+      if (!points.length) continue;
       found.get(felt(element))?.over.add(element);
-      put(element, effects, points);
+      put(element, { effects, points });
     }
     for (const one of found.values()) {
       const middle = mean(one.points), around = (other) => nearest(one.element, (node) => node === other);
       for (const corner of [middle, ...one.points]) {
-        const p = toward(corner, middle, 0.1), hits = [...stack(p)].map((node) => felt(node) === one.element || !around(felt(node)) ? felt(node) || node : node);
-        const depth = hits.indexOf(one.element);
-        if (depth !== hits.findIndex(around)) continue; // not there, or behind its parent
-        one.touched = true;
-        for (const hit of hits.slice(0, depth)) if (clipped([p], visible(hit)).length) one.over.add(hit); // hit tests round
+        const p = toward(corner, middle, 0.1), over = [];
+        for (const node of stack(p)) {
+          const part = felt(node), hit = part && (part === one.element || !around(part)) ? part : node;
+          if (hit === one.element) {
+            one.touched = true;
+            over.forEach((other) => one.over.add(other));
+          }
+          if (around(hit)) break; // itself, or its parent
+          if (clipped([p], visible(hit)).length) over.push(hit); // hit tests round
+        }
       }
     }
     const append = (element) => {
-      const one = found.get(element) || put(element, found.get(felt(element))?.effects || [], visible(element), true).get(element);
+      const whole = found.get(felt(element)) || { element, effects: [] };
+      const one = found.get(element) || put(element, { ...whole, points: visible(element), over: [], touched: true });
       if (!one.touched) return;
       one.touched = false; // by this: in its place
       one.over.forEach(append);
       result.push(region(one, m));
     };
-    [...found.keys()].reverse().forEach(append); // later is above, if nothing is known
+    [...found.keys()].reverse().forEach(append);
     return result.filter((one) => one).slice(0, 250);
   }
   function region({ element, effects, points }, m) {
-    if (!names.has(element)) names.set(element, `${(element.id || element.localName).slice(0, 40)} ${++lastName}`);
+    if (!names.has(element)) names.set(element, `${(element.id || element.localName).slice(0, 40)} ${++last}`);
     const name = names.get(element), round = (x) => Math.round(x * 100) / 100;
     const corners_mm = points.map((p) => place(m, p).map(round)).filter((p, i, all) => String(p) !== String(all.at(i - 1)));
     const [[l, r, ...xs], [b, t, ...ys]] = [0, 1].map((axis) => [...new Set(corners_mm.map((p) => p[axis]))].sort((p, q) => p - q));
@@ -189,7 +196,7 @@
       shown = text;
       sentAt = now;
       send({ kind: "regions", regions }).then((answer) => {
-        if (answer.kind !== "layer" && text === shown) shown = "";
+        if (answer.kind !== "layer") shown = "";
         tell("layer", { regions, answer });
       });
     }
@@ -218,7 +225,7 @@
     attend(document);
     document.addEventListener("visibilitychange", look);
     for (const type of ["resize", "scroll"]) visualViewport.addEventListener(type, soon);
-    addEventListener("pagehide", () => socket.close()); // and its layer
+    addEventListener("pagehide", () => socket.close());
     setInterval(soon, LOOK_MS);
     setInterval(() => moving() && soon(), LOOK_MS / 5); // scripts' animations
     connect();
@@ -231,19 +238,18 @@
     return root === window ? m && place(m, p) : root.HapticPanel?.toPlate(...p);
   }
   async function play(effect, where = lastPoint, amplitude = 1) {
-    const box = where?.getBoundingClientRect?.(), at = box ? { x: box.left + box.width / 2, y: box.top + box.height / 2 } : pointers.get(where) || where;
-    if (isNaN(at?.x)) return refused("no such place");
-    const found = toPlate(at.x, at.y);
+    const { x, y, width = 0, height = 0 } = where?.getBoundingClientRect?.() || pointers.get(where) || where || {};
+    if (isNaN(x)) return refused("no such place");
+    const found = toPlate(x + width / 2, y + height / 2);
     if (!found) return refused("the page's place on the plate is unknown");
     const [x_mm, y_mm] = found, [name, own] = named(effect);
     return send({ kind: name.at ? "play" : "clip", effect: name, x_mm, y_mm, amplitude: amplified(amplitude * own) });
   }
   navigator.vibrate = (pattern) => {
-    let at = 0;
-    [pattern].flat().forEach((ms, i) => {
-      if (i % 2 === 0 && ms > 0) setTimeout(play, at, ms > 40 ? "buzz" : "click");
-      at += ms;
-    });
+    [pattern].flat().reduce((at, ms, i) => {
+      if (ms && i % 2 === 0) setTimeout(play, at, ms > 40 ? "buzz" : "click");
+      return at + ms;
+    }, 0);
     return true;
   };
   for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel"])
