@@ -49,14 +49,14 @@ class Served:
 class Bridge:
     """A process of `haptic-panel page`."""
 
-    def __init__(self, folder, socket, text="", www=None):
+    def __init__(self, folder, socket, text="", www=None, port=0):
         self.ends_with = 0
         self.settings = folder / "page.toml"
         self.settings.write_text(text)
         self._said = tempfile.TemporaryFile("w+")  # noqa: SIM115
-        command = [sys.executable, "-m", "controller", "page", "--settings", str(self.settings), "--port", "0", "--socket", socket]
+        command = [sys.executable, "-m", "controller", "page", "--settings", str(self.settings), "--port", str(port)]
         self.process = subprocess.Popen(
-            [*command, *(["--www", str(www)] if www else [])],
+            [*command, "--socket", socket, *(["--www", str(www)] if www else [])],
             stdout=subprocess.PIPE,
             stderr=self._said,
             text=True,
@@ -156,6 +156,22 @@ def bridge_with(served, tmp_path):
 
     yield make
     assert [bridge.end() for bridge in bridges] == [bridge.ends_with for bridge in bridges]
+
+
+@pytest.fixture
+def bridge_at(served, tmp_path):
+    """Bridges that a test kills, each at a port of its choice."""
+    bridges = []
+
+    def make(www, port):
+        bridges.append(Bridge(tmp_path, served.socket, "messages_per_s = 1000\nburst = 1000", www, port))
+        return bridges[-1]
+
+    yield make
+    for bridge in bridges:
+        bridge.process.stdout.close()
+        bridge.process.kill()
+        bridge.process.wait()
 
 
 @pytest.fixture

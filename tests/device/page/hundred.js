@@ -32,11 +32,14 @@ function under(x, y) {
   const found = document.elementFromPoint(x, y)?.closest(".felt, main");
   return found && !found.matches(".not, :disabled") ? found.id : "";
 }
+function toPixels(x_mm, y_mm) {
+  const box = document.body.getBoundingClientRect(), { length_mm, width_mm } = HapticPanel.plate;
+  return [(x_mm / length_mm) * box.width, (1 - y_mm / width_mm) * box.height];
+}
 // The same at places in mm on the plate; null within a pixel of a border, where hit tests round.
 function underAll(places) {
-  const box = document.body.getBoundingClientRect(), { length_mm, width_mm } = HapticPanel.plate;
-  return places.map(([x_mm, y_mm]) => {
-    const x = (x_mm / length_mm) * box.width, y = (1 - y_mm / width_mm) * box.height, found = under(x, y);
+  return places.map((place) => {
+    const [x, y] = toPixels(...place), found = under(x, y);
     return [[-1, 0], [1, 0], [0, -1], [0, 1]].some(([dx, dy]) => under(x + dx, y + dy) !== found) ? null : found;
   });
 }

@@ -10,7 +10,7 @@ import math
 import shutil
 import threading
 import time
-from collections import Counter, defaultdict
+from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +32,7 @@ REACH_MM = 46.0, 31.0
 ROUNDS = ("resting", "scrolled", "rotated", "zoomed", "switched") * 3
 ENOUGH = 400  # emissions of a round
 ANIMATED = 2500
+TAPS = 15  # of a round
 
 
 def recording():
@@ -49,29 +50,46 @@ def recording():
 
 
 class Felt:
-    """What the panel plays, and what it is touched by, as a client of its socket is told."""
+    """What the panel plays, and what it is touched by, as clients of its socket are told."""
 
     def __init__(self, socket):
         self.touches = defaultdict(list)  # of each finger: time_s, x_mm, y_mm
         self.foci = []
-        self._clients = [PanelClient(socket, timeout_s=60) for _ in range(2)]
-        for follow in (self._touches, self._foci):
-            threading.Thread(target=follow, daemon=True).start()
+        self._ended = False
+        self._threads = [threading.Thread(target=follow, args=(socket,)) for follow in (self._touched, self._played)]
+        for thread in self._threads:
+            thread.start()
 
-    def _touches(self):
-        for touch in self._clients[0].touches():
-            self.touches[touch.finger].append((touch.time_s, touch.x_mm, touch.y_mm))
+    def end(self):
+        self._ended = True
+        for thread in self._threads:
+            thread.join()
 
-    def _foci(self):
-        for emissions in self._clients[1].emissions():
-            self.foci += [focus for focus in emissions.foci if focus.finger is not None]
+    def _touched(self, socket):
+        with PanelClient(socket, timeout_s=60) as client:
+            for touch in client.touches():
+                if self._ended:
+                    return
+                self.touches[touch.finger].append((touch.time_s, touch.x_mm, touch.y_mm))
 
-    def cause(self, focus):
-        """The touch that was reported last before this focus began, and the finger's speed in mm/s."""
+    def _played(self, socket):
+        with PanelClient(socket, timeout_s=60) as client:
+            for emissions in client.emissions():
+                if self._ended:
+                    return
+                self.foci += [focus for focus in emissions.foci if focus.finger is not None]
+
+    def more(self, enough, after_s):
+        """That many foci that began after this time, each with its finger's last touch before it and the finger's speed in mm/s."""
+        wait_for("emissions", lambda: sum(focus.time_s > after_s for focus in self.foci) >= enough)
+        return [(focus, *self._cause(focus)) for focus in list(self.foci) if focus.time_s > after_s]
+
+    def _cause(self, focus):
         touches = self.touches[focus.finger]
+        wait_for("its touch", lambda: touches[-1][0] > focus.time_s)
         at = bisect.bisect_right(touches, (focus.time_s, math.inf, math.inf)) - 1
         (t0, x0, y0), (t1, x1, y1) = touches[at - 1], touches[at]
-        return t1, x1, y1, math.hypot(x1 - x0, y1 - y0) / max(t1 - t0, 1e-6)
+        return touches[at], math.hypot(x1 - x0, y1 - y0) / max(t1 - t0, 1e-6)
 
 
 def offset_s(page):
@@ -85,35 +103,56 @@ def offset_s(page):
     return min(found)[1]
 
 
-def name(of):
-    """The element of a region: without the number that haptic.js appends."""
-    return of.rpartition(" ")[0]
-
-
-class Shares:
-    """Of each kind of element: how often the region that was played is that of the element there."""
+class Share:
+    """How often what was played is what was there; places within a pixel of a border are counted, and left out."""
 
     def __init__(self):
-        self.right = defaultdict(Counter)  # of each kind of place: right, wrong, border, and "felt on what is not"
+        self.right = self.border = self.off = 0
+        self.wrong = []
+        self.fastest_mm_s = 0.0
 
-    def add(self, kind, focus, expected):
-        if expected is None:
-            self.right[kind]["border"] += 1
+    def add(self, played, there, speed_mm_s):
+        if there is None:
+            self.border += 1
             return
-        played = name(focus.of)
-        self.right[kind]["right" if played == expected else "wrong"] += 1
-        self.right[kind]["not"] += not expected
-        if played != expected:
-            self.wrong.append((kind, focus, expected))
+        self.fastest_mm_s = max(self.fastest_mm_s, speed_mm_s)
+        self.off += there == ""
+        if played == there:
+            self.right += 1
+        else:
+            self.wrong.append((played, there, round(speed_mm_s)))
 
-    def share(self, kind):
-        return self.right[kind]["right"] / max(1, self.right[kind]["right"] + self.right[kind]["wrong"])
+    @property
+    def share(self):
+        return self.right / (self.right + len(self.wrong))
+
+    def __str__(self):
+        return f"{self.share:.2%} of {self.right + len(self.wrong)}, {self.border} within a pixel of a border, to {self.fastest_mm_s:.0f} mm/s"
 
 
-def test_each_finger_gets_the_element_under_it(panel_of, bridge_with, tmp_path):
+def played(focus):
+    """The element of a region: its name without the number that haptic.js appends."""
+    return focus.of.rpartition(" ")[0]
+
+
+def targets(page, places):
+    """What synthetic touches meet at places of the plate."""
+    found = []
+    for x_mm, y_mm in places:
+        x, y = page.value(f"toPixels({x_mm}, {y_mm})")
+        page.value("taps.length = 0; 0")
+        page.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
+        page.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        found.append(page.value("taps[0]"))
+    return found
+
+
+@pytest.fixture
+def fingers(panel_of, bridge_with, tmp_path):
+    """A panel that replays them, and the page of the elements."""
     (tmp_path / "www").mkdir()
-    for name_ in ("hundred.html", "hundred.css", "hundred.js"):
-        shutil.copy(FOLDER / name_, tmp_path / "www")
+    for file in ("hundred.html", "hundred.css", "hundred.js"):
+        shutil.copy(FOLDER / file, tmp_path / "www")
     (tmp_path / "fingers.events").write_text(recording())
     panel = panel_of(tmp_path / "fingers.events")
     bridge = bridge_with("messages_per_s = 1000\nburst = 1000", www=tmp_path / "www", socket=panel.socket)
@@ -122,18 +161,61 @@ def test_each_finger_gets_the_element_under_it(panel_of, bridge_with, tmp_path):
         page.size(1260, 888)
         page.open(f"{bridge.address}hundred.html")
         page.until("layers.length")
-        page.picture(Path("/work/h/scratch_js/hundred.png"))
-        offset = offset_s(page)
-        for number, kind in enumerate(ROUNDS):
-            changed, settled, refused = page.value(f"change({kind!r}, {number})")
-            assert refused == []
-            first = len(felt.foci)
-            wait_for("emissions", lambda: len(felt.foci) >= first + ENOUGH)
-            foci = [f for f in felt.foci if f.time_s > settled / 1e3 + offset]
-            causes = [felt.cause(f) for f in foci]
-            under = page.value(f"underAll({[[x, y] for _, x, y, _ in causes]})")
-            at = page.value(f"underAll({[[f.x_mm, f.y_mm] for f in foci]})")
-            felt.foci = []
-            bad = [(name(f.of), u, c) for f, c, u in zip(foci, causes, under) if u is not None and name(f.of) != u]
-            print(kind, len(foci), "lag", settled - changed, "border", under.count(None), "wrong", len(bad), "at focus wrong", sum(u is not None and name(f.of) != u for f, u in zip(foci, at)), bad[:6], max(c[3] for c in causes))
+        yield page, felt
         assert page.said == []
+    felt.end()
+
+
+def places(found):
+    return [[round(x_mm, 3), round(y_mm, 3)] for _, (_, x_mm, y_mm), _ in found]
+
+
+def test_each_finger_gets_the_element_under_it_at_rest(fingers):
+    page, felt = fingers
+    offset = offset_s(page)
+    touched, tapped = defaultdict(Share), Share()
+    at_focus, lags = Share(), []
+    for number, kind in enumerate(ROUNDS):
+        changed_ms, settled_ms, refused = page.value(f"change({kind!r}, {number})")
+        assert refused == []
+        if settled_ms > changed_ms:
+            lags.append(settled_ms - changed_ms)
+        found = felt.more(ENOUGH, settled_ms / 1e3 + offset)
+        for (focus, _, speed), there in zip(found, page.value(f"underAll({places(found)})"), strict=True):
+            touched[kind].add(played(focus), there, speed)
+        focused = [[focus.x_mm, focus.y_mm] for focus, _, _ in found]
+        for (focus, _, speed), there in zip(found, page.value(f"underAll({focused})"), strict=True):
+            at_focus.add(played(focus), there, speed)
+        some = found[:: len(found) // TAPS]
+        for (focus, _, speed), there, target in zip(
+            some, page.value(f"underAll({places(some)})"), targets(page, places(some)), strict=True
+        ):
+            tapped.add(played(focus), None if there is None else target, speed)
+        felt.foci.clear()
+    for kind, share in touched.items():
+        print(f"{kind}: {share}")
+    print(f"by synthetic touches: {tapped}")
+    print(f"at the place of the focus, 2 ms after the emission began: {at_focus}")
+    print(f"from a change to the panel's last answer: {np.median(lags):.0f} ms at the median, {max(lags):.0f} at worst")
+    everything = [*touched.values(), tapped]
+    assert min(share.share for share in everything) >= 0.995, [share.wrong[:9] for share in everything]
+    assert max(share.fastest_mm_s for share in everything) > 450
+    assert sum(share.off for share in everything) == 0, "nothing is felt on what is hidden or disabled"
+
+
+def test_elements_that_are_animated_are_felt_where_they_were_a_moment_ago(fingers):
+    page, felt = fingers
+    offset = offset_s(page)
+    began_ms = page.value("animate()")
+    found = felt.more(ANIMATED, began_ms / 1e3 + offset + 1.0)
+    then = page.value(
+        f"underThen({[[(focus.time_s - offset) * 1e3, *place] for (focus, _, _), place in zip(found, places(found), strict=True)]})"
+    )
+    shares = defaultdict(Share)
+    for (focus, _, speed), there in zip(found, then, strict=True):
+        animated = "animated" in (played(focus) + (there or ""))
+        shares["animated" if animated else "all others"].add(played(focus), there, speed)
+    for kind, share in shares.items():
+        print(f"{kind}: {share}")
+    assert shares["all others"].share >= 0.995, shares["all others"].wrong[:9]
+    assert shares["animated"].share >= 0.9, shares["animated"].wrong[:9]

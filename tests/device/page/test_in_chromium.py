@@ -18,6 +18,7 @@ from chromium import PROGRAM, browser
 from kernel.serial_finger import LARGEST, SerialPanel
 from patience import wait_for
 
+from controller.device.application_socket.client import PanelClient
 from controller.device.scene.scene import load_scene
 
 pytestmark = [
@@ -383,7 +384,7 @@ def test_a_frame_of_another_origin_is_not_felt(page, bridge_with, tmp_path):
         (tmp_path / folder).mkdir()
         for name in files:
             shutil.copy(FOLDER / name, tmp_path / folder)
-    other = bridge_with(www=tmp_path / "other")
+    other = bridge_with('content_security_policy = "frame-ancestors *"', www=tmp_path / "other")
     (tmp_path / "www" / "index.html").write_text(
         (FOLDER / "frames.html").read_text().partition("<iframe")[0]
         + f'<button id="below" data-haptic="click" data-expected="felt">below</button><iframe id="plain" src="{other.address}framed.html?plain">'
@@ -403,3 +404,92 @@ def test_a_frame_of_another_origin_is_not_felt(page, bridge_with, tmp_path):
     right(page)
     regions = page.value("layers.at(-1).regions.map((one) => [one.name.replace(/ \\d+$/, ''), one.effects.length])")
     assert regions == [["plain", 0], ["below", 1], ["beside", 1]]
+
+
+def test_a_page_in_a_window_plays_nothing_and_in_full_screen_all_of_it(page, bridge_with, tmp_path):
+    """A window may lie anywhere on the screen."""
+    (tmp_path / "www").mkdir()
+    shutil.copy(FOLDER / "elements.js", tmp_path / "www")
+    (tmp_path / "www" / "index.html").write_text(
+        '<!doctype html><link rel="icon" href="elements.js"><script defer src="/haptic.js"></script>'
+        '<script defer src="elements.js"></script><script defer src="button.js"></script><button id="whole" data-haptic="click">whole'
+    )
+    (tmp_path / "www" / "button.js").write_text(
+        "document.getElementById('whole').onclick = () => document.fullscreenElement ? document.exitFullscreen()"
+        " : document.documentElement.requestFullscreen();"
+    )
+    page.leave()
+    page.call("Emulation.clearDeviceMetricsOverride")
+    page.open(bridge_with(www=tmp_path / "www").address)
+    page.until("layers.length")
+    left, top = page.value("(({x, y, width, height}) => [x + width / 2, y + height / 2])(whole.getBoundingClientRect())")
+
+    def click():
+        for kind in ("mousePressed", "mouseReleased"):
+            page.call("Input.dispatchMouseEvent", type=kind, button="left", clickCount=1, x=left, y=top)
+
+    def is_off():
+        assert page.value("layers.at(-1).regions") == []
+        assert page.value("HapticPanel.toPlate(0, 0)") is None
+        assert "unknown" in page.value("HapticPanel.play('click', whole)")["reason"]
+
+    is_off()
+    click()
+    page.until("document.fullscreenElement && layers.at(-1).regions.length === 1")
+    assert page.value("HapticPanel.toPlate(0, 0)") == pytest.approx([0, 148])
+    assert page.value("HapticPanel.toPlate(innerWidth, innerHeight)") == pytest.approx([210, 0])
+    assert page.value("HapticPanel.play('click', whole)")["outcome"] == "played"
+    click()
+    page.until("!document.fullscreenElement && layers.at(-1).regions.length === 0")
+    is_off()
+    assert page.said == []
+
+
+def test_what_is_scrolled_is_off_until_it_rests_but_for_what_pans(elements):
+    elements.value("document.getElementById('row3').setAttribute('scroll', 'pan'); 0")
+    settled(elements)
+    during = elements.value(
+        """new Promise((done) => {
+          const list = document.getElementById("list"), before = layers.length;
+          let steps = 0;
+          (function scroll() {
+            list.scrollTop += steps++ % 40 < 20 ? 3 : -3;
+            steps < 80 ? requestAnimationFrame(scroll) : done(layers.slice(before + 1).map(({ regions }) => regions.map((one) => one.name)));
+          })();
+        })"""
+    )
+    felt = [{one.rpartition(" ")[0] for one in names} for names in during]
+    assert len(felt) >= 3
+    assert all("plain" in names and not names & {"row1", "row2", "row4"} for names in felt), felt
+    assert any("row3" in names for names in felt)
+    right(elements)
+
+
+def test_a_bridge_that_is_killed_and_comes_back_has_the_layer_again_once(page, served, bridge_at, tmp_path):
+    (tmp_path / "www").mkdir()
+    for name in ("elements.css", "elements.js"):
+        shutil.copy(FOLDER / name, tmp_path / "www")
+    shutil.copy(FOLDER / "elements.html", tmp_path / "www" / "index.html")
+    bridge = bridge_at(tmp_path / "www", port=0)
+    page.leave()
+    page.size(1000, 700)
+    page.open(bridge.address)
+    settled(page)
+    page.value("events = []; for (const type of ['open', 'close']) HapticPanel.addEventListener(type, () => events.push(type)); 0")
+    before = page.value("layers.at(-1).regions")
+    with PanelClient(served.socket, timeout_s=60) as client:
+        connected = client.describe().clients.connected
+        for times in (1, 2):
+            bridge.process.kill()
+            bridge.process.wait()
+            page.until(f"events.length === {2 * times - 1}")
+            assert page.value("HapticPanel.send({kind: 'state'})")["reason"] == "no panel"
+            wait_for("the layer's end", lambda: client.describe().clients.connected == connected - 1)
+            page.value("layers.length = 0; 0")
+            bridge = bridge_at(tmp_path / "www", port=bridge.port)
+            page.until("layers.length && layers.at(-1).answer.kind === 'layer'")
+            assert page.value("layers.at(-1).regions") == before
+            assert client.describe().clients.connected == connected
+            assert page.value("events") == ["close", "open"] * times
+    right(page)
+    page.leave()
