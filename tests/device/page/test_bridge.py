@@ -48,6 +48,7 @@ def closing(page):
 def test_a_page_plays_lays_regions_hears_touches_and_stops_nobody_else(bridge, asks):
     with bridge.open() as page:
         greeting = json.loads(page.recv(PATIENCE_S))
+        assert greeting.pop("names")["EFFECT_TICK"] == ["click", 0.3]
         assert greeting == {
             "kind": "page", "rights": ["look", "play", "regions"], "x_mm_from_pixels": None, "y_mm_from_pixels": None
         }  # fmt: skip

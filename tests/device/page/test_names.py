@@ -14,7 +14,6 @@ from controller.device.scene import library
 from controller.errors import ConfigError
 
 
-
 def test_every_name_is_an_effect_that_can_be_played():
     effects = tomllib.loads((Path(library.__file__).parent / "effects.toml").read_text())["effects"]
     for name, (effect, share) in names.load_names().items():
