@@ -87,7 +87,7 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
 
 
 def greeting(rights: frozenset[str], place: ScreenPlace | None) -> bytes:
-    """The first line that a page gets: rights, how the screen's pixels lie on the plate (null where nobody has said), effects' other names."""
+    """The first line that a page gets: rights, how the screen's pixels lie on the plate (null: unknown), other names of effects."""
     message = {
         "kind": "page",
         "rights": sorted(rights),

@@ -1,8 +1,8 @@
 """A hundred elements that rest, are scrolled, rotated, zoomed, switched off and on, and animated; four fingers at up to 500 mm/s.
 
-The panel replays the fingers. Of each emission that it plays for a finger, the region is compared with what the browser's own hit test
-finds at the place of the touch that was reported last, and at the place of the focus: with `elementFromPoint`, and with the target of a
-synthetic touch. `pytest -m slow -rP tests/device/page/test_elements_under_fingers.py` prints the shares.
+The panel replays the fingers. The region of each emission for one is compared with the browser's own hit test at the place
+of the touch that was reported last before it, at the place of its focus, and with the target of a synthetic touch.
+`pytest -m slow -rP tests/device/page/test_elements_under_fingers.py` prints the shares.
 """
 
 import bisect
@@ -127,7 +127,8 @@ class Share:
         return self.right / (self.right + len(self.wrong))
 
     def __str__(self):
-        return f"{self.share:.2%} of {self.right + len(self.wrong)}, {self.border} within a pixel of a border, to {self.fastest_mm_s:.0f} mm/s"
+        asked = self.right + len(self.wrong)
+        return f"{self.share:.2%} of {asked}, {self.border} within a pixel of a border, to {self.fastest_mm_s:.0f} mm/s"
 
 
 def played(focus):

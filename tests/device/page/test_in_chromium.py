@@ -387,7 +387,8 @@ def test_a_frame_of_another_origin_is_not_felt(page, bridge_with, tmp_path):
     other = bridge_with('content_security_policy = "frame-ancestors *"', www=tmp_path / "other")
     (tmp_path / "www" / "index.html").write_text(
         (FOLDER / "frames.html").read_text().partition("<iframe")[0]
-        + f'<button id="below" data-haptic="click" data-expected="felt">below</button><iframe id="plain" src="{other.address}framed.html?plain">'
+        + '<button id="below" data-haptic="click" data-expected="felt">below</button>'
+        + f'<iframe id="plain" src="{other.address}framed.html?plain">'
     )
     (tmp_path / "www" / "frames.css").write_text(
         (FOLDER / "frames.css").read_text() + "#below { left: 100px; top: 100px; width: 200px; height: 80px; }"
@@ -411,8 +412,8 @@ def test_a_page_in_a_window_plays_nothing_and_in_full_screen_all_of_it(page, bri
     (tmp_path / "www").mkdir()
     shutil.copy(FOLDER / "elements.js", tmp_path / "www")
     (tmp_path / "www" / "index.html").write_text(
-        '<!doctype html><link rel="icon" href="elements.js"><script defer src="/haptic.js"></script>'
-        '<script defer src="elements.js"></script><script defer src="button.js"></script><button id="whole" data-haptic="click">whole'
+        '<!doctype html><link rel="icon" href="elements.js"><script defer src="/haptic.js"></script><script defer src="elements.js">'
+        '</script><script defer src="button.js"></script><button id="whole" data-haptic="click">all'
     )
     (tmp_path / "www" / "button.js").write_text(
         "document.getElementById('whole').onclick = () => document.fullscreenElement ? document.exitFullscreen()"
@@ -454,7 +455,8 @@ def test_what_is_scrolled_is_off_until_it_rests_but_for_what_pans(elements):
           let steps = 0;
           (function scroll() {
             list.scrollTop += steps++ % 40 < 20 ? 3 : -3;
-            steps < 80 ? requestAnimationFrame(scroll) : done(layers.slice(before + 1).map(({ regions }) => regions.map((one) => one.name)));
+            if (steps < 80) requestAnimationFrame(scroll);
+            else done(layers.slice(before + 1).map(({ regions }) => regions.map((one) => one.name)));
           })();
         })"""
     )

@@ -139,7 +139,7 @@
   }
   function layer(m) {
     const found = new Map(), result = [];
-    const put = (element, one) => found.set(element, { element, over: new Set(), ...one }).get(element);
+    const put = (element, one) => found.set(element, { part: element, over: new Set(), ...one, element }).get(element);
     const felt = (node) => nearest(node, (one) => found.has(one));
     roots.clear();
     for (const element of everything(document)) {
@@ -164,8 +164,7 @@
       }
     }
     const append = (element) => {
-      const whole = found.get(felt(element)) || { element, effects: [] };
-      const one = found.get(element) || put(element, { ...whole, points: visible(element), over: [], touched: true });
+      const one = found.get(element) || put(element, { effects: [], ...found.get(felt(element)), points: visible(element), over: [], touched: true });
       if (!one.touched) return;
       one.touched = false; // by this: in its place
       one.over.forEach(append);
@@ -174,8 +173,8 @@
     [...found.keys()].reverse().forEach(append);
     return result.filter((one) => one).slice(0, 250);
   }
-  function region({ element, effects, points }, m) {
-    if (!names.has(element)) names.set(element, `${(element.id || element.localName).slice(0, 40)} ${++last}`);
+  function region({ element, part, effects, points }, m) {
+    if (!names.has(element)) names.set(element, `${(part.id || part.localName).slice(0, 40)} ${++last}`);
     const name = names.get(element), round = (x) => Math.round(x * 100) / 100;
     const corners_mm = points.map((p) => place(m, p).map(round)).filter((p, i, all) => String(p) !== String(all.at(i - 1)));
     const [[l, r, ...xs], [b, t, ...ys]] = [0, 1].map((axis) => [...new Set(corners_mm.map((p) => p[axis]))].sort((p, q) => p - q));
