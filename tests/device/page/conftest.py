@@ -130,9 +130,7 @@ def panel_of(folder):
     panels = []
 
     def make(recording):
-        place = folder / f"replay{len(panels)}"
-        place.mkdir()
-        panels.append(Served(place, "--replay", str(recording)))
+        panels.append(Served(Path(tempfile.mkdtemp(dir=folder)), "--replay", str(recording)))
         panels[-1].begin()
         return panels[-1]
 

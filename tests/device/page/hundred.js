@@ -64,7 +64,7 @@ async function change(kind, round) {
 let animations = [];
 function animate() {
   animations = all(".animated").map((one, i) => one.animate(
-    { translate: ["-12px -6px", "12px 6px"], rotate: ["0deg", `${10 + i}deg`] }, { duration: 2000, iterations: Infinity, direction: "alternate" }));
+    { translate: ["-12px -6px", "12px 6px"], rotate: ["0deg", `${10 + i}deg`] }, { duration: 500, iterations: Infinity, direction: "alternate" }));
   return Promise.all(animations.map((one) => one.ready)).then(() => performance.now());
 }
 function underThen(queries) { // [time, x_mm, y_mm]: the animations are set back to that time

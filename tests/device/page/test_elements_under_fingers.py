@@ -1,7 +1,8 @@
 """A hundred elements that rest, are scrolled, rotated, zoomed, switched off and on, and animated; four fingers at up to 500 mm/s.
 
-The panel replays the fingers. The region of each emission for one is compared with the browser's own hit test at the place
-of the touch that was reported last before it, at the place of its focus, and with the target of a synthetic touch.
+The panel replays the fingers. The region of each emission is compared with the browser's own hit test at the place
+of the touch that was reported last before it, at the place of its focus, and with the target of a synthetic touch. On a busy machine
+an emission may begin after the report that follows its touch: then that of the report before, 8 ms earlier, is right, and counted.
 `pytest -m slow -rP tests/device/page/test_elements_under_fingers.py` prints the shares.
 """
 
@@ -80,7 +81,7 @@ class Felt:
                 self.foci += [focus for focus in emissions.foci if focus.finger is not None]
 
     def more(self, enough, after_s):
-        """That many foci that began after this time, each with its finger's last touch before it and the finger's speed in mm/s."""
+        """That many foci that began after this time, each with its finger's last two touches before it and its speed in mm/s."""
         wait_for("emissions", lambda: sum(focus.time_s > after_s for focus in self.foci) >= enough)
         return [(focus, *self._cause(focus)) for focus in list(self.foci) if focus.time_s > after_s]
 
@@ -89,7 +90,7 @@ class Felt:
         wait_for("its touch", lambda: touches[-1][0] > focus.time_s)
         at = bisect.bisect_right(touches, (focus.time_s, math.inf, math.inf)) - 1
         (t0, x0, y0), (t1, x1, y1) = touches[at - 1], touches[at]
-        return touches[at], math.hypot(x1 - x0, y1 - y0) / max(t1 - t0, 1e-6)
+        return (touches[at], touches[at - 1]), math.hypot(x1 - x0, y1 - y0) / max(t1 - t0, 1e-6)
 
 
 def offset_s(page):
@@ -107,18 +108,19 @@ class Share:
     """How often what was played is what was there; places within a pixel of a border are counted, and left out."""
 
     def __init__(self):
-        self.right = self.border = self.off = 0
+        self.right = self.border = self.off = self.late = 0
         self.wrong = []
         self.fastest_mm_s = 0.0
 
-    def add(self, played, there, speed_mm_s):
+    def add(self, played, there, speed_mm_s, before=None):
         if there is None:
             self.border += 1
             return
         self.fastest_mm_s = max(self.fastest_mm_s, speed_mm_s)
-        self.off += there == ""
-        if played == there:
+        self.off += there == "" and before != played
+        if played in (there, before):
             self.right += 1
+            self.late += played != there
         else:
             self.wrong.append((played, there, round(speed_mm_s)))
 
@@ -128,7 +130,8 @@ class Share:
 
     def __str__(self):
         asked = self.right + len(self.wrong)
-        return f"{self.share:.2%} of {asked}, {self.border} within a pixel of a border, to {self.fastest_mm_s:.0f} mm/s"
+        left_out = f"{self.border} within a pixel of a border"
+        return f"{self.share:.2%} of {asked} ({self.late} by the report before), {left_out}, to {self.fastest_mm_s:.0f} mm/s"
 
 
 def played(focus):
@@ -167,8 +170,8 @@ def fingers(panel_of, bridge_with, tmp_path):
     felt.end()
 
 
-def places(found):
-    return [[round(x_mm, 3), round(y_mm, 3)] for _, (_, x_mm, y_mm), _ in found]
+def places(found, ago=0):
+    return [[round(x_mm, 3), round(y_mm, 3)] for _, touches, _ in found for _, x_mm, y_mm in touches[ago : ago + 1]]
 
 
 def test_each_finger_gets_the_element_under_it_at_rest(fingers):
@@ -182,16 +185,17 @@ def test_each_finger_gets_the_element_under_it_at_rest(fingers):
         if settled_ms > changed_ms:
             lags.append(settled_ms - changed_ms)
         found = felt.more(ENOUGH, settled_ms / 1e3 + offset)
-        for (focus, _, speed), there in zip(found, page.value(f"underAll({places(found)})"), strict=True):
-            touched[kind].add(played(focus), there, speed)
+        theres, befores = (page.value(f"underAll({places(found, ago)})") for ago in (0, 1))
+        for (focus, _, speed), there, before in zip(found, theres, befores, strict=True):
+            touched[kind].add(played(focus), there, speed, before)
         focused = [[focus.x_mm, focus.y_mm] for focus, _, _ in found]
         for (focus, _, speed), there in zip(found, page.value(f"underAll({focused})"), strict=True):
             at_focus.add(played(focus), there, speed)
-        some = found[:: len(found) // TAPS]
-        for (focus, _, speed), there, target in zip(
-            some, page.value(f"underAll({places(some)})"), targets(page, places(some)), strict=True
+        every = len(found) // TAPS
+        for (focus, _, speed), there, before, target in zip(
+            found[::every], theres[::every], befores[::every], targets(page, places(found[::every])), strict=True
         ):
-            tapped.add(played(focus), None if there is None else target, speed)
+            tapped.add(played(focus), None if there is None else target, speed, before)
         felt.foci.clear()
     for kind, share in touched.items():
         print(f"{kind}: {share}")
@@ -209,13 +213,14 @@ def test_elements_that_are_animated_are_felt_where_they_were_a_moment_ago(finger
     offset = offset_s(page)
     began_ms = page.value("animate()")
     found = felt.more(ANIMATED, began_ms / 1e3 + offset + 1.0)
-    then = page.value(
-        f"underThen({[[(focus.time_s - offset) * 1e3, *place] for (focus, _, _), place in zip(found, places(found), strict=True)]})"
+    then, before = (
+        page.value(f"underThen({[[(touches[ago][0] - offset) * 1e3, *touches[ago][1:]] for _, touches, _ in found]})")
+        for ago in (0, 1)
     )
     shares = defaultdict(Share)
-    for (focus, _, speed), there in zip(found, then, strict=True):
+    for (focus, _, speed), there, earlier in zip(found, then, before, strict=True):
         animated = "animated" in (played(focus) + (there or ""))
-        shares["animated" if animated else "all others"].add(played(focus), there, speed)
+        shares["animated" if animated else "all others"].add(played(focus), there, speed, earlier)
     for kind, share in shares.items():
         print(f"{kind}: {share}")
     assert shares["all others"].share >= 0.995, shares["all others"].wrong[:9]

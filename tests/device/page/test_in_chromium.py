@@ -412,8 +412,8 @@ def test_a_page_in_a_window_plays_nothing_and_in_full_screen_all_of_it(page, bri
     (tmp_path / "www").mkdir()
     shutil.copy(FOLDER / "elements.js", tmp_path / "www")
     (tmp_path / "www" / "index.html").write_text(
-        '<!doctype html><link rel="icon" href="elements.js"><script defer src="/haptic.js"></script><script defer src="elements.js">'
-        '</script><script defer src="button.js"></script><button id="whole" data-haptic="click">all'
+        '<!doctype html><link rel="icon" href="elements.js"><script defer src="/haptic.js"></script>'
+        '<script defer src="elements.js"></script><script defer src="button.js"></script><button id="whole" data-haptic="click">all'
     )
     (tmp_path / "www" / "button.js").write_text(
         "document.getElementById('whole').onclick = () => document.fullscreenElement ? document.exitFullscreen()"
