@@ -81,9 +81,13 @@ class Bridge:
         """Its exit code."""
         if self.process.returncode is None:
             self.process.terminate()
-            self.process.stdout.close()
-            self._said.close()
+            self.close()
         return self.process.wait()
+
+    def close(self):
+        """Read no more of what it says."""
+        self.process.stdout.close()
+        self._said.close()
 
 
 def ask(page, **message):
@@ -167,9 +171,9 @@ def bridge_at(served, tmp_path):
 
     yield make
     for bridge in bridges:
-        bridge.process.stdout.close()
         bridge.process.kill()
         bridge.process.wait()
+        bridge.close()
 
 
 @pytest.fixture

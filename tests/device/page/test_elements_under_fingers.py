@@ -1,7 +1,7 @@
 """A hundred elements that rest, are scrolled, rotated, zoomed, switched off and on, and animated; four fingers at up to 500 mm/s.
 
 The panel replays the fingers. The region of each emission is compared with the browser's own hit test at the place
-of the touch that was reported last before it, at the place of its focus, and with the target of a synthetic touch. On a busy machine
+of the touch reported last before it, at the place of its focus, and with the target of a synthetic touch. If the machine is busy,
 an emission may begin after the report that follows its touch: then that of the report before, 8 ms earlier, is right, and counted.
 `pytest -m slow -rP tests/device/page/test_elements_under_fingers.py` prints the shares.
 """
