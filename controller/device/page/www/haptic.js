@@ -120,7 +120,7 @@
     const style = getComputedStyle(element), { haptic, hapticAmplitude, hapticOn } = element.dataset || {};
     const said = haptic ?? style.getPropertyValue("--haptic"), disabled = element.matches(":disabled, [aria-disabled=true], [aria-disabled=true] *");
     if (!said && !disabled && element.localName !== "haptic-region" || style.pointerEvents === "none") return null;
-    if (element.getAttribute("scroll") !== "pan" && nearest(element, (node) => scrolling.has(node))) return null; // it would lag
+    if (element.getAttribute("scroll") !== "pan" && nearest(element, (node) => scrolling.has(node))) return null;
     if (disabled || !shows(element)) return [];
     const words = (said || "click").split(/[\s,]+/), when = hapticOn?.match(/\w+/g) || undefined;
     return words.filter((word) => isNaN(word) && word !== "none").map((word) => {
