@@ -5,7 +5,7 @@
 #    source ~/.local/share/bash_completion/haptic-panel
 # See also: https://github.com/scop/bash-completion/blob/main/doc/configuration.md
 
-_shtab_haptic_panel_client_subparsers=(play touches emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)
+_shtab_haptic_panel_client_subparsers=(play touches contacts emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)
 _shtab_haptic_panel_board_subparsers=(check reference schema)
 _shtab_haptic_panel_gateware_subparsers=(check build info load)
 _shtab_haptic_panel_bank_subparsers=(build choices info verify)
@@ -17,10 +17,11 @@ _shtab_haptic_panel_update_subparsers=(check download install status rollback ju
 _shtab_haptic_panel_subparsers=(run serve status client doctor setup board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)
 
 _shtab_haptic_panel_run_option_strings=(-h --help --board --json --replay --scene --bank --link --speed --plate --drift-percent --drift --sensor --plot --verbose)
-_shtab_haptic_panel_serve_option_strings=(-h --help --board --commands-per-s --touched-s --fingers --replay --background --ready-fd)
+_shtab_haptic_panel_serve_option_strings=(-h --help --board --commands-per-s --touched-s --fingers --ghosts --replay --background --ready-fd)
 _shtab_haptic_panel_status_option_strings=(-h --help --json --file)
 _shtab_haptic_panel_client_play_option_strings=(-h --help --at --finger --region --table --amplitude)
 _shtab_haptic_panel_client_touches_option_strings=(-h --help)
+_shtab_haptic_panel_client_contacts_option_strings=(-h --help)
 _shtab_haptic_panel_client_emissions_option_strings=(-h --help)
 _shtab_haptic_panel_client_regions_option_strings=(-h --help --once)
 _shtab_haptic_panel_client_load_option_strings=(-h --help)
@@ -69,7 +70,7 @@ _shtab_haptic_panel_calibrate_check_option_strings=(-h --help --board --json --p
 _shtab_haptic_panel_calibrate_bank_option_strings=(-h --help --board --json --out --pitch-mm --memory-mb --model --also --plot --accept)
 _shtab_haptic_panel_calibrate_simulate_option_strings=(-h --help --board --json --plate --points --grid --scattered --drive --quantity --rate-khz --record-ms --repetitions --snr-db --drift-percent --clock-ppm --delay-us --clip --missing --dead --inverted --swapped --seed)
 _shtab_haptic_panel_calibrate_option_strings=(-h --help)
-_shtab_haptic_panel_calibrate_touch_option_strings=(-h --help --board --json --targets --at --ghosts --lag --bank --reference --seconds --out --replay --write)
+_shtab_haptic_panel_calibrate_touch_option_strings=(-h --help --board --json --targets --at --ghosts --socket --lag --bank --reference --seconds --out --replay --write)
 _shtab_haptic_panel_update_check_option_strings=(-h --help --json --from)
 _shtab_haptic_panel_update_download_option_strings=(-h --help --json --from)
 _shtab_haptic_panel_update_install_option_strings=(-h --help --json --from --automatic)
@@ -138,7 +139,7 @@ _shtab_haptic_panel_run___link_choices=(model rtl)
 _shtab_haptic_panel_run___speed_choices=(1 max)
 _shtab_haptic_panel_run___sensor_choices=(board assumed none)
 _shtab_haptic_panel_serve___fingers_choices=(0 1 2 3 4)
-_shtab_haptic_panel_client_pos_0_choices=(play touches emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)
+_shtab_haptic_panel_client_pos_0_choices=(play touches contacts emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)
 _shtab_haptic_panel_board_pos_0_choices=(check reference schema)
 _shtab_haptic_panel_gateware_check___link_choices=(model rtl)
 _shtab_haptic_panel_gateware_pos_0_choices=(check build info load)
@@ -176,6 +177,8 @@ _shtab_haptic_panel_client_play___help_nargs=0
 _shtab_haptic_panel_client_play___at_nargs=2
 _shtab_haptic_panel_client_touches__h_nargs=0
 _shtab_haptic_panel_client_touches___help_nargs=0
+_shtab_haptic_panel_client_contacts__h_nargs=0
+_shtab_haptic_panel_client_contacts___help_nargs=0
 _shtab_haptic_panel_client_emissions__h_nargs=0
 _shtab_haptic_panel_client_emissions___help_nargs=0
 _shtab_haptic_panel_client_regions__h_nargs=0
