@@ -6,14 +6,13 @@ import math
 import numpy as np
 import pytest
 
-from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.recordings.replay import RecordingSource
-from controller.workshop.simulation.served_panel import SWINGS_MM, _moving
+from controller.workshop.simulation.served_panel import SWINGS_MM, moving
 
 
 def samples(board, fingers, seconds=4.0):
     """Touch samples of each report."""
-    recording = Recording(_moving(seconds, fingers))
+    recording = moving(seconds, fingers)
     source = RecordingSource(recording, recording.axes(board), 0.0)
     reports = []
     while (at_s := source.next_time_s()) is not None:
