@@ -37,10 +37,7 @@ class ReaderGone(OutputError):
 def say(text: str, end: str = "\n") -> None:
     """Print a result on standard output.
 
-    Raises
-    ------
-    OutputError
-        If it is full, or nobody reads it.
+    Raises OutputError if it is full, or nobody reads it.
     """
     _write(text + end)
 
@@ -57,10 +54,7 @@ def tell(message: str, priority: Priority = Priority.INFO) -> None:
 def flush() -> None:
     """Hand over what was said.
 
-    Raises
-    ------
-    OutputError
-        If standard output is full, or nobody reads it.
+    Raises OutputError if standard output is full, or nobody reads it.
     """
     _write("")
 

@@ -69,22 +69,12 @@ class Line(NamedTuple):
 
 
 class Log:
-    """Lines to standard error.
-
-    Attributes
-    ----------
-    lost : int
-        Lines dropped so far because standard error was full or closed.
-    count : int
-        Lines so far, those included.
-    last : deque of Line
-        The last of them, the oldest first.
-    """
+    """Lines to standard error."""
 
     def __init__(self) -> None:
-        self.lost = 0
-        self.count = 0
-        self.last: deque[Line] = deque(maxlen=LAST_LINES)
+        self.lost = 0  # lines dropped so far because standard error was full or closed
+        self.count = 0  # lines so far, those included
+        self.last: deque[Line] = deque(maxlen=LAST_LINES)  # the last of them, the oldest first
         self._unreported = 0
 
     def write(self, message: str, about: Priority | Event = Priority.INFO) -> None:

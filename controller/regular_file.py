@@ -20,6 +20,8 @@ CHUNK_BYTES: Final = 1 << 16
 def open_regular(path: Path, *, owner: int | None = None, links: bool = False) -> int:
     """Open a regular file to read it.
 
+    Raises OSError if it cannot be opened, or is something else; nothing of it was read then. `strerror` says what.
+
     Parameters
     ----------
     owner : int, optional
@@ -31,11 +33,6 @@ def open_regular(path: Path, *, owner: int | None = None, links: bool = False) -
     -------
     int
         Descriptor, for the caller to close.
-
-    Raises
-    ------
-    OSError
-        If it cannot be opened, or is something else; nothing of it was read then. `strerror` says what.
     """
     try:
         fd = os.open(path, FLAGS if links else FLAGS | os.O_NOFOLLOW)
@@ -60,17 +57,14 @@ def open_regular(path: Path, *, owner: int | None = None, links: bool = False) -
 def read_regular(path: Path, most_bytes: int, *, owner: int | None = None, links: bool = False) -> bytes:
     """The content of a regular file.
 
+    Raises OSError as `open_regular`; also if it is larger.
+
     Parameters
     ----------
     most_bytes : int
         A larger file is refused.
     owner, links
         As in `open_regular`.
-
-    Raises
-    ------
-    OSError
-        As `open_regular`; also if it is larger.
     """
     fd = open_regular(path, owner=owner, links=links)
     try:
@@ -89,6 +83,8 @@ def open_private(path: Path) -> int:
 
     Whoever can open a file, if only to read it, can lock it, and keep everybody else waiting.
 
+    Raises OSError if it cannot be opened, or is no regular file.
+
     Parameters
     ----------
     path : Path
@@ -98,11 +94,6 @@ def open_private(path: Path) -> int:
     -------
     int
         Descriptor, for the caller to close.
-
-    Raises
-    ------
-    OSError
-        If it cannot be opened, or is no regular file.
     """
     fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC, 0o600)
     try:

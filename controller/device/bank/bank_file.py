@@ -62,10 +62,7 @@ class BankFile:
     def entry_of(self, cell: int) -> int:
         """Entry of a cell.
 
-        Raises
-        ------
-        BankError
-            If it has none.
+        Raises BankError if it has none.
         """
         entries = self.tables.entries
         entry = entries[cell] if 0 <= cell < len(entries) else -1
@@ -81,10 +78,7 @@ class BankFile:
     def require_unchanged(self) -> None:
         """Refuse a file that was written to since it was opened, since responses are checked only when they are first used.
 
-        Raises
-        ------
-        BankError
-            If its size or its time of modification has changed.
+        Raises BankError if its size or its time of modification has changed.
         """
         now = os.fstat(self.fd)
         if now.st_mtime_ns != self._written_ns or now.st_size != self.size:

@@ -26,6 +26,8 @@ def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDA
     Among all waveforms of two levels this one gives the response its largest value at the
     end of the emission: every sample adds `|response|` (paper, section III-A).
 
+    Raises ValueError if `drive_order` is not finite or not (sample, 32), or `idle_word` is not 32 bits.
+
     Parameters
     ----------
     drive_order : (sample, channel) array
@@ -39,11 +41,6 @@ def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDA
     -------
     (sample,) uint32 array
         Drive words, first played first.
-
-    Raises
-    ------
-    ValueError
-        If `drive_order` is not finite or not (sample, 32), or `idle_word` is not 32 bits.
     """
     _check(drive_order)
     if not 0 <= idle_word < 1 << CHANNELS:
@@ -84,6 +81,8 @@ def edges(words: NDArray[np.uint32]) -> NDArray[np.intp]:
 def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], float]:
     """Round a response to 8 bits: `drive_order` is about `levels * scale`, to half a scale.
 
+    Raises ValueError if `drive_order` is not finite or not (sample, 32).
+
     Parameters
     ----------
     drive_order : (sample, channel) float array
@@ -96,11 +95,6 @@ def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], 
     scale_m_per_v : float
         `max|drive_order| / 127`, rounded up to `SCALE_BITS` significant bits: the last bits of `drive_order` depend on
         the machine's linear algebra, and hardly ever show in it; 0 for a response that is zero throughout.
-
-    Raises
-    ------
-    ValueError
-        If `drive_order` is not finite or not (sample, 32).
     """
     _check(drive_order)
     mantissa, exponent = math.frexp(max(drive_order.max(initial=0.0), -drive_order.min(initial=0.0)) / 127)

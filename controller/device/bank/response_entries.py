@@ -31,17 +31,14 @@ class ResponseEntries:
     def response(self, cell: int) -> tuple[NDArray[np.int8], float]:
         """Response of a cell.
 
+        Raises BankError if the cell has no entry, or a damaged one.
+
         Returns
         -------
         levels : (samples, 32) int8 array
             In drive order; a read-only view of the file.
         scale_m_per_v : float
             m per V of one level.
-
-        Raises
-        ------
-        BankError
-            If the cell has no entry, or a damaged one.
         """
         entry = self._checked(cell)
         start = entry * self._stride
@@ -77,10 +74,7 @@ class ResponseEntries:
     def check(self, cell: int) -> None:
         """Map the responses and check a cell's, if that was not done.
 
-        Raises
-        ------
-        BankError
-            If the cell has no entry, or a damaged one.
+        Raises BankError if the cell has no entry, or a damaged one.
         """
         self._checked(cell)
 
@@ -89,10 +83,7 @@ class ResponseEntries:
 
         A process forked from one that has the bank open does this beside it: what it finds good, the other one uses unchecked.
 
-        Raises
-        ------
-        BankError
-            If it is damaged.
+        Raises BankError if it is damaged.
         """
         entry = self._entries[cell]
         offset = self._file.sections["response"].offset + entry * self._stride

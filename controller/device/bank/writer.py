@@ -33,6 +33,8 @@ class BankWriter:
 
     Leaving the block commits the bank if every cell has its entry; an exception discards it.
 
+    Raises BankError if the folder or the disk does not take the file, or a file is there that is no bank; it is untouched.
+
     Parameters
     ----------
     path : Path
@@ -43,11 +45,6 @@ class BankWriter:
         Which cells have an entry. Entries lie in the order of their cells.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
-
-    Raises
-    ------
-    BankError
-        If the folder or the disk does not take the file, or a file is there that is no bank; it is untouched.
     """
 
     def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_], *, overwrite: bool = False) -> None:

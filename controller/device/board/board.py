@@ -186,17 +186,15 @@ def sha256(data: bytes) -> bytes:
 def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
     """Read and check a board.toml.
 
+    Raises ConfigError: naming file, key and value; all keys that are missing or unknown, and all relations that refuse
+    (`relations`).
+
     Parameters
     ----------
     path : Path
         The file, or the folder that holds it.
     without : collection of Relation
         Relations between keys that it need not keep: a command that mends these keys has to read them first.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value; all keys that are missing or unknown, and all relations that refuse (`relations`).
     """
     file = path / "board.toml" if path.is_dir() else path
     board = as_board(f"{file}: ", read_tables(file))
@@ -208,15 +206,12 @@ def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
 def as_board(before: str, tables: dict[str, Any]) -> Board:
     """Convert the tables of a board.toml to a board, by the record of its kind of touch panel.
 
+    Raises ConfigError as of `as_record`.
+
     Parameters
     ----------
     before : str
         Start of an error message.
-
-    Raises
-    ------
-    ConfigError
-        As of `as_record`.
     """
     touch = tables.get("touch")
     record = touch_record(touch.get("kind")) if isinstance(touch, dict) else None
@@ -268,15 +263,12 @@ def board_file(panels: tuple[type[TouchPanel], ...]) -> type[Board]:
 def on_other_plate(board: Board, given: Sequence[str]) -> Board:
     """The board on the plate that a command line asks for.
 
+    Raises ConfigError if there is no such board, key or value, or the patches do not fit on that plate.
+
     Parameters
     ----------
     given : sequence of str
         A board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such board, key or value, or the patches do not fit on that plate.
     """
     keys: dict[str, Any] = {}
     for text in given:
@@ -299,10 +291,7 @@ def on_other_plate(board: Board, given: Sequence[str]) -> Board:
 def on_plate_of(board: Board, real: Board) -> Board:
     """The board on another one's plate: with its plate, patches and driver, but with what the host plays and the idle levels.
 
-    Raises
-    ------
-    ConfigError
-        If the other one's patches are of other channels.
+    Raises ConfigError if the other one's patches are of other channels.
     """
     idle = {actuator.channel: actuator.idle for actuator in board.actuators}
     if set(idle) != {actuator.channel for actuator in real.actuators}:

@@ -88,15 +88,12 @@ class FpgaPart(Record, frozen=True, kw_only=True):
 def load_part(folder: Path) -> FpgaPart:
     """Read the fpga.toml of a board.
 
+    Raises ConfigError if it has none, or an invalid one; the message lists boards that have one.
+
     Parameters
     ----------
     folder : Path
         Of the board.
-
-    Raises
-    ------
-    ConfigError
-        If it has none, or an invalid one; the message lists boards that have one.
     """
     if not (folder / FILE).is_file():
         known = sorted({file.parent.name for place in board_places() for file in place.glob(f"*/{FILE}")})
@@ -127,14 +124,12 @@ def find_part(board: Path, top: str | None) -> tuple[Path, FpgaPart]:
 def check_top(board: Board, top: Path) -> None:
     """Refuse a board whose clock or baud rate are not those of a top.v, before minutes of work.
 
+    Raises ConfigError.
+
     Parameters
     ----------
     top : Path
         Folder of the top.v.
-
-    Raises
-    ------
-    ConfigError
     """
     text = (top / TOP).read_text(encoding="utf-8", errors="replace")
     link = board.link

@@ -22,17 +22,14 @@ NEAR_NAMES = 4  # similar names listed in an error message
 def find_chip(label: str, failure: type[ControllerError]) -> Path:
     """Path of the GPIO chip with this label.
 
+    Raises ControllerError if there is none, or several, or this user may not open it; the message lists the chips that exist.
+
     Parameters
     ----------
     label : str
         As `gpiodetect` lists it; a path is taken as it is: a link of udev tells apart several chips with one label.
     failure : type of ControllerError
         What to raise: LinkError, TouchError.
-
-    Raises
-    ------
-    ControllerError
-        If there is none, or several, or this user may not open it; the message lists the chips that exist.
     """
     if label.startswith("/"):
         return Path(label)
@@ -63,6 +60,9 @@ def find_chip(label: str, failure: type[ControllerError]) -> Path:
 def find_lines(chip: gpiod.Chip, label: str, lines: Iterable[str], failure: type[ControllerError]) -> dict[str, int]:
     """Numbers of lines on their chip.
 
+    Raises ControllerError if there is no such line, if several have the name, or if two of `lines` are the same line; OSError if
+    the chip fails.
+
     Parameters
     ----------
     chip : gpiod.Chip
@@ -78,13 +78,6 @@ def find_lines(chip: gpiod.Chip, label: str, lines: Iterable[str], failure: type
     -------
     dict of str to int
         Number by what was given.
-
-    Raises
-    ------
-    ControllerError
-        If there is no such line, if several have the name, or if two of `lines` are the same line.
-    OSError
-        If the chip fails.
     """
     names = [chip.get_line_info(number).name or "" for number in range(chip.get_info().num_lines)]
     found: dict[str, int] = {}
@@ -102,6 +95,8 @@ def request_lines(
 ) -> tuple[gpiod.LineRequest, dict[str, int]]:
     """Request lines of one chip for exclusive use.
 
+    Raises ControllerError if the chip or a line does not exist, or a line is in use.
+
     Parameters
     ----------
     label : str
@@ -117,11 +112,6 @@ def request_lines(
     -------
     (gpiod.LineRequest, dict of str to int)
         The request, and the number of each line, by which the request knows it.
-
-    Raises
-    ------
-    ControllerError
-        If the chip or a line does not exist, or a line is in use.
     """
     path = find_chip(label, failure)
     try:

@@ -168,10 +168,7 @@ class Plate(Record, frozen=True, kw_only=True):
     def _take_layers(self) -> None:
         """Set thickness and material to those of the layers together; or see that they are given.
 
-        Raises
-        ------
-        ValueError
-            If one of both is missing, if they contradict each other, or if the layers would slide on each other.
+        Raises ValueError if one of both is missing, if they contradict each other, or if the layers would slide on each other.
         """
         left_out = [key for key in OF_LAYERS if not getattr(self, key) >= 0 or (key != "poisson_ratio" and not getattr(self, key))]
         if not self.layers:

@@ -142,10 +142,7 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
 def status_bytes(file: Path) -> bytes | None:
     """Content of a status file, its first `BYTES_MAX`; it belongs to who owns its folder. None if there is no file.
 
-    Raises
-    ------
-    ControllerError
-        If it cannot be read: it is no regular file, or another user's.
+    Raises ControllerError if it cannot be read: it is no regular file, or another user's.
     """
     try:
         with os.fdopen(open_regular(file, owner=file.parent.stat().st_uid), "rb") as opened:
@@ -159,10 +156,7 @@ def status_bytes(file: Path) -> bytes | None:
 def status_in(data: bytes, file: Path) -> PanelStatus:
     """The status that a file's content is.
 
-    Raises
-    ------
-    ControllerError
-        If it is no status that this software knows.
+    Raises ControllerError if it is no status that this software knows.
     """
     try:
         return _decoder.decode(data)
@@ -173,10 +167,7 @@ def status_in(data: bytes, file: Path) -> PanelStatus:
 def read_status(file: Path) -> PanelStatus | None:
     """The status in a file; None if there is no file.
 
-    Raises
-    ------
-    ControllerError
-        As `status_bytes` and `status_in`.
+    Raises ControllerError as `status_bytes` and `status_in`.
     """
     data = status_bytes(file)
     return None if data is None else status_in(data, file)
@@ -204,10 +195,7 @@ def is_running(pid: int) -> bool:
 def read_now(file: Path) -> tuple[PanelStatus | None, str]:
     """The status in a file, and why it does not tell the panel's present state; empty if it does.
 
-    Raises
-    ------
-    ControllerError
-        As `read_status`.
+    Raises ControllerError as `read_status`.
     """
     status = read_status(file)
     if status is None:

@@ -51,10 +51,7 @@ class Patches(Record, frozen=True):
     def on(self, plate: Plate, actuators: Sequence[Actuator]) -> tuple[Patch, ...]:
         """The patches of a board.
 
-        Raises
-        ------
-        ValueError
-            If one is off the plate or on another, or if their size is not known.
+        Raises ValueError if one is off the plate or on another, or if their size is not known.
         """
         sizes = {actuator.size_mm for actuator in actuators}
         if self.size_mm is None and len(sizes) > 1:

@@ -26,10 +26,7 @@ def state_folder(board: Board | None = None) -> Path:
 
     It need not exist.
 
-    Raises
-    ------
-    ConfigError
-        If there is none of these.
+    Raises ConfigError if there is none of these.
     """
     state = os.environ.get("STATE_DIRECTORY")  # set by systemd's StateDirectory=
     if state:
@@ -42,10 +39,7 @@ def state_folder(board: Board | None = None) -> Path:
 def user_cache() -> Path:
     """Folder of the user's cache for this program; it need not exist.
 
-    Raises
-    ------
-    ConfigError
-        If the user has none: a number without an entry of passwd, as containers have it, and no HOME.
+    Raises ConfigError if the user has none: a number without an entry of passwd, as containers have it, and no HOME.
     """
     import platformdirs  # noqa: PLC0415 - what a service needs not
 
@@ -97,10 +91,7 @@ def build_line(path: Path, board: Board | str | None) -> str:
 def make_folder(folder: Path) -> None:
     """Create the folder of a bank; if root creates that of the service, its owner is the service's user.
 
-    Raises
-    ------
-    BankError
-        If it cannot be created.
+    Raises BankError if it cannot be created.
     """
     try:
         owner = service_user() if os.geteuid() == 0 else None

@@ -53,15 +53,12 @@ class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tr
 def load_toml(file: Path, kind: type[T]) -> T:
     """Read a TOML file into a Record.
 
+    Raises ConfigError if the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
+
     Parameters
     ----------
     kind : type of Record
         The whole file.
-
-    Raises
-    ------
-    ConfigError
-        If the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
     """
     return as_record(f"{file}: ", read_tables(file), kind)
 
@@ -69,10 +66,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
 def read_tables(file: Path) -> dict[str, Any]:
     """Read a TOML file.
 
-    Raises
-    ------
-    ConfigError
-        If it is absent, unreadable, or not TOML.
+    Raises ConfigError if it is absent, unreadable, or not TOML.
     """
     try:
         return tomllib.loads(decoded(read_regular(file, BYTES_MAX, links=True)))
@@ -87,18 +81,15 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
 
     Convert tables with names of the user's choice one by one: msgspec does not report which of them is invalid.
 
+    Raises ConfigError: naming key and value; what is nested too deep; all keys that are missing or unknown, and of values the first
+    that is wrong or not finite.
+
     Parameters
     ----------
     before : str
         Start of an error message: the file, and the place of the table in it.
     tables : dict
         The table as read from TOML.
-
-    Raises
-    ------
-    ConfigError
-        Naming key and value; what is nested too deep; all keys that are missing or unknown, and of values the first that is
-        wrong or not finite.
     """
     renamed = False
     for path, value in _leaves(tables, ()):

@@ -33,6 +33,8 @@ class _Section:
 def reference(title: str, kind: type, named: Mapping[str, type] | None = None) -> str:
     """Describe every key that a file may give.
 
+    Raises ValueError if a record's docstring does not describe one of its keys.
+
     Parameters
     ----------
     title : str
@@ -46,11 +48,6 @@ def reference(title: str, kind: type, named: Mapping[str, type] | None = None) -
     -------
     str
         Markdown: one table of keys for each table of the file.
-
-    Raises
-    ------
-    ValueError
-        If a record's docstring does not describe one of its keys.
     """
     root = type_info(kind)
     assert isinstance(root, StructType)

@@ -44,10 +44,7 @@ class Worker:
     def receive(self) -> memoryview | None:
         """The next message, valid until the next call; None if there is none.
 
-        Raises
-        ------
-        WorkerEnded
-            If the process has ended.
+        Raises WorkerEnded if the process has ended.
         """
         try:
             size = self._socket.recv_into(self._buffer)

@@ -26,15 +26,9 @@ TIMED_MESSAGES = 31
 
 @runtime_checkable
 class ClockedLink(Link, Protocol):
-    """A link whose SCK can be set.
+    """A link whose SCK can be set."""
 
-    Attributes
-    ----------
-    sck_hz : float
-        Actual SCK.
-    """
-
-    sck_hz: float
+    sck_hz: float  # actual SCK
 
     def set_sck_hz(self, sck_hz: int) -> float:
         """Set SCK to `sck_hz`, at most the board's; returns the actual SCK in Hz."""
@@ -42,24 +36,13 @@ class ClockedLink(Link, Protocol):
 
 @dataclass(frozen=True, slots=True)
 class SpeedResult:
-    """Result of sending random bits at one SCK.
+    """Result of sending random bits at one SCK."""
 
-    Attributes
-    ----------
-    asked_hz : int
-        SCK asked for.
-    sck_hz : float
-        Actual SCK.
-    bits, errors : int
-        Bits that were checked, and errors among them.
-    trouble : str
-        Why nothing could be measured; empty if it could.
-    """
-
-    asked_hz: int
-    sck_hz: float
-    bits: int
+    asked_hz: int  # SCK asked for
+    sck_hz: float  # actual SCK
+    bits: int  # bits, errors: bits that were checked, and errors among them
     errors: int
+    # Why nothing could be measured; empty if it could
     trouble: str  # why it could not be measured; empty if it was
 
     @property
@@ -111,25 +94,14 @@ def bit_error_count(found: BitErrors) -> tuple[int, int]:
 
 
 def sweep(
-    session: Session,
+    session: Session,  # on `link`
     link: ClockedLink,
-    limit_hz: int,
-    bits: float,
+    limit_hz: int,  # highest SCK
+    bits: float,  # least number of bits to send at each rate
     rng: np.random.Generator,
-    progress: Callable[[int, int], None] = lambda *_: None,
+    progress: Callable[[int, int], None] = lambda *_: None,  # called with the number of rates done and of all
 ) -> list[SpeedResult]:
     """Send random bits at nine SCK rates up to `limit_hz`; leaves the link at the slowest.
-
-    Parameters
-    ----------
-    session : Session
-        On `link`.
-    limit_hz : int
-        Highest SCK.
-    bits : float
-        Least number of bits to send at each rate.
-    progress : callable
-        Called with the number of rates done and of all.
 
     Returns
     -------

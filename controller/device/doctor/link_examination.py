@@ -42,29 +42,15 @@ class LinkExamined:
 
 def examine_link(
     board: Board,
-    link: Link,
-    open_session: Callable[[], Session],
+    link: Link,  # open
+    open_session: Callable[[], Session],  # brings up the FPGA at the other end
     clock: Clock,
-    bits: float,
-    channels: Sequence[int],
+    bits: float,  # least number of random bits to send
+    channels: Sequence[int],  # channels to chirp on, with outputs on; empty: they stay off
     progress: Callable[[int, int], None] = lambda *_: None,
-    take_capture: Callable[[], Capture] | None = None,
+    take_capture: Callable[[], Capture] | None = None,  # what the pins of a simulated FPGA did since the last call
 ) -> LinkExamined:
-    """Examine the link: identity, bit errors in both directions, memory, channels, and the highest SCK without errors.
-
-    Parameters
-    ----------
-    link : Link
-        Open.
-    open_session : callable
-        Brings up the FPGA at the other end.
-    bits : float
-        Least number of random bits to send.
-    channels : sequence of int
-        Channels to chirp on, with outputs on; empty: they stay off.
-    take_capture : callable, optional
-        What the pins of a simulated FPGA did since the last call.
-    """
+    """Examine the link: identity, bit errors in both directions, memory, channels, and the highest SCK without errors."""
     findings: list[Finding] = []
     figures: dict[str, Any] = {}
     clocked = link if isinstance(link, ClockedLink) else None

@@ -25,23 +25,15 @@ class ClockEstimate:
     ----------
     clock_hz : float
         Nominal clock of the FPGA.
-
-    Attributes
-    ----------
-    known : bool
-        False until the first exchange; `offset_s` is 0 until then.
-    offset_s : ClockOffset
-        FPGA time minus host time: the middle of the interval. Hot code adds it to host time, or subtracts it from FPGA time,
-        itself.
-    error_s : float
-        Largest possible error of `offset_s` at the newest exchange: half the width of the interval.
     """
 
     def __init__(self, clock_hz: float) -> None:
         self.clock_hz = clock_hz
-        self.known = False
+        self.known = False  # false until the first exchange; `offset_s` is 0 until then
+        # FPGA time minus host time: the middle of the interval. Hot code adds it to host time, or subtracts it from FPGA
+        # time, itself
         self.offset_s = ClockOffset(0.0)
-        self.error_s = 0.0
+        self.error_s = 0.0  # largest possible error of `offset_s` at the newest exchange: half the width of the interval
         self._low_s = self._high_s = 0.0  # bounds of the offset
         self._updated_s = 0.0
 

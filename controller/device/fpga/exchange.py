@@ -25,17 +25,11 @@ DAMAGED = frozenset({Result.BAD_SYNC, Result.BAD_LENGTH, Result.BAD_CRC, Result.
 
 
 class Refused(LinkError):
-    """The FPGA received a command and refused it; its state is unchanged.
-
-    Attributes
-    ----------
-    result : Result
-        The reason.
-    """
+    """The FPGA received a command and refused it; its state is unchanged."""
 
     def __init__(self, result: Result) -> None:
         super().__init__(f"the FPGA refused: {result.sentence}")
-        self.result = result
+        self.result = result  # the reason
 
 
 class OutOfStep(LinkError):
@@ -62,31 +56,23 @@ class Exchange:
         The loop's clock.
     heartbeat_interval_s : float
         A heartbeat is due this long after the last message.
-
-    Attributes
-    ----------
-    sent : memoryview of bytes
-        Send buffer: pack the frames of a message here, back to back from 0 on.
-    received : memoryview of bytes
-        Receive buffer: the answer to each frame, at the frame's offset.
-    sequence : int
-        Sequence number for the first frame of the next message.
-    heartbeat_due_s : float
-        When the next heartbeat is due, on the loop's clock.
     """
 
     def __init__(self, link: Link, now_s: Callable[[], float], heartbeat_interval_s: float) -> None:
         size = UPLOAD_BYTES + COMMANDS * FRAME_BYTES
-        self.sent = memoryview(bytearray(size))
-        self.sequence = 0
-        self.heartbeat_due_s = now_s()
-        self.received = memoryview(bytearray(size))
+        self.sent = memoryview(bytearray(size))  # send buffer: pack the frames of a message here, back to back from 0 on
+        self.sequence = 0  # sequence number for the first frame of the next message
+        self.heartbeat_due_s = now_s()  # when the next heartbeat is due, on the loop's clock
+        self.received = memoryview(bytearray(size))  # receive buffer: the answer to each frame, at the frame's offset
         self._link = link
         self._now_s = now_s
         self._heartbeat_interval_s = heartbeat_interval_s
 
     def send(self, lengths: Sequence[int], *, raise_faults: bool = True) -> Status:
         """Send the frames packed in `sent` and check every answer.
+
+        Raises HostSilent or FaultError if a fault is latched; Refused with the first result that is not OK; DamagedStatus if an
+        answer is no valid status, with a diagnosis of the wires; LinkError if a frame or an answer was damaged or lost.
 
         Parameters
         ----------
@@ -99,17 +85,6 @@ class Exchange:
         -------
         Status
             The last answer, which reports the result of the last frame but one.
-
-        Raises
-        ------
-        HostSilent, FaultError
-            If a fault is latched.
-        Refused
-            With the first result that is not OK.
-        DamagedStatus
-            If an answer is no valid status, with a diagnosis of the wires.
-        LinkError
-            If a frame or an answer was damaged or lost.
         """
         return self._check(lengths, self._exchange(lengths), raise_faults=raise_faults)
 
@@ -147,6 +122,8 @@ class Exchange:
     def retry(self, send: Callable[[], T], *, then_stop: bool = True) -> T:
         """Send a message up to three times, until no frame and no answer of it is damaged.
 
+        Raises Refused or FaultError at once, as `send` raises it; LinkError after the last attempt.
+
         Parameters
         ----------
         send : callable
@@ -157,13 +134,6 @@ class Exchange:
         Returns
         -------
         What `send` returned.
-
-        Raises
-        ------
-        Refused, FaultError
-            At once, as `send` raises it.
-        LinkError
-            After the last attempt.
         """
         for _ in range(ATTEMPTS - 1):
             try:

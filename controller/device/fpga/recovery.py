@@ -83,29 +83,15 @@ class Recovery:
     ----------
     session : Supervision
         Need not be brought up.
-
-    Attributes
-    ----------
-    next_s : float
-        When to call `step`, on the loop's clock.
-    wanted : bool
-        Whether to arm; otherwise the steps stop before ARM and only send heartbeats.
-    unwanted_cause : str
-        Why not to arm.
-    state : PanelState
-        Newest state; while the outputs ramp up, the one before.
-    cause : str
-        Newest reason for the outputs being off, for the user; empty before the first step.
-    off_by_s : float
-        When the FPGA has switched off by itself at the latest, whatever became of what was sent: after an error.
     """
 
     def __init__(self, session: Supervision, board: Board) -> None:
-        self.next_s = -math.inf
-        self.wanted = True
-        self.unwanted_cause = ""
-        self.state = PanelState.WAITING_FOR_FPGA
-        self.cause = ""
+        self.next_s = -math.inf  # when to call `step`, on the loop's clock
+        self.wanted = True  # whether to arm; otherwise the steps stop before ARM and only send heartbeats
+        self.unwanted_cause = ""  # why not to arm
+        self.state = PanelState.WAITING_FOR_FPGA  # newest state; while the outputs ramp up, the one before
+        self.cause = ""  # newest reason for the outputs being off, for the user; empty before the first step
+        # When the FPGA has switched off by itself at the latest, whatever became of what was sent: after an error
         self.off_by_s = math.inf
         self._session = session
         self._safe_s = (board.limits.heartbeat_timeout_ms + board.limits.ramp_ms) * 1e-3
@@ -123,17 +109,14 @@ class Recovery:
     def begin(self, error: ControllerError, now_s: float) -> None:
         """Switch the outputs off and schedule the first retry.
 
+        Raises ControllerError: `error` itself, if the rule is to fail.
+
         Parameters
         ----------
         error : ControllerError
             What failed.
         now_s : float
             Time on the loop's clock.
-
-        Raises
-        ------
-        ControllerError
-            `error` itself, if the rule is to fail.
         """
         self._session.off()
         self._pause_s = self._safe_s
@@ -159,6 +142,8 @@ class Recovery:
     def step(self, now_s: float) -> bool:
         """Do the next step.
 
+        Raises ControllerError if an error occurs for which the rule is to fail.
+
         Parameters
         ----------
         now_s : float
@@ -168,11 +153,6 @@ class Recovery:
         -------
         bool
             True once the outputs are at their idle levels; consider all slots empty then.
-
-        Raises
-        ------
-        ControllerError
-            If an error occurs for which the rule is to fail.
         """
         try:
             return self._next(now_s)

@@ -53,39 +53,25 @@ PI: Final = 3.141592653589793
 
 
 def null_places(
-    words: Writable,
-    room: Writable,
+    words: Writable,  # drive words for `points`; changed in place
+    room: Writable,  # room, plan, entries, scales, good, response: as `compose` takes them
     plan: Readable,
     entries: Readable,
     scales: Readable,
     good: Readable,
     response: Readable,
-    points: Sequence[Point],
-    nulls: Sequence[Point],
+    points: Sequence[Point],  # each (x_m, y_m, amplitude): what the words were made for; amplitudes are not used
+    nulls: Sequence[Point],  # each (x_m, y_m, amplitude): 1 to `MAX_NULLS` nulls; amplitudes are not used
 ) -> int:
     """Change drive words so that some places stay still near T.
 
-    Parameters
-    ----------
-    words : writable buffer
-        Drive words for `points`; changed in place.
-    room, plan, entries, scales, good, response
-        As `compose` takes them.
-    points : sequence of (x_m, y_m, amplitude)
-        What the words were made for; amplitudes are not used.
-    nulls : sequence of (x_m, y_m, amplitude)
-        1 to `MAX_NULLS` nulls; amplitudes are not used.
+    Raises ValueError if there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers
+    too short for them.
 
     Returns
     -------
     int
         -1: done. Otherwise a cell that is needed, which has no response or one that may not be used; nothing was changed.
-
-    Raises
-    ------
-    ValueError
-        If there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers too
-        short for them.
     """
     bank = _Responses(plan, entries, scales, good, response)
     if not (1 <= len(points) <= MAX_FOCI and 1 <= len(nulls) <= MAX_NULLS):

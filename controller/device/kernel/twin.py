@@ -38,15 +38,12 @@ STATUS_HEAD: Final = struct.Struct(f"<I{FAULTS_AT - 4}xH")  # sync word, result 
 def load_frames_bytes(words_bytes: int) -> int:
     """Bytes of the LOAD frames of a waveform.
 
+    Raises ValueError if no waveform has this length.
+
     Parameters
     ----------
     words_bytes : int
         Of its drive words: 4 to 4,000, a multiple of 4.
-
-    Raises
-    ------
-    ValueError
-        If no waveform has this length.
     """
     if not 4 <= words_bytes <= CHUNKS * CHUNK_BYTES or words_bytes % 4:
         raise ValueError(f"a waveform has 4 to {CHUNKS * CHUNK_BYTES} bytes, a multiple of 4, not {words_bytes}")
@@ -56,6 +53,8 @@ def load_frames_bytes(words_bytes: int) -> int:
 
 def pack_loads(out: Writable, sequence: int, words: Readable) -> int:
     """Pack drive words into LOAD frames.
+
+    Raises ValueError if no waveform has this length, or `out` is too short.
 
     Parameters
     ----------
@@ -70,11 +69,6 @@ def pack_loads(out: Writable, sequence: int, words: Readable) -> int:
     -------
     int
         CRC-32 of the words, for their STORE.
-
-    Raises
-    ------
-    ValueError
-        If no waveform has this length, or `out` is too short.
     """
     given = memoryview(words)
     layout = _layout(given.nbytes)
@@ -94,6 +88,8 @@ def renumber_loads(out: Writable, sequence: int, ready: Readable) -> None:
     Headers are written, not copied, and payloads are not read: whatever the page holds, what goes out are LOAD frames of these
     chunks, and a page that has changed gives frames with a wrong CRC-32, which the FPGA refuses.
 
+    Raises ValueError if no waveform has frames of this length, or `out` is too short.
+
     Parameters
     ----------
     out : writable buffer of bytes
@@ -102,11 +98,6 @@ def renumber_loads(out: Writable, sequence: int, ready: Readable) -> None:
         Sequence number of the first frame, taken modulo 256.
     ready : buffer of bytes
         LOAD frames numbered from 0 on, as `pack_loads` gives them.
-
-    Raises
-    ------
-    ValueError
-        If no waveform has frames of this length, or `out` is too short.
     """
     layout = _layout_of_frames(memoryview(ready).nbytes)
     filled = _room(out, layout.total)
@@ -120,6 +111,8 @@ def renumber_loads(out: Writable, sequence: int, ready: Readable) -> None:
 def unpack_loads(words: Writable, ready: Readable) -> int:
     """Take drive words out of ready frames, every byte of which is checked: the reverse of `pack_loads` with sequence number 0.
 
+    Raises ValueError if a frame is not as `pack_loads` makes it, with its number; or if the lengths do not go together.
+
     Parameters
     ----------
     words : writable buffer of bytes
@@ -131,11 +124,6 @@ def unpack_loads(words: Writable, ready: Readable) -> int:
     -------
     int
         CRC-32 of the words.
-
-    Raises
-    ------
-    ValueError
-        If a frame is not as `pack_loads` makes it, with its number; or if the lengths do not go together.
     """
     filled, given = memoryview(words), memoryview(ready)
     layout = _layout(filled.nbytes)
@@ -152,6 +140,8 @@ def unpack_loads(words: Writable, ready: Readable) -> int:
 def seal_short_frames(out: Writable, start: int, count: int, sequence: int) -> None:
     """Write sequence numbers and CRCs into frames of 36 bytes that lie back to back.
 
+    Raises ValueError if they are not all within `out`.
+
     Parameters
     ----------
     out : writable buffer of bytes
@@ -161,11 +151,6 @@ def seal_short_frames(out: Writable, start: int, count: int, sequence: int) -> N
         Number of frames.
     sequence : int
         Sequence number of the first one, taken modulo 256.
-
-    Raises
-    ------
-    ValueError
-        If they are not all within `out`.
     """
     filled = memoryview(out)
     if start < 0 or count < 0 or start + count * SHORT_FRAME_BYTES > filled.nbytes:
@@ -180,6 +165,8 @@ def seal_short_frames(out: Writable, start: int, count: int, sequence: int) -> N
 def statuses_good(answers: Readable, start: int, count: int, head: int, sequence: int) -> bool:
     """Whether statuses that lie back to back are intact, say the same result, name one frame after the other, and no fault.
 
+    Raises ValueError if they are not all within `answers`.
+
     Parameters
     ----------
     start : int
@@ -190,11 +177,6 @@ def statuses_good(answers: Readable, start: int, count: int, head: int, sequence
         Sync word and result, as the first three bytes of a status have them.
     sequence : int
         Sequence number that the first one names, taken modulo 256; each further one is the next.
-
-    Raises
-    ------
-    ValueError
-        If they are not all within `answers`.
     """
     given = memoryview(answers)
     if start < 0 or count < 0 or start + count * SHORT_FRAME_BYTES > given.nbytes:

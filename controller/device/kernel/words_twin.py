@@ -65,10 +65,7 @@ OWN_LEVEL: Final = 1 / 16  # difference from the common level from which on a po
 def room_bytes(samples: int) -> int:
     """Bytes of memory in which waveforms of this many samples are composed.
 
-    Raises
-    ------
-    ValueError
-        If there are none, or more than `MAX_SAMPLES`.
+    Raises ValueError if there are none, or more than `MAX_SAMPLES`.
     """
     if not 1 <= samples <= MAX_SAMPLES:
         raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
@@ -79,46 +76,26 @@ def room_bytes(samples: int) -> int:
 
 
 def compose(
-    words: Writable,
-    room: Writable,
-    plan: Readable,
-    entries: Readable,
-    scales: Readable,
-    good: Readable,
-    response: Readable,
+    words: Writable,  # filled with 4 bytes for each sample
+    room: Writable,  # `room_bytes` at least, in which the kernel works; what is in it does not matter
+    plan: Readable,  # as `PLAN` packs it
+    entries: Readable,  # for each cell the number of its response; below 0 for none
+    scales: Readable,  # m per V of one level of each response
+    good: Readable,  # for each response whether it may be used; zero if not yet
+    response: Readable,  # the responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each
+    # each (x_m, y_m, amplitude): 1 to `MAX_FOCI`; above 0 to 1, less than `LEAST_AMPLITUDE` counts as that. Points beyond the
+    # outermost cells take the nearest place among the cells
     points: Sequence[Point],
 ) -> int:
     """Drive words that make every point jump at the end of the emission.
 
-    Parameters
-    ----------
-    words : writable buffer
-        Filled with 4 bytes for each sample.
-    room : writable buffer
-        `room_bytes` at least, in which the kernel works; what is in it does not matter.
-    plan : buffer
-        As `PLAN` packs it.
-    entries : buffer of int32
-        For each cell the number of its response; below 0 for none.
-    scales : buffer of float32
-        m per V of one level of each response.
-    good : buffer of bytes
-        For each response whether it may be used; zero if not yet.
-    response : buffer
-        The responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each.
-    points : sequence of (x_m, y_m, amplitude)
-        1 to `MAX_FOCI`; above 0 to 1, less than `LEAST_AMPLITUDE` counts as that. Points beyond the outermost cells take the
-        nearest place among the cells.
+    Raises ValueError if there are no points or too many, or numbers that are not finite or beyond their range, or buffers too short
+    for them.
 
     Returns
     -------
     int
         -1: done. Otherwise a cell that a point needs, which has no response or one that may not be used; nothing was composed.
-
-    Raises
-    ------
-    ValueError
-        If there are no points or too many, or numbers that are not finite or beyond their range, or buffers too short for them.
     """
     bank = _Responses(plan, entries, scales, good, response)
     count = len(points)
@@ -230,16 +207,7 @@ class _Responses:
 
 
 class _Composition:
-    """Responses of some points, in whole numbers.
-
-    Attributes
-    ----------
-    in_band : (points, samples, 32) int32 array
-    outside : (points, rows, 32) int32 array
-        The rest outside the band, a mean over `REST_SAMPLES` samples each.
-    norms : list of float
-        Sums of their absolute values in the band; inf for a response of zeros, which has no part in any sum.
-    """
+    """Responses of some points, in whole numbers."""
 
     def __init__(self, bank: _Responses, patches: list[Patch]) -> None:
         levels = np.frombuffer(bank.response, np.int8)
@@ -251,7 +219,9 @@ class _Composition:
                 part = np.multiply(levels[start : start + bank.values].reshape(-1, CHANNELS), share, dtype=np.int16)
                 np.add(response, part, out=response)
         responses = (short * (1 - 2 * idle_high)).astype(np.int32)
-        self.in_band, self.outside = responses[:, : bank.samples], responses[:, bank.samples :]
+        # (points, rows, 32): the rest outside the band, a mean over `REST_SAMPLES` samples each
+        self.in_band, self.outside = responses[:, : bank.samples], responses[:, bank.samples :]  # (points, samples, 32)
+        # Sums of their absolute values in the band; inf for a response of zeros, which has no part in any sum
         self.norms = [float(np.abs(response).sum()) or math.inf for response in self.in_band]
         self._block_samples = bank.block_samples
 

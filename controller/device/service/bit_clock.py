@@ -20,18 +20,11 @@ class BitClock:
     ----------
     period_s : float
         Time between readings.
-
-    Attributes
-    ----------
-    scale : float
-        Factor of the bit clock that the FPGA uses now.
-    temperature_c : float or None
-        Of the plate; None while unknown.
     """
 
     def __init__(self, session: Session, thermometer: TemperatureSource, period_s: float) -> None:
-        self.scale = 1.0
-        self.temperature_c: float | None = None
+        self.scale = 1.0  # factor of the bit clock that the FPGA uses now
+        self.temperature_c: float | None = None  # of the plate; None while unknown
         self._session = session
         self._thermometer = thermometer
         self._period_s = period_s

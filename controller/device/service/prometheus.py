@@ -60,10 +60,7 @@ class PanelFigures:
     def __call__(self) -> tuple[str, str, dict[str, Any]]:
         """Version, board and figures.
 
-        Raises
-        ------
-        ControllerError
-            If no panel answers.
+        Raises ControllerError if no panel answers.
         """
         kept = self._panel is not None
         try:

@@ -26,21 +26,11 @@ BYTES_MAX = 65_536
 
 
 class Reloaded(msgspec.Struct, frozen=True):
-    """Result of the last reload.
+    """Result of the last reload."""
 
-    Attributes
-    ----------
-    count : int
-        Reloads since the service started.
-    refused : str
-        Why the last one was refused; empty if it was not.
-    environment : str
-        Where the service's program is installed; empty: written before this key existed.
-    """
-
-    count: int
-    refused: str
-    environment: str = ""
+    count: int  # reloads since the service started
+    refused: str  # why the last one was refused; empty if it was not
+    environment: str = ""  # where the service's program is installed; empty: written before this key existed
 
 
 class ReloadFile:
@@ -84,18 +74,14 @@ class ReloadFile:
 def reload(pid: int, environment: Mapping[str, str] = os.environ) -> None:
     """Have the service read its scene again, and wait for the result.
 
+    Raises ConfigError if the scene was refused, with the reason, or the service runs from another release than this program: what
+    one of them wrote, the other may not read. The scene before stays in force. Raises ControllerError if the process does not
+    exist, or ended meanwhile.
+
     Parameters
     ----------
     pid : int
         Main process of the service.
-
-    Raises
-    ------
-    ConfigError
-        If the scene was refused, with the reason, or the service runs from another release than this program: what one of them
-        wrote, the other may not read. The scene before stays in force.
-    ControllerError
-        If the process does not exist, or ended meanwhile.
     """
     folder = _folder(environment)
     if folder is None:

@@ -73,21 +73,12 @@ class StatusFile(SpareTime):
     def watch(
         self,
         counters: Counters,
-        waiting: Callable[[], int],
-        touches: Counts | None = None,
+        waiting: Callable[[], int],  # how many emissions are due now
+        touches: Counts | None = None,  # what became of the positions that the touch panel reports
+        # Anomalies of the touch panel by kind, and the remark of its device
         touch: Callable[[], tuple[Mapping[str, int], str]] | None = None,
     ) -> None:
-        """Take what is reported; the first status follows the first condition.
-
-        Parameters
-        ----------
-        waiting : callable
-            How many emissions are due now.
-        touches : Counts, optional
-            What became of the positions that the touch panel reports.
-        touch : callable, optional
-            Anomalies of the touch panel by kind, and the remark of its device.
-        """
+        """Take what is reported; the first status follows the first condition."""
         self._counters = counters
         self._waiting = waiting
         self._touch = touch or _untouched

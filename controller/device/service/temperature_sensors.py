@@ -37,10 +37,7 @@ class Sensor(Protocol):
     def read_c(self) -> float | None:
         """Temperature in °C; None if a `SensorProcess` has not answered yet.
 
-        Raises
-        ------
-        OSError
-            If the sensor cannot be read; the next call opens it again.
+        Raises OSError if the sensor cannot be read; the next call opens it again.
         """
 
     def close(self) -> None:

@@ -65,25 +65,14 @@ class Decoder:
         Current slot at the start; highest slot that the device declares, None if unknown.
     after : Decoder, optional
         Decoder before a reconnection of the device, whose counts, warnings and finger numbers are continued.
-
-    Attributes
-    ----------
-    counts : Counts
-        Reports, contacts and fingers so far.
-    warnings : Counter of str
-        Anomalies so far, by kind.
-    touched : bool
-        Whether the events fed last ended a report with at least one contact down, and without a position held back.
-    due_s : float
-        When to call `overdue` unless events are fed before; inf: never.
     """
 
     def __init__(
         self, axes: Axes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
     ) -> None:
-        self.counts: Counts = after.counts if after else Counts()
+        self.counts: Counts = after.counts if after else Counts()  # reports, contacts and fingers so far
         self.counts.devices += 1
-        self.warnings: Counter[str] = after.warnings if after else Counter()
+        self.warnings: Counter[str] = after.warnings if after else Counter()  # anomalies so far, by kind
         self._axes = axes
         self._last_slot = MAX_SLOTS if last_slot is None else last_slot
         self._is_a = protocol is Protocol.A
@@ -97,8 +86,9 @@ class Decoder:
         self._replaced: list[Contact] = []  # contacts that another one has replaced within the report
         self._touching: bool | None = None  # BTN_TOUCH, None before its first event
         self._dropping = False
+        # Whether the events fed last ended a report with at least one contact down, and without a position held back
         self.touched = False
-        self.due_s = inf
+        self.due_s = inf  # when to call `overdue` unless events are fed before; inf: never
         self._plausibility: Plausibility = Plausibility(
             axes,
             MAX_PLAYED,

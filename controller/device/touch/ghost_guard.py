@@ -100,15 +100,6 @@ class QuietBudget:
     ----------
     ghost_s : float
         G of the rule.
-
-    Attributes
-    ----------
-    total_s : float
-        Quiet time so far.
-    retry_s : float
-        When to ask again after a refusal, on the loop's clock; inf: nothing was refused.
-    asked : bool
-        Whether `begin` was called since the last `end`, which is needed then.
     """
 
     __slots__ = ("_credit_s", "_last_s", "_max_credit_s", "_quiet", "asked", "retry_s", "total_s")
@@ -117,9 +108,9 @@ class QuietBudget:
         self._max_credit_s = self._credit_s = max(BURST_S, BURST_LIVES * ghost_s) * (1 - MAX_QUIET_SHARE)
         self._last_s = -inf
         self._quiet = False
-        self.asked = False
-        self.retry_s = inf
-        self.total_s = 0.0
+        self.asked = False  # whether `begin` was called since the last `end`, which is needed then
+        self.retry_s = inf  # when to ask again after a refusal, on the loop's clock; inf: nothing was refused
+        self.total_s = 0.0  # quiet time so far
 
     def begin(self, now_s: float, until_s: float) -> bool:
         """Begin or continue a quiet time.

@@ -25,26 +25,17 @@ class LiveSource:
         Driver of the panel.
     board : TouchedPlate
         Gives the plate and the map from the panel's axes to it.
-
-    Attributes
-    ----------
-    counts : Counts
-        Reports, contacts and fingers since the start, reconnections included.
-    silence : Silence
-        To be set before a read by whoever waits for `fileno`.
-    touched : bool
-        See `TouchSource.touched`.
     """
 
     def __init__(self, reader: EventReader, board: TouchedPlate) -> None:
-        self.silence = Silence()
-        self.touched = False
+        self.silence = Silence()  # to be set before a read by whoever waits for `fileno`
+        self.touched = False  # see `TouchSource.touched`
         self._reader = reader
         self._board = board
         self._own_warnings: Counter[str] = Counter()
         self._clock = ReportClock(self._own_warnings)
         self._decoder = self._renewed(None)
-        self.counts: Counts = self._decoder.counts
+        self.counts: Counts = self._decoder.counts  # reports, contacts and fingers since the start, reconnections included
 
     @property
     def axes(self) -> Axes:

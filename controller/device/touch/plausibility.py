@@ -59,41 +59,20 @@ def figures(counts: Counts, warnings: Mapping[str, int]) -> dict[str, int]:
 
 
 class Plausibility:
-    """Contacts of one device to touch samples.
-
-    Parameters
-    ----------
-    axes : Axes
-        Of the device; they give the board's [touch], too.
-    max_played : int
-        Fingers that are played at once; a further one is refused until it is lifted.
-    tells_all : bool
-        Whether each report lists all contacts (protocol A): then it repeats itself while the panel is touched.
-    warnings : Counter of str
-        Of the decoder.
-    after : Plausibility, optional
-        That of the device before a reconnection, whose finger numbers are continued.
-
-    Attributes
-    ----------
-    due_s : float
-        When to call `overdue` unless there is a report before; inf: never.
-    touched : bool
-        Whether the last report had a contact down, and all fingers have their places.
-    """
+    """Contacts of one device to touch samples."""
 
     def __init__(
         self,
-        axes: Axes,
-        max_played: int,
+        axes: Axes,  # of the device; they give the board's [touch], too
+        max_played: int,  # fingers that are played at once; a further one is refused until it is lifted
         *,
-        tells_all: bool,
+        tells_all: bool,  # whether each report lists all contacts (protocol A): then it repeats itself while the panel is touched
         counts: Counts,
-        warnings: Counter[str],
-        after: Plausibility | None = None,
+        warnings: Counter[str],  # of the decoder
+        after: Plausibility | None = None,  # that of the device before a reconnection, whose finger numbers are continued
     ) -> None:
-        self.due_s = inf
-        self.touched = False
+        self.due_s = inf  # when to call `overdue` unless there is a report before; inf: never
+        self.touched = False  # whether the last report had a contact down, and all fingers have their places
         self._next_finger: int = after._next_finger if after else 0
         self._counts = counts
         self._warnings = warnings

@@ -29,17 +29,6 @@ class Motion:
     ----------
     x_m, y_m, time_s : float
         First report: position on the plate, time on the loop's clock.
-
-    Attributes
-    ----------
-    x_m, y_m, time_s : float
-        Last report.
-    vx, vy : float
-        Velocity used for the prediction, in m/s.
-    missed_m : float
-        Distance of the last report from where it was predicted.
-    pause_s : float
-        After so long without a report the velocity is unknown.
     """
 
     __slots__ = (
@@ -60,13 +49,14 @@ class Motion:
     )
 
     def __init__(self, x_m: float, y_m: float, time_s: float) -> None:
-        self.x_m = self._x_m = self._anchor_x_m = x_m
+        self.x_m = self._x_m = self._anchor_x_m = x_m  # x_m, y_m, time_s: last report
         self.y_m = self._y_m = self._anchor_y_m = y_m
         self.time_s = time_s
-        self.vx = self.vy = self.missed_m = 0.0
+        # Distance of the last report from where it was predicted
+        self.vx = self.vy = self.missed_m = 0.0  # velocity used for the prediction, in m/s
         self._vx = self._vy = 0.0  # m/s, of the filter
         self._rested = 0
-        self.pause_s = MAX_INTERVAL_S
+        self.pause_s = MAX_INTERVAL_S  # after so long without a report the velocity is unknown
 
     def report(self, x_m: float, y_m: float, time_s: float) -> None:
         """Update with a report of position (`x_m`, `y_m`) at `time_s`."""

@@ -21,26 +21,14 @@ class TouchSample(NamedTuple):
 
     A finger keeps its number from its first sample to the one with `contact` False; no later finger has the same number.
     The last sample repeats the position at which the finger was last reported.
-
-    Attributes
-    ----------
-    finger : int
-        Number of the finger.
-    x_m, y_m : float
-        Position on the plate.
-    time_s : float
-        On the loop's clock.
-    contact : bool
-        False: released.
-    size_m : float
-        Major axis of the contact; 0 if the panel reports none, inf if it is released because it has become a palm.
     """
 
-    finger: int
-    x_m: float
+    finger: int  # number of the finger
+    x_m: float  # x_m, y_m: position on the plate
     y_m: float
-    time_s: float
-    contact: bool
+    time_s: float  # on the loop's clock
+    contact: bool  # false: released
+    # Major axis of the contact; 0 if the panel reports none, inf if it is released because it has become a palm
     size_m: float = 0.0
 
 
@@ -50,52 +38,25 @@ touch_sample: Final[Callable[[tuple[int, float, float, float, bool, float]], Tou
 
 @dataclass(slots=True)
 class Counts:
-    """What a source has reported, before any limit of the controller.
+    """What a source has reported, before any limit of the controller."""
 
-    Attributes
-    ----------
-    reports : int
-        SYN_REPORTs with at least one contact down.
-    contacts : int
-        Contacts that began.
-    max_fingers : int
-        Most contacts down in one report.
-    points : int
-        Positions of contacts that are no palms; what became of them says `plausibility.figures`.
-    believed : int
-        Of these, those that became touch samples at once.
-    held, confirmed : int
-        Of these, those that no hand reaches so soon, and of them those that were right all the same.
-    palms : int
-        Contacts that were palms, by tool or by size.
-    devices : int
-        Devices opened: one more after each reconnection.
-    off_plate : int
-        Those that the board's map puts off the plate, by more than `axes.OFF_M`; they were moved to its edge.
-    """
-
-    reports: int = 0
-    contacts: int = 0
-    max_fingers: int = 0
-    points: int = 0
-    believed: int = 0
-    held: int = 0
+    reports: int = 0  # SYN_REPORTs with at least one contact down
+    contacts: int = 0  # contacts that began
+    max_fingers: int = 0  # most contacts down in one report
+    points: int = 0  # positions of contacts that are no palms; what became of them says `plausibility.figures`
+    believed: int = 0  # of these, those that became touch samples at once
+    held: int = 0  # held, confirmed: of these, those that no hand reaches so soon, and of them those that were right all the same
     confirmed: int = 0
-    palms: int = 0
-    devices: int = 0
-    off_plate: int = 0
+    palms: int = 0  # contacts that were palms, by tool or by size
+    devices: int = 0  # devices opened: one more after each reconnection
+    off_plate: int = 0  # those that the board's map puts off the plate, by more than `axes.OFF_M`; they were moved to its edge
 
 
 @dataclass(slots=True)
 class Silence:
-    """What the loop tells the source of a panel before each read.
+    """What the loop tells the source of a panel before each read."""
 
-    Attributes
-    ----------
-    known : bool
-        The selector has just found that nothing can be read from the panel's file. False: something can, or nobody looked.
-    """
-
+    # The selector has just found that nothing can be read from the panel's file. False: something can, or nobody looked
     known: bool = False
 
 

@@ -94,19 +94,12 @@ class StationaryTouches:
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """Affine map from normalised axes to the plate.
+    """Affine map from normalised axes to the plate."""
 
-    Attributes
-    ----------
-    x_mm_from_axes, y_mm_from_axes : tuple of 3 float
-        In mm: per unit of x, per unit of y, and at the minimum of both.
-    residuals_mm : tuple of float
-        Leave-one-out residual of each target (the map of all touches follows a single one by up to 0.7 of its error at a
-        corner); empty with three targets, which an affine map always meets.
-    """
-
-    x_mm_from_axes: Row
+    x_mm_from_axes: Row  # x_mm_from_axes, y_mm_from_axes: in mm: per unit of x, per unit of y, and at the minimum of both
     y_mm_from_axes: Row
+    # leave-one-out residual of each target (the map of all touches follows a single one by up to 0.7 of its error at a corner);
+    # empty with three targets, which an affine map always meets
     residuals_mm: tuple[float, ...]
 
     @property
@@ -131,10 +124,7 @@ def default_targets(plate: Plate, count: int) -> list[Point]:
 def check_targets(targets: Sequence[Point], plate: Plate) -> None:
     """Refuse `targets`, each (x_mm, y_mm) on the `plate`, that determine no calibration, before they are touched.
 
-    Raises
-    ------
-    CalibrationError
-        If there are not three to five, one is not on the plate, two coincide, or all lie on one line.
+    Raises CalibrationError if there are not three to five, one is not on the plate, two coincide, or all lie on one line.
     """
     if not MIN_TARGETS <= len(targets) <= MAX_TARGETS:
         raise CalibrationError(f"give {MIN_TARGETS} to {MAX_TARGETS} targets, not {len(targets)}")
@@ -151,6 +141,9 @@ def check_targets(targets: Sequence[Point], plate: Plate) -> None:
 def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) -> Calibration:
     """Fit the least-squares affine map from touches to targets.
 
+    Raises CalibrationError if targets or touches coincide or lie on one line, a value is not finite, an axis would have an
+    implausible scale or skew, or a residual exceeds `MAX_RESIDUAL_MM`.
+
     Parameters
     ----------
     targets : sequence of (x_mm, y_mm)
@@ -159,12 +152,6 @@ def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) 
         Touch of each target on the panel's axes, normalised to 0..1.
     plate : Plate
         Gives the sides, against which scale and skew of the axes are evaluated.
-
-    Raises
-    ------
-    CalibrationError
-        If targets or touches coincide or lie on one line, a value is not finite, an axis would have an implausible scale
-        or skew, or a residual exceeds `MAX_RESIDUAL_MM`.
     """
     check_targets(targets, plate)
     if len(touches) != len(targets):

@@ -25,18 +25,11 @@ class EventCapture:
     ----------
     reader : EventReader
         Driver of the panel.
-
-    Attributes
-    ----------
-    events : list of Event
-        All so far, each with the corrected time of its report.
-    warnings : Counter of str
-        Anomalies found by the driver, by kind.
     """
 
     def __init__(self, reader: EventReader) -> None:
-        self.events: list[Event] = []
-        self.warnings = reader.warnings
+        self.events: list[Event] = []  # all so far, each with the corrected time of its report
+        self.warnings = reader.warnings  # anomalies found by the driver, by kind
         self._reader = reader
         self._clock = ReportClock(Counter())
 
@@ -108,19 +101,14 @@ def recording_text(description: DeviceDescription, events: Iterable[Event]) -> s
 def write_recording(path: Path, text: str) -> None:
     """Write a recording.
 
+    Raises ConfigError if a file that is no recording has this name; TouchError or OSError if it cannot be written.
+
     Parameters
     ----------
     path : Path
         A new file or an existing recording; see `recorder.open_recording`.
     text : str
         From `recording_text`.
-
-    Raises
-    ------
-    ConfigError
-        If a file that is no recording has this name.
-    TouchError, OSError
-        If it cannot be written.
     """
     with open_recording(path) as file:
         left = memoryview(text.encode())

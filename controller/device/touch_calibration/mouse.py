@@ -12,15 +12,12 @@ from controller.errors import TouchError
 class Mouse:
     """A pointing device that reports relative steps.
 
+    Raises TouchError if it is absent, cannot be opened or is no mouse.
+
     Parameters
     ----------
     device : str
         Path, best below /dev/input/by-id.
-
-    Raises
-    ------
-    TouchError
-        If it is absent, cannot be opened or is no mouse.
     """
 
     def __init__(self, device: str) -> None:
@@ -42,10 +39,7 @@ class Mouse:
     def read(self) -> list[Event]:
         """Steps since the last call, as EV_REL events.
 
-        Raises
-        ------
-        TouchError
-            If it was unplugged.
+        Raises TouchError if it was unplugged.
         """
         try:
             events = list(self._opened.read())

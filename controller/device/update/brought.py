@@ -28,6 +28,8 @@ Outcome = Literal["adopt", "trial", "stays"]
 def install_brought(layout: Layout, folder: Path) -> tuple[Outcome, str]:
     """Install the release in a folder, unless this device has no use for it.
 
+    Raises UpdateError if a file is not what its manifest says, the release does not fit this device, or it cannot be written.
+
     Parameters
     ----------
     folder : Path
@@ -40,11 +42,6 @@ def install_brought(layout: Layout, folder: Path) -> tuple[Outcome, str]:
         stays: the release in use stays.
     why : str
         A line for who installs the package.
-
-    Raises
-    ------
-    UpdateError
-        If a file is not what its manifest says, the release does not fit this device, or it cannot be written.
     """
     path = folder / MANIFEST
     coming = read_manifest(path.read_bytes(), str(path))

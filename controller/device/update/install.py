@@ -31,18 +31,15 @@ def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _don
     Its environment is built where it stays: its files have paths of it. `.complete` is written last, after all else is on the disk.
     What an interrupted installation left is removed first.
 
+    Raises UpdateError if the release is for another Python, computer or package, a file in the store is damaged or absent, it does
+    not start, or the disk is full. Nothing of it is left then, but that it failed (`failed_install`).
+
     Parameters
     ----------
     manifest : Manifest
         Its files are in the store.
     progress : callable, optional
         Called with steps done, and all.
-
-    Raises
-    ------
-    UpdateError
-        If the release is for another Python, computer or package, a file in the store is damaged or absent, it does not start,
-        or the disk is full. Nothing of it is left then, but that it failed (`failed_install`).
     """
     folder, name = layout.release(manifest.version), f"release {manifest.version}"
     if manifest.platform != this_platform():

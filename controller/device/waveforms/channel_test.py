@@ -14,6 +14,8 @@ SAMPLES_A_PERIOD: Final = 6  # at least; a bit clock too slow for the band's end
 def chirp_words(channel: int, samples: int, bit_clock_hz: float, idle_word: int, band_hz: tuple[float, float]) -> memoryview:
     """Drive words of a linear chirp on one channel, which begins at that channel's idle level.
 
+    Raises ValueError if there is no such channel.
+
     Parameters
     ----------
     channel : int
@@ -29,11 +31,6 @@ def chirp_words(channel: int, samples: int, bit_clock_hz: float, idle_word: int,
     -------
     memoryview
         4 bytes a sample, as they go to the wire.
-
-    Raises
-    ------
-    ValueError
-        If there is no such channel.
     """
     if not 0 <= channel < CHANNELS:
         raise ValueError(f"channel {channel} is not 0 to {CHANNELS - 1}")

@@ -42,10 +42,7 @@ class DeviceComposition:
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
         """As `DesignMethod.design`.
 
-        Raises
-        ------
-        BankError
-            If a cell that a point needs is not in the bank, or damaged.
+        Raises BankError if a cell that a point needs is not in the bank, or damaged.
         """
         words = np.frombuffer(self._composer.compose(points), WORD)
         if nulls:

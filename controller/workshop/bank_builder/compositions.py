@@ -53,10 +53,7 @@ def played_together(emitters: Sequence[FixedEmitter], duration_s: float, wave_sc
 def compositions(board: Board, grid: Grid, source: ResponseSource, emitters: Sequence[FixedEmitter]) -> list[Composition]:
     """Keys and drive words of what a scene's fixed emitters play together, and of single ones that no cell of the grid serves.
 
-    Raises
-    ------
-    ConfigError
-        If a fixed emitter is where nothing can move.
+    Raises ConfigError if a fixed emitter is where nothing can move.
     """
     method, found, scale = ExactComposition(board, source), [], wave_scale(board)
     for points in played_together(emitters, board.waveform.duration_s, scale):

@@ -56,10 +56,7 @@ def dask_errors(where: str) -> Iterator[None]:
 def open_client(address: str | None, processes: int) -> Iterator[Any]:
     """Client of a scheduler that is there, or of one with as many processes of this computer.
 
-    Raises
-    ------
-    BankError
-        If no scheduler answers at the address, or scheduler or workers have another version of dask.
+    Raises BankError if no scheduler answers at the address, or scheduler or workers have another version of dask.
     """
     import dask
     from distributed import Client, LocalCluster

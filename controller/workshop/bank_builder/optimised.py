@@ -47,17 +47,10 @@ RECORD = struct.Struct("<I")  # cell; then its words; then the CRC-32 of both
 
 @dataclass(frozen=True)
 class Workers:
-    """Who optimises.
+    """Who optimises."""
 
-    Attributes
-    ----------
-    processes : int
-        On this machine; 1: the calling process itself.
-    address : str, optional
-        Of a dask scheduler, whose workers have this package in the same version; takes the place of `processes`.
-    """
-
-    processes: int = 1
+    processes: int = 1  # on this machine; 1: the calling process itself
+    # of a dask scheduler, whose workers have this package in the same version; takes the place of `processes`
     address: str | None = None
 
 
@@ -66,20 +59,13 @@ ALONE = Workers()
 
 @dataclass(frozen=True)
 class Task:
-    """A group of cells, and all that determines their words.
-
-    Attributes
-    ----------
-    points_m : tuple of (x_m, y_m)
-    maker : str
-        `creator()` of who asks: a worker of another version would compute other words.
-    """
+    """A group of cells, and all that determines their words."""
 
     board: Board
     highest_hz: float
     aim: Aim
-    points_m: tuple[tuple[float, float], ...]
-    maker: str
+    points_m: tuple[tuple[float, float], ...]  # each (x_m, y_m)
+    maker: str  # `creator()` of who asks: a worker of another version would compute other words
 
 
 def reported(board: Board, aim: Aim) -> dict[str, Any]:
@@ -114,6 +100,8 @@ def remove_kept(bank: Path) -> None:
 def optimised_words(whole: Task, cells: NDArray[np.intp], kept: Path, workers: Workers, *, progress: bool = False) -> Words:
     """Optimise the entries of cells, the same bits whoever does it.
 
+    Raises BankError if the scheduler is not found, a worker has another version, or what is done cannot be kept.
+
     Parameters
     ----------
     whole : Task
@@ -129,11 +117,6 @@ def optimised_words(whole: Task, cells: NDArray[np.intp], kept: Path, workers: W
     Returns
     -------
     (cell, sample) uint32 array
-
-    Raises
-    ------
-    BankError
-        If the scheduler is not found, a worker has another version, or what is done cannot be kept.
     """
     words: Words = np.zeros((len(cells), whole.board.waveform.samples), WORD)
     with _Kept.open(kept, words.shape[1]) as done:

@@ -31,27 +31,13 @@ FINGERS = (1, 2, 4, 10)
 
 @dataclass(frozen=True)
 class FingerScene:
-    """Fingers of one emission.
+    """Fingers of one emission."""
 
-    Attributes
-    ----------
-    family : str
-        Scenes of one kind are summarised together.
-    points : tuple of (x_m, y_m)
-        Where the fingers are at T; none: nobody touches the panel.
-    expected : tuple of (x_m, y_m)
-        Where the host expects them at T; the same as `points` for fingers at rest.
-    null : (x_m, y_m)
-        A finger that shall feel nothing.
-    detuning : float
-        Ratio of the plate's modal frequencies to those of which responses are known.
-    """
-
-    family: str
-    points: tuple[Place, ...]
-    expected: tuple[Place, ...]
-    null: Place
-    detuning: float = 1.0
+    family: str  # scenes of one kind are summarised together
+    points: tuple[Place, ...]  # each (x_m, y_m): where the fingers are at T; none: nobody touches the panel
+    expected: tuple[Place, ...]  # each (x_m, y_m): where the host expects them at T; the same as `points` for fingers at rest
+    null: Place  # (x_m, y_m): a finger that shall feel nothing
+    detuning: float = 1.0  # ratio of the plate's modal frequencies to those of which responses are known
 
 
 def still(family: str, points: Sequence[Place], null: Place, detuning: float = 1.0) -> FingerScene:

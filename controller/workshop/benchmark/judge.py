@@ -41,24 +41,15 @@ LARGEST_BOUND = 12  # fingers: polarities are counted out
 
 @dataclass(frozen=True)
 class Reference:
-    """What the plate of a scene can give at its points.
+    """What the plate of a scene can give at its points."""
 
-    Attributes
-    ----------
-    alone_m : (point,) array
-        A_ref of each point in m.
-    unfiltered_share : (point,) array
-        A_ref over half the supply times the sum of |h| of the unfiltered response.
-    unit : (point, sample, 32) array
-        Band-limited responses, each over the sum of its absolute values: the sum of one times bits of -1 and 1 is a share of
-        what the point could get alone, in the band.
-    bound : float
-        Largest share that all points can get at once, in the band: max over polarities s of min over weights w of |sum w s unit|_1.
-    """
-
-    alone_m: Floats
-    unfiltered_share: Floats
+    alone_m: Floats  # (point,): A_ref of each point in m
+    unfiltered_share: Floats  # (point,): A_ref over half the supply times the sum of |h| of the unfiltered response
+    # (point, sample, 32): band-limited responses, each over the sum of its absolute values: the sum of one times bits of -1 and
+    # 1 is a share of what the point could get alone, in the band
     unit: Floats
+    # Largest share that all points can get at once, in the band: max over polarities s of min over weights w of |sum w s
+    # unit|_1
     bound: float
 
 

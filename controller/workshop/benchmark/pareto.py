@@ -10,6 +10,8 @@ def pareto_front(costs: Sequence[float], errors: Sequence[float]) -> list[int]:
 
     One setting dominates another if neither its cost nor its error is larger and one of both is smaller.
 
+    Raises ValueError if there are not as many errors as costs.
+
     Parameters
     ----------
     costs, errors : sequence of float
@@ -19,11 +21,6 @@ def pareto_front(costs: Sequence[float], errors: Sequence[float]) -> list[int]:
     -------
     list of int
         Indices by ascending cost. Of equal settings all are listed.
-
-    Raises
-    ------
-    ValueError
-        If there are not as many errors as costs.
     """
     by_cost = sorted(zip(costs, errors, range(len(costs)), strict=True))
     front: list[int] = []

@@ -19,6 +19,8 @@ SHOWN_DB = 60.0
 def plot_optimised(path: Path, board: Board, point_m: tuple[float, float], fields: Sequence[tuple[str, Field]]) -> None:
     """Draw fields of foci at one point side by side.
 
+    Raises ConfigError if the file cannot be written.
+
     Parameters
     ----------
     path : Path
@@ -26,11 +28,6 @@ def plot_optimised(path: Path, board: Board, point_m: tuple[float, float], field
     point_m : (float, float)
         Where the focus is.
     fields : sequence of (title, Field)
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
     """
     figure = Figure(figsize=(4.2 * len(fields), 3.4), layout="constrained")
     places = figure.subplots(1, len(fields), sharey=True)

@@ -39,30 +39,14 @@ AXES = ("time", "memory", "wire", "stage energy")
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured.
+    """How much is measured."""
 
-    Attributes
-    ----------
-    each : int
-        Scenes of each family.
-    random_scenes : int
-        Further scenes of one to ten fingers.
-    timed_scenes : int
-        Scenes of each number of fingers on which methods are timed.
-    turns : int
-        Calls of each method for each of them.
-    longest_s : float
-        Of timing a method for one number of fingers, beyond its first turns.
-    slow_methods : bool
-        Whether methods that take tenths of a second take part.
-    """
-
-    each: int
-    random_scenes: int
-    timed_scenes: int
-    turns: int
-    longest_s: float
-    slow_methods: bool
+    each: int  # scenes of each family
+    random_scenes: int  # further scenes of one to ten fingers
+    timed_scenes: int  # scenes of each number of fingers on which methods are timed
+    turns: int  # calls of each method for each of them
+    longest_s: float  # of timing a method for one number of fingers, beyond its first turns
+    slow_methods: bool  # whether methods that take tenths of a second take part
 
 
 QUICK = Effort(each=2, random_scenes=4, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
@@ -72,24 +56,13 @@ FULL = Effort(each=4, random_scenes=100, timed_scenes=3, turns=25, longest_s=0.5
 def work_precision(
     board: Board,
     effort: Effort,
-    seed: int = 1,
+    seed: int = 1,  # of the scenes. Errors of equal seeds are equal
     *,
-    timing: bool = True,
-    candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,
-    progress: Progress = lambda _done, _total: None,
+    timing: bool = True,  # whether times are measured
+    candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,  # makes the methods
+    progress: Progress = lambda _done, _total: None,  # called with what is done and all there is to do
 ) -> Figures:
     """Measure errors and costs of all methods.
-
-    Parameters
-    ----------
-    seed : int
-        Of the scenes. Errors of equal seeds are equal.
-    timing : bool
-        Whether times are measured.
-    candidates : callable
-        Makes the methods.
-    progress : callable
-        Called with what is done and all there is to do.
 
     Returns
     -------

@@ -49,6 +49,8 @@ LOST = "amplitude lost by the worst finger: 1 − A / bound"
 def draw_all(folder: Path, figures: Figures) -> list[Path]:
     """Draw every diagram as PNG and SVG.
 
+    Raises ConfigError if one cannot be written.
+
     Parameters
     ----------
     folder : Path
@@ -60,11 +62,6 @@ def draw_all(folder: Path, figures: Figures) -> list[Path]:
     -------
     list of Path
         The files written.
-
-    Raises
-    ------
-    ConfigError
-        If one cannot be written.
     """
     timed = any(setting["time_us"] for setting in figures["settings"])
     written = []

@@ -18,6 +18,8 @@ LEAST_CORRELATION: Final = 0.5  # of the second track with what the channel play
 def begin_of(sync: Floats, rate_hz: float, levels: NDArray[np.bool_], bit_clock_hz: float, nominal: float, slack: int) -> float:
     """Sample, with its fraction, at which the first word of an emission begins.
 
+    Raises CalibrationError if it is not found there.
+
     Parameters
     ----------
     sync : (sample,) array
@@ -30,11 +32,6 @@ def begin_of(sync: Floats, rate_hz: float, levels: NDArray[np.bool_], bit_clock_
         Where the emission is expected.
     slack : int
         Samples by which it may be earlier or later.
-
-    Raises
-    ------
-    CalibrationError
-        If it is not found there.
     """
     count = round(len(levels) / bit_clock_hz * rate_hz)
     first = max(round(nominal) - slack, 0)

@@ -23,20 +23,12 @@ ABOVE_NOISE = 4.0  # in power
 
 @dataclass(frozen=True)
 class Decay:
-    """Decay in a part of the band.
-
-    Attributes
-    ----------
-    time_s : float
-        In which displacement falls to 1/e.
-    error_s : float
-        Its standard deviation, from the scatter between channels.
-    """
+    """Decay in a part of the band."""
 
     low_hz: float
     high_hz: float
-    time_s: float
-    error_s: float
+    time_s: float  # in which displacement falls to 1/e
+    error_s: float  # its standard deviation, from the scatter between channels
 
 
 def fit_decays(

@@ -43,22 +43,12 @@ DERIVATIVES = {"m": 0, "m/s": 1, "m/s^2": 2}
 
 @dataclass(frozen=True, eq=False)
 class RawBins:
-    """Frequencies at which responses are found: multiples of bit_clock_hz / length.
-
-    Attributes
-    ----------
-    length : int
-        Samples of the bit clock after which a response would repeat; longer than any record.
-    first : int
-        Number of the lowest.
-    gain : (bin,) array
-        1 wherever the waveform's filter passes anything; falls to 0 beyond, over half the filter's edge.
-    """
+    """Frequencies at which responses are found: multiples of bit_clock_hz / length."""
 
     bit_clock_hz: float
-    length: int
-    first: int
-    gain: Floats
+    length: int  # samples of the bit clock after which a response would repeat; longer than any record
+    first: int  # number of the lowest
+    gain: Floats  # (bin,): 1 wherever the waveform's filter passes anything; falls to 0 beyond, over half the filter's edge
 
     @classmethod
     def of(cls, board: Board, longest_s: float) -> RawBins:
@@ -109,44 +99,28 @@ class RawBins:
 
 @dataclass(frozen=True, eq=False)
 class Transfers:
-    """Transfer functions of one point.
+    """Transfer functions of one point."""
 
-    Attributes
-    ----------
-    transfer : (32, bin) complex64 array
-        In m s per V; zero where not resolved.
-    resolved : (32,) bool array
-        Whether the records that are there determine the channel.
-    variance : (32,) array
-        Of the real and imaginary parts of `transfer` together, mean over the bins; NaN where nothing is left to tell it from.
-    coherence : (32,) array
-        Share of the power of the records that a channel's drive explains, of what it and noise make, mean over the band.
-    residual : float
-        Power of the records that no drive explains, over all of their power; NaN where nothing is left.
-    clipped : int
-        Records that were left out since they are clipped.
-    """
-
-    transfer: NDArray[np.complex64]
-    resolved: NDArray[np.bool_]
+    transfer: NDArray[np.complex64]  # (32, bin): in m s per V; zero where not resolved
+    resolved: NDArray[np.bool_]  # (32,): whether the records that are there determine the channel
+    # (32,): of the real and imaginary parts of `transfer` together, mean over the bins; NaN where nothing is left to tell it
+    # from
     variance: Floats
+    # (32,): share of the power of the records that a channel's drive explains, of what it and noise make, mean over the band
     coherence: Floats
-    residual: float
-    clipped: int = 0
+    residual: float  # power of the records that no drive explains, over all of their power; NaN where nothing is left
+    clipped: int = 0  # records that were left out since they are clipped
 
 
 class Deconvolution:
     """Deconvolves the records of a measurement.
 
+    Raises CalibrationError if the recorder is too slow for the band, or what was played determines no channel, with what to do.
+
     Parameters
     ----------
     length : int
         Samples of a record.
-
-    Raises
-    ------
-    CalibrationError
-        If the recorder is too slow for the band, or what was played determines no channel, with what to do.
     """
 
     def __init__(self, measurement: Measurement, board: Board, length: int) -> None:
@@ -259,10 +233,7 @@ class Deconvolution:
     def excited_hz(self) -> tuple[float, float]:
         """Lowest and highest frequency at which what was played determines every channel that it drives.
 
-        Raises
-        ------
-        CalibrationError
-            If there is none.
+        Raises CalibrationError if there is none.
         """
         everything = np.ones(self._played.shape[1], int)
         resolution = self._operator(everything)[2]

@@ -25,23 +25,12 @@ def responses_in_time(
     measurement: Measurement,
     board: Board,
     deconvolution: Deconvolution,
-    results: dict[int, Transfers],
-    samples: int,
-    delay_s: float,
-    files: dict[Path, str],
+    results: dict[int, Transfers],  # number of a point to its transfer functions
+    samples: int,  # of a response, if records are that long
+    delay_s: float,  # taken out
+    files: dict[Path, str],  # SHA-256 of each file
 ) -> tuple[LearnedResponses, float]:
     """Responses in time, with the noise of each: from the variance of its transfer function, else from what precedes the pulse.
-
-    Parameters
-    ----------
-    results : dict
-        Number of a point to its transfer functions.
-    samples : int
-        Of a response, if records are that long.
-    delay_s : float
-        Taken out.
-    files : dict
-        SHA-256 of each file.
 
     Returns
     -------

@@ -96,10 +96,7 @@ class _Control:
 def read_ahap(file: Path) -> Clip:
     """Read a clip.
 
-    Raises
-    ------
-    ConfigError
-        If it is no AHAP.
+    Raises ConfigError if it is no AHAP.
     """
     items = decoded_json(file, _File).pattern
     ignored: Counter[str] = Counter()

@@ -24,10 +24,7 @@ ROOTS: Final = ("vibration-effect", "vibration")  # the second is an older name 
 def read_android(file: Path) -> Clip:
     """Read a clip; what repeats is played once.
 
-    Raises
-    ------
-    ConfigError
-        If it is no effect of Android, or has a value that such an effect cannot have.
+    Raises ConfigError if it is no effect of Android, or has a value that such an effect cannot have.
     """
     ignored: Counter[str] = Counter()
     vibrations: list[Vibration] = []

@@ -73,10 +73,7 @@ class _Version(Struct, rename={"version": "m_version", "later": "version"}):
 def read_haps(file: Path) -> Clip:
     """Read a clip.
 
-    Raises
-    ------
-    ConfigError
-        If it is no .haps of this version.
+    Raises ConfigError if it is no .haps of this version.
     """
     found = decoded_json(file, _Version)
     version = found.later if found.version is None else found.version

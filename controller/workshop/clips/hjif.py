@@ -82,10 +82,7 @@ class _Placed(NamedTuple):
 def read_hjif(file: Path) -> Clip:
     """Read a clip.
 
-    Raises
-    ------
-    ConfigError
-        If it is no HJIF, or refers to an effect that it does not have.
+    Raises ConfigError if it is no HJIF, or refers to an effect that it does not have.
     """
     read = decoded_json(file, _File)
     year = re.match(r"(\d{4})(-\d+)?$", read.version)

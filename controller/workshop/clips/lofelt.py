@@ -63,10 +63,7 @@ class _File(Struct):
 def read_haptic(file: Path) -> Clip:
     """Read a clip.
 
-    Raises
-    ------
-    ConfigError
-        If it is no .haptic of this major version.
+    Raises ConfigError if it is no .haptic of this major version.
     """
     read = decoded_json(file, _File)
     if read.version.major != MAJOR:

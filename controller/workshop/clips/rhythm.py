@@ -24,31 +24,19 @@ ROUNDED_MS: Final = 10.0**-DECIMALS
 
 
 class ImportReport(NamedTuple):
-    """What became of a clip.
+    """What became of a clip."""
 
-    Attributes
-    ----------
-    taps, taps_kept, wanted, kept : int
-        Of its taps, and of the pulses of its vibrations.
-    silent, lifted : int
-        Pulses below half of the least amplitude, which are left out, and those between that and the least, which have the least.
-    too_close : int
-        Left out since another one is nearer than the duty allows.
-    slowed : int
-        Pulses where the file's frequency is higher than the duty allows: they follow each other as fast as it does.
-    ignored : dict
-        What has no counterpart, by its name in the file.
-    """
-
-    taps: int
+    taps: int  # taps, taps_kept, wanted, kept: of its taps, and of the pulses of its vibrations
     taps_kept: int
     wanted: int
     kept: int
+    # silent, lifted: pulses below half of the least amplitude, which are left out, and those between that and the least, which
+    # have the least
     silent: int
     lifted: int
-    too_close: int
-    slowed: int
-    ignored: dict[str, int]
+    too_close: int  # left out since another one is nearer than the duty allows
+    slowed: int  # pulses where the file's frequency is higher than the duty allows: they follow each other as fast as it does
+    ignored: dict[str, int]  # what has no counterpart, by its name in the file
 
 
 def rhythm_of(clip: Clip, least_ms: float, low_hz: float, high_hz: float) -> tuple[list[list[float]], ImportReport]:

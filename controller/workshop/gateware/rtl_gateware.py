@@ -31,17 +31,14 @@ LINES: Final = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "ua
 class RtlGateware:
     """`haptic_core.v` with its pins: a `Gateware`.
 
+    Raises LinkError if the library cannot be built.
+
     Parameters
     ----------
     parameters : BuildParameters
         Parameters of the Verilog module.
     compiling : callable
         Called before the library is built, which takes several seconds.
-
-    Raises
-    ------
-    LinkError
-        If the library cannot be built.
     """
 
     def __init__(self, parameters: BuildParameters, compiling: Callable[[], None] = lambda: None) -> None:

@@ -38,11 +38,6 @@ class UartPanel:
         Clock and baud rate of the gateware; a byte takes the time of ten bits, whenever the terminal delivers it.
     now_s : callable
         Clock that the gateware's clock follows; tick 0 is its present value.
-
-    Attributes
-    ----------
-    start_s : float
-        Time of tick 0.
     """
 
     def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:
@@ -50,7 +45,7 @@ class UartPanel:
         self._clock_hz = clock_hz
         self._byte_ticks = BITS_PER_BYTE * clock_hz / baud
         self._now_s = now_s
-        self.start_s = now_s()
+        self.start_s = now_s()  # time of tick 0
         self._tick = 0.0  # when the last byte had come
         self._answer_until = 0.0  # a frame that begins earlier is not answered
         self._line = bytearray()
@@ -110,11 +105,6 @@ class PseudoTerminal:
     ----------
     answer : callable
         Takes the bytes received, returns the bytes to send.
-
-    Attributes
-    ----------
-    device : str
-        Path of the terminal.
     """
 
     def __init__(self, answer: Callable[[bytes], bytes]) -> None:
@@ -122,7 +112,7 @@ class PseudoTerminal:
         self._controller, self._terminal = os.openpty()  # the terminal stays open here, so that clients may come and go
         tty.setraw(self._terminal)
         os.set_blocking(self._controller, False)  # like a UART: bytes that nobody reads are lost
-        self.device = os.ttyname(self._terminal)
+        self.device = os.ttyname(self._terminal)  # path of the terminal
         self._stop, self._stopper = os.pipe()
         self._thread = threading.Thread(target=self._serve, name=f"panel at {self.device}", daemon=True)
         self._thread.start()

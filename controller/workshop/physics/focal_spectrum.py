@@ -32,21 +32,13 @@ HEARD_CLOCKS, HEARD_FREQUENCIES = 4.0, 4001  # frequencies of bits that heat, up
 
 @dataclass(frozen=True, eq=False)
 class FocalSpectrum:
-    """Frequencies of a focus.
-
-    Attributes
-    ----------
-    frequency_hz : (n,) array
-        Evenly from the lower to the upper edge of the band.
-    weight_s : (n,) array
-        w: share of the amplitude per hertz, of integral 1.
-    response_m_per_vs : float
-        Root mean square over all points, times from 0 and channels of the response to 1 V s, at time 0 (it falls as exp(-t / tau)).
-    """
+    """Frequencies of a focus."""
 
     plate: Plate
-    frequency_hz: Floats
-    weight_s: Floats
+    frequency_hz: Floats  # (n,): evenly from the lower to the upper edge of the band
+    weight_s: Floats  # (n,): w: share of the amplitude per hertz, of integral 1
+    # Root mean square over all points, times from 0 and channels of the response to 1 V s, at time 0 (it falls as exp(-t /
+    # tau))
     response_m_per_vs: float
 
     @classmethod

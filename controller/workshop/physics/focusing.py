@@ -59,6 +59,8 @@ def balanced_weights(responses: NDArray[np.floating[Any]]) -> NDArray[np.float64
 def focus(responses: NDArray[np.floating[Any]], weights: Sequence[float], idle_word: int) -> NDArray[np.uint32]:
     """Drive words that focus on one or several points at the end of the emission.
 
+    Raises ValueError if there is no point, or not one finite weight for each.
+
     Parameters
     ----------
     responses : (point, sample, 32) array
@@ -71,11 +73,6 @@ def focus(responses: NDArray[np.floating[Any]], weights: Sequence[float], idle_w
     Returns
     -------
     (sample,) uint32 array
-
-    Raises
-    ------
-    ValueError
-        If there is no point, or not one finite weight for each.
     """
     if responses.ndim != 3 or len(responses) == 0 or len(weights) != len(responses):
         raise ValueError(f"{len(weights)} weights do not fit responses of shape {responses.shape}")

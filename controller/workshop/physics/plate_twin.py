@@ -69,13 +69,6 @@ class PlateTwin:
         Groups kept (0.1 MB each); the one not used for longest goes first.
     modes : Modes, optional
         In place of those of the board's plate.
-
-    Attributes
-    ----------
-    scale : FocusScale
-        Where foci are measured.
-    work : Work
-        Counters.
     """
 
     def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256, modes: Modes | None = None) -> None:
@@ -83,8 +76,8 @@ class PlateTwin:
         self.modes = modes_of(board, highest_hz) if modes is None else modes
         self.step = StepResponse.of(self.modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.modes)
-        self.scale = FocusScale.of(board)
-        self.work = Work()
+        self.scale = FocusScale.of(board)  # where foci are measured
+        self.work = Work()  # counters
         self._remembered = remembered
         self._group_states: OrderedDict[bytes, GroupState] = OrderedDict()
         self._table: Floats | None = None

@@ -60,10 +60,7 @@ class Repository:
     def opened(cls, folder: Path, *, new: bool = False, dated: str | None = None) -> Iterator[Repository]:
         """Lock a repository, or a new one.
 
-        Raises
-        ------
-        UpdateError
-            If it is none (or there is one), or another process works on it.
+        Raises UpdateError if it is none (or there is one), or another process works on it.
         """
         repository = cls(folder, dated)
         if new:
@@ -105,17 +102,14 @@ class Repository:
     def changed(self, role: str, now: datetime, edit: Callable[[Any], None] = lambda _: None) -> Metadata[Any]:
         """The next version of what is published of a role, without signatures.
 
+        Raises UpdateError if nothing of it is published yet; for the timestamp, if now is no time that it can be made at.
+
         Parameters
         ----------
         now : datetime
             Its life begins now.
         edit : callable
             Changes its content.
-
-        Raises
-        ------
-        UpdateError
-            If nothing of it is published yet; for the timestamp, if now is no time that it can be made at.
         """
         found = self.published(role)
         if found is None:
@@ -132,10 +126,7 @@ class Repository:
     def must_have_no_draft(self) -> None:
         """Check that nothing waits for signatures.
 
-        Raises
-        ------
-        UpdateError
-            If a draft does.
+        Raises UpdateError if a draft does.
         """
         if self.draft.exists():
             raise UpdateError(
@@ -163,15 +154,13 @@ class Repository:
     def sign(self, signer: CryptoSigner) -> list[str]:
         """Sign every role of the draft that this key counts for.
 
+        Raises UpdateError if there is no draft, the key counts for nothing of it, or it is dated as no timestamp may be that
+        follows the last.
+
         Returns
         -------
         list of str
             The roles.
-
-        Raises
-        ------
-        UpdateError
-            If there is no draft, the key counts for nothing of it, or it is dated as no timestamp may be that follows the last.
         """
         roles = [role for role in self._draft_roles() if signer.public_key.keyid in self.signers(role)]
         if not roles:
@@ -188,15 +177,12 @@ class Repository:
     def take(self, folder: Path) -> list[str]:
         """Take over signatures from a copy of the draft, which was signed elsewhere.
 
+        Raises UpdateError if it is the copy of another draft, or has a signature that does not hold.
+
         Returns
         -------
         list of str
             Whose they are.
-
-        Raises
-        ------
-        UpdateError
-            If it is the copy of another draft, or has a signature that does not hold.
         """
         other, taken = Repository(folder), set()
         if not other.draft.is_dir():
@@ -235,15 +221,12 @@ class Repository:
 
         A copy without `targets/`, in which somebody has signed elsewhere, publishes nothing.
 
+        Raises UpdateError if the draft contradicts what is published, or files of it are missing or altered.
+
         Returns
         -------
         bool
             Whether it was published.
-
-        Raises
-        ------
-        UpdateError
-            If the draft contradicts what is published, or files of it are missing or altered.
         """
         if self.lacking() or not self.targets.is_dir():
             return False

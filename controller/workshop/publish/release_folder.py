@@ -30,6 +30,8 @@ def write_release(
 ) -> Manifest:
     """Write the folder of a release; it is there whole, or not at all.
 
+    Raises UpdateError if the folder exists, the manifest is not valid, or it cannot be written: nothing is left of it.
+
     Parameters
     ----------
     out : Path
@@ -45,11 +47,6 @@ def write_release(
     -------
     Manifest
         The files included.
-
-    Raises
-    ------
-    UpdateError
-        If the folder exists, the manifest is not valid, or it cannot be written: nothing is left of it.
     """
     if out.exists():
         raise UpdateError(f"{out}: exists: a release is never overwritten, remove it or name another folder")
@@ -76,10 +73,7 @@ def write_release(
 def read_release(folder: Path) -> Manifest:
     """The manifest of a release, all its files looked at.
 
-    Raises
-    ------
-    UpdateError
-        If a file is missing, another one, or not listed: the release was altered after it was made.
+    Raises UpdateError if a file is missing, another one, or not listed: the release was altered after it was made.
     """
     try:
         data = (folder / MANIFEST).read_bytes()

@@ -23,10 +23,7 @@ METADATA: Final = re.compile(rb"^Version: \S+$", re.MULTILINE)
 def check_version(version: str) -> None:
     """Check that a release's version is one of Python's, in the form that wheels have.
 
-    Raises
-    ------
-    UsageError
-        If not.
+    Raises UsageError if not.
     """
     try:
         canonical = str(Version(version))
@@ -39,15 +36,12 @@ def check_version(version: str) -> None:
 def with_version(wheel: Path, version: str, folder: Path) -> Path:
     """A wheel of this project with another version: in its name, its metadata, its manual and `controller.__version__`.
 
+    Raises UpdateError if it is no wheel of this project.
+
     Parameters
     ----------
     folder : Path
         Where it goes. The same wheel makes the same bytes.
-
-    Raises
-    ------
-    UpdateError
-        If it is no wheel of this project.
     """
     name, old, *tags = wheel.name.split("-")
     parse_wheel_filename(wheel.name)

@@ -46,6 +46,8 @@ def serve(
 ) -> None:
     """Run the simulated panel until SIGTERM or SIGINT.
 
+    Raises ControllerError if scene or socket cannot be opened, or from the event loop.
+
     Parameters
     ----------
     settings : ApplicationSocket
@@ -58,11 +60,6 @@ def serve(
         Called once the outputs are on.
     fingers : int
         How many, at most `len(SWINGS_MM)`.
-
-    Raises
-    ------
-    ControllerError
-        If scene or socket cannot be opened, or from the event loop.
     """
     clock = MonotonicClock()
     scene = load_scene(find_scene(board), board)

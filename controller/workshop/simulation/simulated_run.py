@@ -41,20 +41,11 @@ REFERENCE_ROUNDS = 2000
 
 @dataclass(frozen=True)
 class Hardware:
-    """What is simulated behind the loop.
+    """What is simulated behind the loop."""
 
-    Attributes
-    ----------
-    gateware : GatewareFactory
-        Makes the gateware: the model by default, or the compiled Verilog.
-    plate : Board, optional
-        Whose plate and driver are behind the pins, if they are not the board's.
-    drift : Drift, optional
-        Of the plate's frequencies; the board's temperature sensor, if it has one, says the temperature that this means.
-    """
-
-    gateware: GatewareFactory = GatewareModel
-    plate: Board | None = None
+    gateware: GatewareFactory = GatewareModel  # makes the gateware: the model by default, or the compiled Verilog
+    plate: Board | None = None  # whose plate and driver are behind the pins, if they are not the board's
+    # Of the plate's frequencies; the board's temperature sensor, if it has one, says the temperature that this means
     drift: Drift | None = None
 
 
@@ -87,33 +78,17 @@ class Run:
 def play(
     board: Board,
     scene: Scene,
-    bank: Bank,
-    recording: Recording,
+    bank: Bank,  # holds the cells of the scene
+    recording: Recording,  # touches; without any, nothing is played
     *,
-    real_time: bool,
-    ready: Callable[[], None] = lambda: None,
-    skips: Skips = ALL,
+    real_time: bool,  # false: virtual time, as fast as the machine can and deterministic
+    ready: Callable[[], None] = lambda: None,  # called once the outputs are on
+    skips: Skips = ALL,  # what of the loop's work is left out
     hardware: Hardware = MODEL,
 ) -> Run:
     """Replay a recording through the event loop into the gateware.
 
-    Parameters
-    ----------
-    bank : Bank
-        Holds the cells of the scene.
-    recording : Recording
-        Touches; without any, nothing is played.
-    real_time : bool
-        False: virtual time, as fast as the machine can and deterministic.
-    ready : callable
-        Called once the outputs are on.
-    skips : Skips
-        What of the loop's work is left out.
-
-    Raises
-    ------
-    FaultError, LinkError
-        From the event loop.
+    Raises FaultError or LinkError from the event loop.
     """
     clock = MonotonicClock() if real_time else VirtualClock()
     link = open_simulated(board, clock.now_s, hardware.gateware)

@@ -24,6 +24,8 @@ class Link(Protocol):
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames, each under its own chip select, and store the answers.
 
+        Raises LinkError if the device fails.
+
         Parameters
         ----------
         sent : memoryview of bytes
@@ -32,11 +34,6 @@ class Link(Protocol):
             Bytes of each frame.
         received : memoryview of bytes
             As large as `sent`; the answer to each frame is stored at the frame's offset.
-
-        Raises
-        ------
-        LinkError
-            If the device fails.
         """
 
     def trigger(self) -> float:

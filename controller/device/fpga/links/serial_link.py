@@ -43,6 +43,8 @@ def on_wire(frame: ReadableBuffer) -> bytes:
 class SerialLink:
     """`Link` to a panel at a serial port.
 
+    Raises LinkError if the port cannot be opened.
+
     Parameters
     ----------
     device : str
@@ -53,11 +55,6 @@ class SerialLink:
         The loop's clock.
     latency_s : float
         Longest delay of an answer beyond its time on the wire.
-
-    Raises
-    ------
-    LinkError
-        If the port cannot be opened.
     """
 
     def __init__(self, device: str, baud: int, now_s: Callable[[], float], latency_s: float = LATENCY_S) -> None:
@@ -79,10 +76,7 @@ class SerialLink:
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames and store each answer at the frame's offset, with zeros after it; parameters as in `Link.exchange`.
 
-        Raises
-        ------
-        LinkError
-            If an answer is missing or damaged, or the port fails; the next call opens a failed port again.
+        Raises LinkError if an answer is missing or damaged, or the port fails; the next call opens a failed port again.
         """
         started_ns = time.perf_counter_ns()
         if not self._port.is_open:
@@ -113,15 +107,12 @@ class SerialLink:
     def trigger(self) -> float:
         """Send a TRIGGER command; its answer is read with the next message.
 
+        Raises LinkError if the port fails.
+
         Returns
         -------
         float
             When its last bit is sent, on the loop's clock; a USB bridge may add a millisecond.
-
-        Raises
-        ------
-        LinkError
-            If the port fails.
         """
         # half the range away from the next message, so that it is never taken for one of that message's frames
         sequence = (self._message + 0x80) & 0xFF

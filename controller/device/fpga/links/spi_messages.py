@@ -26,6 +26,8 @@ def message_request(transfers: int) -> int:
 def split(lengths: Sequence[int], bufsiz: int) -> list[int]:
     """Distribute frames over messages that each fit the kernel's buffer.
 
+    Raises LinkError if one frame alone does not fit.
+
     Parameters
     ----------
     lengths : sequence of int
@@ -37,11 +39,6 @@ def split(lengths: Sequence[int], bufsiz: int) -> list[int]:
     -------
     list of int
         Frames in each message.
-
-    Raises
-    ------
-    LinkError
-        If one frame alone does not fit.
     """
     counts = [0]
     used = 0
@@ -83,6 +80,8 @@ class SpiMessages:
     def for_lengths(self, lengths: Sequence[int]) -> tuple[tuple[int, bytearray, int], ...]:
         """Messages for frames that lie back to back from 0 on.
 
+        Raises LinkError if a frame does not fit spidev's buffer; ValueError if the frames reach beyond the buffers.
+
         Parameters
         ----------
         lengths : sequence of int
@@ -92,13 +91,6 @@ class SpiMessages:
         -------
         tuple of (int, bytearray, int)
             For each message the request number, the transfers as bytes, and the bytes on the wire.
-
-        Raises
-        ------
-        LinkError
-            If a frame does not fit spidev's buffer.
-        ValueError
-            If the frames reach beyond the buffers.
         """
         pattern = tuple(lengths)
         known = self._known.get(pattern)

@@ -31,15 +31,10 @@ class HelperProcess:
         What it prepares: a word that `scene_helper_process` knows.
     limit_s : float
         Time limit of one preparation, in s.
-
-    Attributes
-    ----------
-    pid : int
-        Process id of the last one started; 0: there was none.
     """
 
     def __init__(self, what: str, limit_s: float) -> None:
-        self.pid = 0
+        self.pid = 0  # process id of the last one started; 0: there was none
         self.socket: socket.socket | None = None
         self._arguments = (what, repr(limit_s))
         self._cpus = os.sched_getaffinity(0)

@@ -51,10 +51,7 @@ class LayerChecker:
     def answer(self, line: bytes, placement: Placement) -> bytes:
         """The answer to a request: the layer as a message.
 
-        Raises
-        ------
-        ControllerError
-            If the layer as a whole is refused.
+        Raises ControllerError if the layer as a whole is refused.
         """
         layer = self._with_waveforms(read_layer(line, self._board), placement)
         regions = layer.regions

@@ -28,6 +28,8 @@ GRACE_S = 5.0  # after that limit, until the helper itself counts as hanging
 class SceneChanger:
     """A `SceneChange` that starts and uses a helper process.
 
+    Raises ConfigError if there is no such scene.
+
     Parameters
     ----------
     name : str
@@ -36,11 +38,6 @@ class SceneChanger:
         The bank in use.
     limit_s : float
         Time limit of one preparation, in s.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such scene.
     """
 
     def __init__(self, board: Board, name: str, bank: Bank, limit_s: float = LIMIT_S) -> None:
@@ -73,10 +70,7 @@ class SceneChanger:
     def begin(self, name: str | None, ticket: int) -> None:
         """Prepare a scene; None: read the scene in force again.
 
-        Raises
-        ------
-        ConfigError
-            If another scene is being prepared; a reload (ticket 0) is instead deferred until that is done.
+        Raises ConfigError if another scene is being prepared; a reload (ticket 0) is instead deferred until that is done.
         """
         if self._wanted is not None and not ticket:
             self._again = True

@@ -91,10 +91,7 @@ class Trace(msgspec.Struct, frozen=True):
 def read_trace(file: Path) -> Trace:
     """Read a trace.
 
-    Raises
-    ------
-    ConfigError
-        If it cannot be read, or is no trace of a panel.
+    Raises ConfigError if it cannot be read, or is no trace of a panel.
     """
     try:
         read = msgspec.json.decode(read_text(file, BYTES_MAX), type=_File)

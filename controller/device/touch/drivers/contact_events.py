@@ -60,11 +60,6 @@ class ContactEvents:
     ----------
     sized : bool
         Whether the panel reports sizes of contacts.
-
-    Attributes
-    ----------
-    down : int
-        Contacts of the last report.
     """
 
     def __init__(self, *, sized: bool) -> None:
@@ -75,7 +70,7 @@ class ContactEvents:
         self._report = 0
         self._slot = -1
         self._next_id = 0
-        self.down = 0
+        self.down = 0  # contacts of the last report
 
     def report(self, contacts: Sequence[ReportedContact], time_s: float) -> list[Event]:
         """Events of a report.

@@ -39,17 +39,14 @@ class LinuxInput:
     After a loss of events in the kernel's buffer (SYN_DROPPED) the device's state is read and given as a report. Events
     still in the buffer are older than that state and are discarded first, as libevdev does.
 
+    Raises TouchError if it is absent, cannot be opened or is no touch panel, or if several panels have this name.
+
     Parameters
     ----------
     device : str
         Path, best below /dev/input/by-path, or the name that the device reports.
     grab : bool
         Whether other programs stop receiving its events.
-
-    Raises
-    ------
-    TouchError
-        If it is absent, cannot be opened or is no touch panel, or if several panels have this name.
     """
 
     def __init__(self, device: str, *, grab: bool = False) -> None:

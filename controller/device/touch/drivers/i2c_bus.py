@@ -39,11 +39,6 @@ class Transfer:
         Address of the first register, as it is sent.
     size_bytes : int
         How many bytes to read.
-
-    Attributes
-    ----------
-    data : memoryview of bytes
-        As read last.
     """
 
     def __init__(self, address: int, register: bytes, size_bytes: int) -> None:
@@ -51,11 +46,13 @@ class Transfer:
 
         self.messages: tuple[Any, Any] = (write_message(address, register), smbus2.i2c_msg.read(address, size_bytes))
         start = ctypes.addressof(self.messages[1].buf.contents)  # the message keeps its buffer alive
-        self.data = memoryview((ctypes.c_uint8 * size_bytes).from_address(start)).cast("B")
+        self.data = memoryview((ctypes.c_uint8 * size_bytes).from_address(start)).cast("B")  # as read last
 
 
 class I2cBus:
     """An open bus.
+
+    Raises TouchError if it cannot be opened, or its adapter has no combined messages.
 
     Parameters
     ----------
@@ -63,11 +60,6 @@ class I2cBus:
         Of the bus, such as /dev/i2c-1.
     warnings : Counter of str
         Counts `bus_retried`.
-
-    Raises
-    ------
-    TouchError
-        If it cannot be opened, or its adapter has no combined messages.
     """
 
     def __init__(self, path: str, warnings: Counter[str]) -> None:
@@ -88,25 +80,19 @@ class I2cBus:
     def fetch(self, transfer: Transfer) -> None:
         """Read into the buffer of a `transfer`.
 
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
+        Raises OSError if the last attempt fails.
         """
         self._run(transfer.messages)
 
     def read(self, address: int, register: bytes, size_bytes: int) -> bytes:
         """Read registers once.
 
+        Raises OSError if the last attempt fails.
+
         Parameters
         ----------
         address, register, size_bytes
             As of `Transfer`.
-
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
         """
         transfer = Transfer(address, register, size_bytes)
         self.fetch(transfer)
@@ -115,15 +101,12 @@ class I2cBus:
     def ask(self, address: int, register: bytes, size_bytes: int) -> bytes | None:
         """Read registers that the device may lack; None if it does not acknowledge them.
 
+        Raises OSError if the bus fails in another way.
+
         Parameters
         ----------
         address, register, size_bytes
             As of `Transfer`.
-
-        Raises
-        ------
-        OSError
-            If the bus fails in another way.
         """
         try:
             return self.read(address, register, size_bytes)
@@ -135,15 +118,12 @@ class I2cBus:
     def offer(self, address: int, data: bytes) -> bool:
         """Write registers that the device may lack; False if it does not acknowledge them.
 
+        Raises OSError if the bus fails in another way.
+
         Parameters
         ----------
         address, data
             As of `write`.
-
-        Raises
-        ------
-        OSError
-            If the bus fails in another way.
         """
         try:
             self.write(address, data)
@@ -156,15 +136,14 @@ class I2cBus:
     def send(self, message: Any) -> None:
         """Send a `message` made with `write_message`.
 
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
+        Raises OSError if the last attempt fails.
         """
         self._run((message,))
 
     def write(self, address: int, data: bytes) -> None:
         """Write registers.
+
+        Raises OSError if the last attempt fails.
 
         Parameters
         ----------
@@ -172,11 +151,6 @@ class I2cBus:
             Of the device on the bus.
         data : bytes
             Register address and values.
-
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
         """
         self.send(write_message(address, data))
 

@@ -31,24 +31,17 @@ RETRY_S: Final = 0.5  # between attempts to start a lost chip
 
 
 class Chip(Protocol):
-    """A touch controller: its start sequence, and how a report is read.
+    """A touch controller: its start sequence, and how a report is read."""
 
-    Attributes
-    ----------
-    name : str
-        In messages.
-    scan_s : float
-        Time between its scans for contacts, as far as known; another one perhaps after each start.
-    marks_reports : bool
-        `fetch` gives a report once, and None as long as there is no other; else it gives the state, again and again.
-    """
-
-    name: str
-    scan_s: float
+    name: str  # in messages
+    scan_s: float  # time between its scans for contacts, as far as known; another one perhaps after each start
+    # `fetch` gives a report once, and None as long as there is no other; else it gives the state, again and again
     marks_reports: bool
 
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
         """Reset and identify the chip.
+
+        Raises OSError if it does not answer; TouchError if another device answers.
 
         Parameters
         ----------
@@ -61,13 +54,6 @@ class Chip(Protocol):
         ------
         float
             Time in s to wait before the next step.
-
-        Raises
-        ------
-        OSError
-            If it does not answer.
-        TouchError
-            If another device answers.
         """
 
     @property
@@ -81,6 +67,8 @@ class Chip(Protocol):
     def fetch(self, bus: I2cBus) -> Sequence[ReportedContact] | None:
         """Read the newest report.
 
+        Raises OSError if it does not answer; ValueError if the report has impossible content.
+
         Parameters
         ----------
         bus : I2cBus
@@ -90,18 +78,13 @@ class Chip(Protocol):
         -------
         sequence of ReportedContact, or None
             All contacts that are down; None if there is no new report, or none that can be believed.
-
-        Raises
-        ------
-        OSError
-            If it does not answer.
-        ValueError
-            If the report has impossible content.
         """
 
 
 class I2cReader:
     """An `EventReader` of a chip on a bus.
+
+    Raises TouchError if bus, lines or chip are absent.
 
     Parameters
     ----------
@@ -111,11 +94,6 @@ class I2cReader:
         Start sequence and report format.
     warnings : Counter of str
         Counts anomalies; shared with the chip.
-
-    Raises
-    ------
-    TouchError
-        If bus, lines or chip are absent.
     """
 
     def __init__(self, settings: I2cTouch, chip: Chip, warnings: Counter[str]) -> None:

@@ -79,24 +79,13 @@ class PanelProcess:
     ----------
     worker : Worker
         Process that runs `serve_panel`.
-
-    Attributes
-    ----------
-    warnings : Counter of str
-        Anomalies found by the driver, by kind.
-    description : DeviceDescription
-        Of the device as it was opened last; `NO_DEVICE` before.
-    present : bool
-        Whether the panel was connected when the process last reported it.
-    cause : str
-        Why it is not connected; empty while it is, and before the first attempt to open it.
     """
 
     def __init__(self, worker: Worker) -> None:
-        self.warnings: Counter[str] = Counter()
-        self.description: DeviceDescription = NO_DEVICE
-        self.present = False
-        self.cause = ""
+        self.warnings: Counter[str] = Counter()  # anomalies found by the driver, by kind
+        self.description: DeviceDescription = NO_DEVICE  # of the device as it was opened last; `NO_DEVICE` before
+        self.present = False  # whether the panel was connected when the process last reported it
+        self.cause = ""  # why it is not connected; empty while it is, and before the first attempt to open it
         self._worker = worker
         self._hangs_s = math.inf  # when the process is taken to hang unless it has sent a message
 
@@ -110,10 +99,7 @@ class PanelProcess:
     def read(self, now_s: float) -> Sequence[Event]:
         """Events of at most one report received by `now_s`; see `EventReader.read`.
 
-        Raises
-        ------
-        WorkerEnded
-            If the process has ended: no behaviour of a panel ends it.
+        Raises WorkerEnded if the process has ended: no behaviour of a panel ends it.
         """
         message = self._worker.receive()
         if message is None:

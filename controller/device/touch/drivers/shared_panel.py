@@ -82,17 +82,12 @@ class SharedPanel:
         Sides of the plate.
     open_screen : callable
         Makes the touch screen, by name and sides in mm, or raises TouchError.
-
-    Attributes
-    ----------
-    warnings : Counter of str
-        Counts `share_lost`.
     """
 
     def __init__(
         self, touch: TouchPanel, length_m: float, width_m: float, open_screen: Callable[[str, float, float], TouchScreen] = Screen
     ) -> None:
-        self.warnings: Counter[str] = Counter()
+        self.warnings: Counter[str] = Counter()  # counts `share_lost`
         self._sides_mm = (length_m * 1e3, width_m * 1e3)
         self._open_screen = open_screen
         self._screen: TouchScreen | None = None

@@ -66,6 +66,8 @@ class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft
 def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[ReportedContact] | None:
     """Decode a report.
 
+    Raises ValueError if the report has more than `MAX_CONTACTS` contacts.
+
     Parameters
     ----------
     report : bytes
@@ -79,11 +81,6 @@ def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool 
     -------
     list of ReportedContact, or None
         None if the report has more contacts than were read, unless `in_part`.
-
-    Raises
-    ------
-    ValueError
-        If the report has more than `MAX_CONTACTS` contacts.
     """
     count = report[STATUS] & 0x0F
     if count > MAX_CONTACTS:
@@ -99,17 +96,14 @@ def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool 
 def contacts_of_m06(report: Sequence[int], warnings: Counter[str]) -> list[ReportedContact]:
     """Decode a report of an EDT M06.
 
+    Raises ValueError if its header or its checksum is wrong.
+
     Parameters
     ----------
     report : bytes
         Answer to `M06_REPORT`, `M06_BYTES` long.
     warnings : Counter of str
         Counts `ghost_points`.
-
-    Raises
-    ------
-    ValueError
-        If its header or its checksum is wrong.
     """
     if bytes(report[: len(M06_HEADER)]) != M06_HEADER:
         raise ValueError("no header of a report")
@@ -273,10 +267,7 @@ class Ft5x06:
 def open_panel(settings: Ft5x06Touch) -> I2cReader:
     """Start the panel of a board with these `settings`.
 
-    Raises
-    ------
-    TouchError
-        If bus, lines or chip are absent.
+    Raises TouchError if bus, lines or chip are absent.
     """
     warnings: Counter[str] = Counter()
     from controller.device.touch.drivers.i2c_reader import I2cReader

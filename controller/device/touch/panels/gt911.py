@@ -56,6 +56,8 @@ class Gt911Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="gt9
 def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[ReportedContact] | None:
     """Decode a report.
 
+    Raises ValueError if the report has more than `MAX_CONTACTS` contacts.
+
     Parameters
     ----------
     report : bytes
@@ -69,11 +71,6 @@ def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool 
     -------
     list of ReportedContact, or None
         None if the report has more contacts than were read, unless `in_part`.
-
-    Raises
-    ------
-    ValueError
-        If the report has more than `MAX_CONTACTS` contacts.
     """
     count = report[0] & 0x0F
     if count > MAX_CONTACTS:
@@ -97,17 +94,14 @@ def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool 
 def product_of(identity: bytes, bus: str) -> str:
     """Product number of a chip.
 
+    Raises TouchError if it is not one of `PRODUCTS`.
+
     Parameters
     ----------
     identity : bytes
         Registers from `PRODUCT_ID` on.
     bus : str
         In the message.
-
-    Raises
-    ------
-    TouchError
-        If it is not one of `PRODUCTS`.
     """
     name = identity[:4].rstrip(b"\0")
     if name.decode("ascii", "replace") in PRODUCTS:
@@ -229,12 +223,7 @@ class Gt911:
 
         Without an interrupt line to select it, the address is the one of the level at power-up.
 
-        Raises
-        ------
-        OSError
-            If no chip answers.
-        TouchError
-            If what answers is no report.
+        Raises OSError if no chip answers; TouchError if what answers is no report.
         """
         for address in addresses:
             product = bus.ask(address, PRODUCT_ID, PRODUCT_BYTES)
@@ -272,10 +261,7 @@ class Gt911:
 def open_panel(settings: Gt911Touch) -> I2cReader:
     """Start the panel of a board with these `settings`.
 
-    Raises
-    ------
-    TouchError
-        If bus, lines or chip are absent.
+    Raises TouchError if bus, lines or chip are absent.
     """
     warnings: Counter[str] = Counter()
     from controller.device.touch.drivers.i2c_reader import I2cReader

@@ -35,18 +35,10 @@ CLOCK_SET_EVENTS = 50  # if this many events later the times are still off, the 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """Reported positions of one finger from its first report to its last.
+    """Reported positions of one finger from its first report to its last."""
 
-    Attributes
-    ----------
-    finger : int
-        Number in the touch samples.
-    time_s, x_m, y_m : (report,) float64 arrays
-        One entry for each report while the finger was down.
-    """
-
-    finger: int
-    time_s: NDArray[np.float64]
+    finger: int  # number in the touch samples
+    time_s: NDArray[np.float64]  # time_s, x_m, y_m: (report,): one entry for each report while the finger was down
     x_m: NDArray[np.float64]
     y_m: NDArray[np.float64]
 
@@ -75,6 +67,8 @@ class Track:
 class Recording:
     """One parsed recording.
 
+    Raises ConfigError: see `read_recording`.
+
     Parameters
     ----------
     text : str
@@ -83,52 +77,32 @@ class Recording:
         Name in messages.
     path : str
         Of the file, in errors; left out: the name.
-
-    Attributes
-    ----------
-    events : tuple of (type, code, value, time_s)
-        Time in s from the first event, never decreasing.
-    x, y : AxisRange
-        Ranges of the positions: as declared, else the smallest and largest value in the recording.
-    protocol : Protocol
-        As the device declares it or the stream shows it.
-    warnings : Counter of str
-        Anomalies in the text, by kind.
-    valid : bool
-        Whether at least one line is of a recording.
-
-    Raises
-    ------
-    ConfigError
-        See `read_recording`.
     """
 
     def __init__(self, text: str, name: str = "recording", path: str = "") -> None:
         self.name = name
-        self.warnings: Counter[str] = Counter()
+        self.warnings: Counter[str] = Counter()  # anomalies in the text, by kind
         device = read_recording(text, self.warnings, path or name)
-        self.valid = device is not None
+        self.valid = device is not None  # whether at least one line is of a recording
         device = device or RecordedDevice()
         self._declared = device.axes
         self._first_slot = device.slot
         times = rebased([event[3] for event in device.events], self.warnings)
+        # each (type, code, value, time_s): time in s from the first event, never decreasing
         self.events: tuple[Event, ...] = tuple(
             [(kind, code, value, time_s) for (kind, code, value, _), time_s in zip(device.events, times, strict=True)]
         )
+        # As the device declares it or the stream shows it
         self.protocol = protocol_of(self._declared, {(kind, code) for kind, code, _, _ in self.events})
         codes = ev.POSITIONS_SINGLE if self.protocol is Protocol.SINGLE else ev.POSITIONS
+        # Ranges of the positions: as declared, else the smallest and largest value in the recording
         self.x, self.y = (self._range(code, single) for code, single in zip(codes, ev.POSITIONS_SINGLE, strict=True))
 
     @classmethod
     def open(cls, path: Path) -> Recording:
         """Read the recording in the file `path`, at most `MAX_BYTES` long.
 
-        Raises
-        ------
-        TouchError
-            If the file cannot be read.
-        ConfigError
-            If it is no recording, holds no event, or see `read_recording`.
+        Raises TouchError if the file cannot be read; ConfigError if it is no recording, holds no event, or see `read_recording`.
         """
         try:
             data = read_regular(path, MAX_BYTES, links=True)

@@ -23,18 +23,11 @@ class RecordingSource:
         From `recording.axes(board)`.
     start_s : float
         Time of its first event on the loop's clock.
-
-    Attributes
-    ----------
-    counts : Counts
-        Reports, contacts and fingers replayed so far.
-    touched : bool
-        See `TouchSource.touched`.
     """
 
     def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:
         self._decoder = recording.decoder(axes)
-        self.counts: Counts = self._decoder.counts
+        self.counts: Counts = self._decoder.counts  # reports, contacts and fingers replayed so far
         self._events = recording.events
         self._start_s = start_s
         self._next = 0  # first event not yet fed
@@ -42,7 +35,7 @@ class RecordingSource:
         self._report = 0
         self._warnings = recording.warnings
         self._ended = not self._events
-        self.touched = False
+        self.touched = False  # see `TouchSource.touched`
         self._end_warnings: Counter[str] = Counter()
 
     @property

@@ -46,18 +46,10 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class BankIndex:
-    """Pieces of a file.
+    """Pieces of a file."""
 
-    Attributes
-    ----------
-    runs : tuple of (int, int)
-        How many pieces of which length in bytes follow each other.
-    digests : bytes
-        `DIGEST_BYTES` of each piece.
-    """
-
-    runs: tuple[tuple[int, int], ...]
-    digests: bytes
+    runs: tuple[tuple[int, int], ...]  # how many pieces of which length in bytes follow each other
+    digests: bytes  # `DIGEST_BYTES` of each piece
 
     @property
     def size_bytes(self) -> int:
@@ -80,15 +72,12 @@ class BankIndex:
 def write_index(file: Path, pieces: Iterable[tuple[int, int]]) -> bytes:
     """Index of a file; what lies between the pieces, and what is longer than `PIECE_BYTES_MAX`, is cut into pieces too.
 
+    Raises UpdateError if the pieces do not lie one after the other within the file, or are too many.
+
     Parameters
     ----------
     pieces : iterable of (int, int)
         Offset and length in bytes of what changes as one, such as the entry of a cell; by offset, none over another.
-
-    Raises
-    ------
-    UpdateError
-        If the pieces do not lie one after the other within the file, or are too many.
     """
     size = file.stat().st_size
     cuts: list[int] = []
@@ -110,15 +99,12 @@ def write_index(file: Path, pieces: Iterable[tuple[int, int]]) -> bytes:
 def read_index(data: bytes, origin: str) -> BankIndex:
     """An index from its bytes.
 
+    Raises UpdateError if it is not one.
+
     Parameters
     ----------
     origin : str
         What it is called in errors.
-
-    Raises
-    ------
-    UpdateError
-        If it is not one.
     """
     if len(data) < HEADER.size or len(data) > INDEX_BYTES_MAX or not data.startswith(MAGIC):
         raise UpdateError(f"{origin}: is no index of a bank")

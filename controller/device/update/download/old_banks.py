@@ -41,6 +41,9 @@ class OldBanks:
     def rebuilt(self, file: ReleaseFile, target: TargetFile, whole: Path) -> int | None:
         """Make a bank of old ones where that is worth it.
 
+        Raises DownloadError if something did not come; what came is kept for the next time. Raises OSError if it cannot be written;
+        nothing is left of it.
+
         Parameters
         ----------
         file : ReleaseFile
@@ -54,13 +57,6 @@ class OldBanks:
         -------
         int or None
             Bytes that were not fetched; None if the whole bank has to be.
-
-        Raises
-        ------
-        DownloadError
-            If something did not come; what came is kept for the next time.
-        OSError
-            If it cannot be written; nothing is left of it.
         """
         index, part = self._index(file, keep=True), whole.with_name(f"{whole.name}.rebuilt")
         if index is None or index.size_bytes != file.size_bytes:

@@ -19,6 +19,8 @@ def rebuild(
 ) -> int | None:
     """Make a bank from old banks and what is read for it. One that was begun before is gone on with.
 
+    Raises OSError.
+
     Parameters
     ----------
     part : Path
@@ -34,10 +36,6 @@ def rebuild(
     -------
     int or None
         Bytes that were not read; None if too much has changed, and nothing was read.
-
-    Raises
-    ------
-    OSError
     """
     with ExitStack() as stack:
         file = stack.enter_context(os.fdopen(os.open(part, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600), "r+b"))

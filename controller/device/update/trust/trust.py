@@ -47,31 +47,17 @@ LIMITS: Final = UpdaterConfig(
 
 
 class DeviceUpdater(Updater):
-    """Python-tuf's client, which takes for the time the later one of the clock's and what is known for sure.
-
-    Parameters
-    ----------
-    metadata : Path
-        Folder for what was verified; it exists.
-    root : bytes
-        The trusted root.json.
-    earliest : datetime
-        Time that it is at least.
-    now : datetime, optional
-        What the clock says; for tests.
-    kept : clock.Kept, optional
-        Time that it is at least too, unless a newer root is taken.
-    """
+    """Python-tuf's client, which takes for the time the later one of the clock's and what is known for sure."""
 
     def __init__(
         self,
-        metadata: Path,
+        metadata: Path,  # folder for what was verified; it exists
         source: Source,
-        root: bytes,
-        earliest: datetime,
-        now: datetime | None = None,
+        root: bytes,  # the trusted root.json
+        earliest: datetime,  # time that it is at least
+        now: datetime | None = None,  # what the clock says; for tests
         config: UpdaterConfig = LIMITS,
-        kept: clock.Kept | None = None,
+        kept: clock.Kept | None = None,  # time that it is at least too, unless a newer root is taken
     ) -> None:
         address = source.address
         super().__init__(str(metadata), f"{address}/metadata", None, f"{address}/targets", source, config, bootstrap=root)
@@ -96,10 +82,7 @@ class DeviceUpdater(Updater):
     def target(self, path: str) -> TargetFile:
         """What is signed about a file of the repository.
 
-        Raises
-        ------
-        UpdateError
-            If it has none of that name.
+        Raises UpdateError if it has none of that name.
         """
         target = self.get_targetinfo(path)
         if target is None:
@@ -109,9 +92,7 @@ class DeviceUpdater(Updater):
     def read(self, path: str, max_bytes: int) -> bytes:
         """A small file of the repository, checked.
 
-        Raises
-        ------
-        UpdateError, DownloadError, RepositoryError
+        Raises UpdateError or DownloadError or RepositoryError.
         """
         target = self.target(path)
         if target.length > max_bytes:
@@ -125,9 +106,7 @@ class DeviceUpdater(Updater):
     def chunks(self, target: TargetFile, start: int, length: int) -> Iterator[bytes]:
         """Bytes of a file of the repository, as they come; not checked.
 
-        Raises
-        ------
-        DownloadError
+        Raises DownloadError.
         """
         folder, slash, name = target.path.rpartition("/")
         if self._trusted_set.root.consistent_snapshot:
@@ -139,17 +118,14 @@ class DeviceUpdater(Updater):
 def trusted(layout: Layout, source: Source, built_s: int, now: datetime | None = None) -> Iterator[DeviceUpdater]:
     """A repository whose metadata was verified just now; no other process works on updates meanwhile.
 
+    Raises UpdateError for whatever is wrong with it, also within the block.
+
     Parameters
     ----------
     built_s : int
         When the running release was made, in s since 1970.
     now : datetime, optional
         What the clock says; for tests.
-
-    Raises
-    ------
-    UpdateError
-        For whatever is wrong with it, also within the block.
     """
     try:
         root = layout.trusted_root.read_bytes()
@@ -189,9 +165,7 @@ def sync_tree(folder: Path) -> None:
 def sha256_of(file: Path) -> str:
     """SHA-256 of a file, in hexadecimal digits.
 
-    Raises
-    ------
-    OSError
+    Raises OSError.
     """
     with file.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()

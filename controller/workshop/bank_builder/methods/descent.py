@@ -50,29 +50,18 @@ WORKING_BYTES = 120e6  # of levels, gradients and modal forces
 
 @dataclasses.dataclass(frozen=True)
 class Aim:
-    """What a waveform is optimised for.
-
-    Attributes
-    ----------
-    contrast, silence, calm : float
-        Costs of the mean square field outside the focus (0: it is left alone, which saves most of the time), of the energy below
-        16 kHz and of the edges of all channels, each relative to that of the plain waveform, where the plain waveform's
-        amplitude is worth about `amplitude`.
-    amplitude : float
-        Worth of the amplitude that the relaxation begins with.
-    steps : int
-        Of the relaxation.
-    passes : int
-        Of the descent.
-    """
+    """What a waveform is optimised for."""
 
     name: str
+    # contrast, silence, calm: costs of the mean square field outside the focus (0: it is left alone, which saves most of the
+    # time), of the energy below 16 kHz and of the edges of all channels, each relative to that of the plain waveform, where the
+    # plain waveform's amplitude is worth about `amplitude`
     contrast: float
     silence: float
     calm: float
-    amplitude: float
-    steps: int
-    passes: int = 1
+    amplitude: float  # worth of the amplitude that the relaxation begins with
+    steps: int  # of the relaxation
+    passes: int = 1  # of the descent
 
 
 AIMS = {
@@ -87,23 +76,14 @@ AIMS = {
 
 @dataclasses.dataclass(eq=False)
 class _Cells:
-    """Points that are optimised together; every array has them along its axis `cell`.
+    """Points that are optimised together; every array has them along its axis `cell`."""
 
-    Attributes
-    ----------
-    plain : (sample, cell, 32) array
-        Bits of the plain waveform.
-    shapes : (cell, mode) array
-    worth : (cell,) array
-        Of the amplitude; changes during the relaxation.
-    amplitude, field, sound, edge : (cell,) array
-        Worth 1 of amplitude, in the unit of `FieldForm`; cost of a unit of the mean square field, of audible energy, of an edge.
-    """
-
-    plain: Floats
-    shapes: Floats
+    plain: Floats  # (sample, cell, 32): bits of the plain waveform
+    shapes: Floats  # (cell, mode)
     places: list[Any]
-    worth: Floats
+    worth: Floats  # (cell,): of the amplitude; changes during the relaxation
+    # amplitude, field, sound, edge: (cell,): worth 1 of amplitude, in the unit of `FieldForm`; cost of a unit of the mean
+    # square field, of audible energy, of an edge
     amplitude: Floats
     field: Floats
     sound: Floats

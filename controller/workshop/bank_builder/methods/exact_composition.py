@@ -79,10 +79,7 @@ class ExactComposition:
 def checked_points(points: Sequence[Point]) -> tuple[Floats, Floats]:
     """Places (point, 2) and amplitudes (point,) of points.
 
-    Raises
-    ------
-    ValueError
-        If there are none or too many, or a number is not finite or beyond its range.
+    Raises ValueError if there are none or too many, or a number is not finite or beyond its range.
     """
     if not 1 <= len(points) <= MAX_FOCI:
         raise ValueError(f"{len(points)} points to compose, not 1 to {MAX_FOCI}")
@@ -96,6 +93,8 @@ def checked_points(points: Sequence[Point]) -> tuple[Floats, Floats]:
 
 def best_bits(in_band: Floats, whole: Floats, asked: Floats, nulls: Floats, block_samples: int) -> Bits:
     """Where to deviate from idle.
+
+    Raises ValueError if a point cannot be moved, or not while others move as asked or nulls stay still.
 
     Parameters
     ----------
@@ -111,11 +110,6 @@ def best_bits(in_band: Floats, whole: Floats, asked: Floats, nulls: Floats, bloc
     Returns
     -------
     (bit,) bool array
-
-    Raises
-    ------
-    ValueError
-        If a point cannot be moved, or not while others move as asked or nulls stay still.
     """
     count = len(in_band)
     sizes = np.linalg.norm(nulls, axis=1, keepdims=True)

@@ -50,11 +50,6 @@ class Prediction(FocusPrediction):
     ----------
     model : ResponseModel
         As of `FocusPrediction`.
-
-    Attributes
-    ----------
-    near_samples : int
-        Samples before T, and as many after it, at which a null is evaluated.
     """
 
     def __init__(self, board: Board, model: ResponseModel) -> None:
@@ -62,6 +57,7 @@ class Prediction(FocusPrediction):
         self._model = model
         self._bit_period_s = board.waveform.bit_period_s
         self._modal: NDArray[np.float64] | None = None  # of each mode, longer than an emission
+        # samples before T, and as many after it, at which a null is evaluated
         self.near_samples = math.ceil(NEAR_S / self._bit_period_s)
 
     def near_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:

@@ -14,19 +14,11 @@ TURNS_AT_LEAST = 3
 
 @dataclass(frozen=True)
 class CallTiming:
-    """Processor time of one call of a job in us.
+    """Processor time of one call of a job in us."""
 
-    Attributes
-    ----------
-    median_us, p99_us : float
-        Over all calls that follow one of the same.
-    first_us : float
-        Median of those that follow other jobs, which have taken the caches.
-    """
-
-    median_us: float
+    median_us: float  # median_us, p99_us: over all calls that follow one of the same
     p99_us: float
-    first_us: float
+    first_us: float  # median of those that follow other jobs, which have taken the caches
     calls: int
 
 

@@ -222,10 +222,7 @@ def _ratio(with_regions: Spans, without: Spans) -> float:
 def run(options: argparse.Namespace) -> dict[str, Any]:
     """Start the simulated panel, measure with the options of the command line, and stop it.
 
-    Raises
-    ------
-    ControllerError
-        If the panel does not start, or ends a connection.
+    Raises ControllerError if the panel does not start, or ends a connection.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "panel.sock")

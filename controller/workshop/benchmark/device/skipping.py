@@ -61,22 +61,12 @@ class PlayedContact:
 
 @dataclass(frozen=True)
 class SkipCase:
-    """One scene with its fingers.
-
-    Attributes
-    ----------
-    scene : str
-        One of the simulated board's.
-    contacts : tuple of PlayedContact
-        At most ten at a time; each has a slot of its own.
-    equal_bits : bool
-        No finger moves: exact skipping has to leave every output bit as it is.
-    """
+    """One scene with its fingers."""
 
     name: str
-    scene: str
-    contacts: tuple[PlayedContact, ...]
-    equal_bits: bool
+    scene: str  # one of the simulated board's
+    contacts: tuple[PlayedContact, ...]  # at most ten at a time; each has a slot of its own
+    equal_bits: bool  # no finger moves: exact skipping has to leave every output bit as it is
 
 
 def _still(x_mm: float, y_mm: float) -> Path_mm:

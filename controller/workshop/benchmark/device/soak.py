@@ -116,6 +116,8 @@ class Playlist:
 def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording], hours: float, note: Any) -> list[Hour]:
     """Play the recordings for a number of hours of recorded time.
 
+    Raises FaultError or LinkError from the event loop.
+
     Parameters
     ----------
     bank : Bank
@@ -124,11 +126,6 @@ def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording]
         Recorded time.
     note : callable
         Called with each `Hour` as it ends.
-
-    Raises
-    ------
-    FaultError, LinkError
-        From the event loop.
     """
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)

@@ -67,6 +67,8 @@ class Observed:
 def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, places: int) -> dict[str, Any]:
     """Send commands at a constant rate and read all answers.
 
+    Raises LinkError if the panel ends a connection.
+
     Parameters
     ----------
     path : str
@@ -84,11 +86,6 @@ def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, 
     -------
     dict
         Figures, ready for JSON.
-
-    Raises
-    ------
-    LinkError
-        If the panel ends a connection.
     """
     decoder, observed = messages.message_decoder(), Observed()
     with PanelClient(path) as panel:
@@ -169,10 +166,7 @@ def _send(account: Account, number: int, line: bytes) -> None:
 def received(account: Account, path: str) -> list[bytearray]:
     """Lines that have come whole; the rest of the last one is kept.
 
-    Raises
-    ------
-    LinkError
-        If the panel has ended the connection.
+    Raises LinkError if the panel has ended the connection.
     """
     try:
         more = account.socket.recv(RECEIVE_BYTES)
@@ -245,17 +239,12 @@ def _resident_bytes(pid: int) -> int:
 def run(options: argparse.Namespace) -> dict[str, Any]:
     """Start the simulated panel, drive it with the options of the command line, and stop it.
 
+    Raises ControllerError if the panel does not start; LinkError if it ends a connection.
+
     Returns
     -------
     dict
         Figures of `drive`.
-
-    Raises
-    ------
-    ControllerError
-        If the panel does not start.
-    LinkError
-        If it ends a connection.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "panel.sock")
@@ -276,10 +265,7 @@ def run(options: argparse.Namespace) -> dict[str, Any]:
 def wait_for_panel(path: str, panel: subprocess.Popen[bytes]) -> None:
     """Wait until the outputs are on.
 
-    Raises
-    ------
-    ControllerError
-        If it does not start.
+    Raises ControllerError if it does not start.
     """
     give_up_s = time.monotonic() + START_S
     while time.monotonic() < give_up_s and panel.poll() is None:

@@ -44,17 +44,14 @@ class FocusEmission(NamedTuple):
 def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> FocusEmission:
     """Focus on several points at once.
 
+    Raises ConfigError if it does not fit into `memory_mb`.
+
     Parameters
     ----------
     points_m : sequence of (x_m, y_m)
         Places of the foci.
     memory_mb : float, optional
         Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
-
-    Raises
-    ------
-    ConfigError
-        If it does not fit into `memory_mb`.
     """
     twin = PlateTwin(board)
     needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s) + len(PULSE))

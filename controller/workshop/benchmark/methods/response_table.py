@@ -43,11 +43,6 @@ class ResponseTable:
         8, 4, 2 or 1 for each value.
     projection : (coefficient, sample) array, optional
         Kept are coefficients in place of samples.
-
-    Attributes
-    ----------
-    memory_bytes : int
-        Of all cells of the grid, not only of those that are here.
     """
 
     def __init__(self, board: Board, pitch_m: float, bits: int, projection: Floats | None = None) -> None:
@@ -56,6 +51,7 @@ class ResponseTable:
         self._projection = projection
         rows = board.waveform.samples if projection is None else len(projection)
         self._row_bytes = rows * CHANNELS * bits // 8
+        # Of all cells of the grid, not only of those that are here
         self.memory_bytes = self.grid.cells * (self._row_bytes + 4)  # with a scale each
         self._row_of = np.full(self.grid.cells, -1)
         self._scale = np.zeros(0, np.float32)

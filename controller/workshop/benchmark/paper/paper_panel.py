@@ -29,6 +29,8 @@ DIRECTIONS = 8
 class PaperPanel:
     """A board's plate, and foci on it.
 
+    Raises ConfigError if the plate is too small for foci `MARGIN_M` from its edges.
+
     Parameters
     ----------
     seed : int
@@ -36,14 +38,8 @@ class PaperPanel:
     count : int
         Number of foci.
 
-    Raises
-    ------
-    ConfigError
-        If the plate is too small for foci `MARGIN_M` from its edges.
-
     Attributes
     ----------
-    points_m : (point, 2) array
     random : numpy.random.Generator
         For what else is drawn.
     """
@@ -56,7 +52,7 @@ class PaperPanel:
             )
         self.board = board
         self.seed = seed
-        self.points_m = random_points(board, seed, count, MARGIN_M)
+        self.points_m = random_points(board, seed, count, MARGIN_M)  # (point, 2)
         self.twin = PlateTwin(board)
 
     @property

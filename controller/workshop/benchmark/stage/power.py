@@ -87,6 +87,8 @@ def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: 
 def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> tuple[NDArray[np.int64], Floats]:
     """Count edges and compute the loss of each emission, from the idle word and back to it.
 
+    Raises BankError if an entry is damaged.
+
     Parameters
     ----------
     bank : Bank
@@ -100,11 +102,6 @@ def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] |
         0 for channels without an actuator.
     loss_j : (entry, 32) array
         Likewise.
-
-    Raises
-    ------
-    BankError
-        If an entry is damaged.
     """
     cells = np.flatnonzero(bank.cells).tolist()
     idle = channel_bits(np.array([board.idle_word], np.uint32))
@@ -146,17 +143,14 @@ def stage_limits(driver: Driver, resistor: Resistor, worst_channel_w: float, cha
 def power_report(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
     """Summarise edges, loss and power of a bank's entries, and the limits that follow, ready for JSON.
 
+    Raises BankError if an entry is damaged.
+
     Parameters
     ----------
     bank : Bank
         Bank of that board.
     progress : callable, optional
         Called with the number of entries done and of all entries.
-
-    Raises
-    ------
-    BankError
-        If an entry is damaged.
     """
     resistor = Resistor(board.limits.resistor_rating_w, board.limits.derating)
     edges, loss_j = bank_losses(board, bank, progress)

@@ -70,26 +70,14 @@ STAGE_VECTORS: Final = (
 
 @dataclass(frozen=True)
 class Figure:
-    """One measured figure and its limit.
+    """One measured figure and its limit."""
 
-    Attributes
-    ----------
-    name : str
-        What was measured.
-    value, limit : float
-        In `unit`.
-    most : bool
-        Whether the limit is the most that the figure may be, or the least.
-    why : str
-        Where the limit comes from.
-    """
-
-    name: str
-    value: float
+    name: str  # what was measured
+    value: float  # value, limit: in `unit`
     unit: str
     limit: float
-    most: bool
-    why: str
+    most: bool  # whether the limit is the most that the figure may be, or the least
+    why: str  # where the limit comes from
 
     @property
     def good(self) -> bool:
@@ -457,6 +445,8 @@ def parameters() -> dict[str, float]:
 def measure(board: Board, parts: Parts | None = None, benches: Sequence[str] = tuple(BENCHES)) -> list[Figure]:
     """All figures of some benches.
 
+    Raises ControllerError if ngspice is missing or fails.
+
     Parameters
     ----------
     board : Board
@@ -465,11 +455,6 @@ def measure(board: Board, parts: Parts | None = None, benches: Sequence[str] = t
         Parts that are not those of the netlists, by the names of their parameters.
     benches : sequence of str
         Of `BENCHES`.
-
-    Raises
-    ------
-    ControllerError
-        If ngspice is missing or fails.
     """
     known = limits(board)
     measured = {name: value for bench in benches for name, value in BENCHES[bench](board, parts or {}).items()}

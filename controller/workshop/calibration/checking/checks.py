@@ -28,29 +28,18 @@ SHOWN = 12  # names in a message
 
 @dataclass(frozen=True)
 class Objection:
-    """One thing that is wrong or worth knowing.
-
-    Attributes
-    ----------
-    message : str
-        Says what, where, and what to do.
-    channels, points : tuple
-        Which; empty: all of them, or none in particular.
-    """
+    """One thing that is wrong or worth knowing."""
 
     kind: Kind
-    message: str
-    channels: tuple[int, ...] = ()
+    message: str  # says what, where, and what to do
+    channels: tuple[int, ...] = ()  # channels, points: which; empty: all of them, or none in particular
     points: tuple[str, ...] = ()
 
 
 def raise_fatal(where: str, findings: Iterable[Objection], accepted: Iterable[str]) -> None:
     """Refuse a measurement that would make a wrong bank.
 
-    Raises
-    ------
-    CalibrationError
-        With all findings that are `FATAL` and not `accepted`, in one line.
+    Raises CalibrationError with all findings that are `FATAL` and not `accepted`, in one line.
     """
     fatal = [finding for finding in findings if finding.kind in FATAL and finding.kind not in set(accepted)]
     if fatal:

@@ -29,17 +29,11 @@ def findings_of(
     measurement: Measurement,
     board: Board,
     deconvolution: Deconvolution,
-    results: dict[int, Transfers],
+    results: dict[int, Transfers],  # number of a point to its transfer functions
     responses: LearnedResponses,
     waves: DirectWaves | None,
 ) -> list[Objection]:
-    """What is wrong with channels and points.
-
-    Parameters
-    ----------
-    results : dict
-        Number of a point to its transfer functions.
-    """
+    """What is wrong with channels and points."""
     names = measurement.names
     points = list(results)
     channels = sorted(a.channel for a in board.actuators)

@@ -20,10 +20,7 @@ SHOWN_POINTS = 3
 def plot_check(path: Path, board: Board, learned: Learned) -> None:
     """Draw it to a PNG, SVG or PDF file.
 
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
+    Raises ConfigError if the file cannot be written.
     """
     measurement, found = learned.measurement, learned.responses
     channels = sorted(a.channel for a in board.actuators)

@@ -18,10 +18,7 @@ from controller.workshop.calibration.wave_fit import WaveFit
 def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, waves: WaveFit, decays: list[Decay]) -> None:
     """Draw it to a PNG, SVG or PDF file.
 
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
+    Raises ConfigError if the file cannot be written.
     """
     found = source.leave_out
     evaluated = ~np.isnan(found.kept)

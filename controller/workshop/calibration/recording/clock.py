@@ -25,18 +25,10 @@ BEFORE_S = 0.4e-3, 1.5e-3  # before its pulse there is no response; nearer, the 
 
 @dataclass(frozen=True)
 class RecorderClock:
-    """What the records tell of the recorder's clock.
+    """What the records tell of the recorder's clock."""
 
-    Attributes
-    ----------
-    ppm : float
-        By which it is faster than the player's; 0 where the records do not tell it from 0.
-    error_ppm : float
-        Standard error, from one point to another; NaN where the records do not tell.
-    """
-
-    ppm: float
-    error_ppm: float
+    ppm: float  # by which it is faster than the player's; 0 where the records do not tell it from 0
+    error_ppm: float  # standard error, from one point to another; NaN where the records do not tell
 
     @property
     def reported(self) -> bool:

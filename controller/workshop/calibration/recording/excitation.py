@@ -25,6 +25,8 @@ BEYOND: Final = 0.8, 1.06  # of the band's edges: what is swept, so that its edg
 def drive_words(board: Board, kind: Kind = "chirp", seed: int = 1) -> Words:
     """Drive words of all emissions.
 
+    Raises ConfigError if a channel has more edges than the limits of the board allow in an emission.
+
     Parameters
     ----------
     kind : {"chirp", "noise"}
@@ -36,11 +38,6 @@ def drive_words(board: Board, kind: Kind = "chirp", seed: int = 1) -> Words:
     -------
     (emission, word) uint32 array
         Bit q is channel q.
-
-    Raises
-    ------
-    ConfigError
-        If a channel has more edges than the limits of the board allow in an emission.
     """
     high = _chirp(board) if kind == "chirp" else _noise(board, seed)
     channels = [actuator.channel for actuator in board.actuators]

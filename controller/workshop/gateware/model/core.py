@@ -31,19 +31,12 @@ class Core:
         Of the module.
     events : Events
         What happens in which tick.
-
-    Attributes
-    ----------
-    commands : Commands
-        The parts of the model.
-    spi_until : int
-        Last tick in which the core is busy with a frame of the SPI, as far as is known.
     """
 
     def __init__(self, parameters: BuildParameters, events: Events) -> None:
-        self.commands = Commands(parameters)
+        self.commands = Commands(parameters)  # the parts of the model
         self.uart = UartPeripheral(UartTiming.of(parameters))
-        self.spi_until = 0
+        self.spi_until = 0  # last tick in which the core is busy with a frame of the SPI, as far as is known
         self._events = events
         self._sequencer = Sequencer(self.commands, events)
         self._gate = self.commands.gate

@@ -89,10 +89,7 @@ class GatewareModel:
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
         """Exchange one frame; parameters as in `Gateware.exchange`.
 
-        Raises
-        ------
-        ValueError
-            If it begins in the past, or its timing is not what the pins allow.
+        Raises ValueError if it begins in the past, or its timing is not what the pins allow.
         """
         if select_tick + INPUT_TICKS < self._events.now:
             raise ValueError(f"a frame for tick {select_tick} is in the past: the model is at tick {self._events.now}")

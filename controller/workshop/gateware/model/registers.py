@@ -29,19 +29,12 @@ class RegisterFile:
     ----------
     parameters : BuildParameters
         With which the gateware is built.
-
-    Attributes
-    ----------
-    bit_period_low, bit_period_high : int
-        Range of BIT_PERIOD, in 65536ths of a tick.
-    limits : LimitSettings
-        Settings of the stages' limits.
     """
 
     def __init__(self, parameters: BuildParameters) -> None:
         self.parameters = p = parameters
         fewest = max(p.clock_hz // BIT_CLOCK_HZ_MAX, BIT_TICKS_MIN)
-        self.bit_period_low = fewest << 16
+        self.bit_period_low = fewest << 16  # bit_period_low, bit_period_high: range of BIT_PERIOD, in 65536ths of a tick
         self.bit_period_high = max(p.clock_hz // BIT_CLOCK_HZ_MIN, fewest) << 16
         self.geometry = p.slots | WAVEFORM_WORDS << 8 | CHANNELS << 24
         self._values: dict[Register, int] = {
@@ -50,7 +43,7 @@ class RegisterFile:
             if register.kind in (Kind.CONSTANT, Kind.BUILT_IN, *_SETTINGS) and register is not Register.PARAMETERS
         }
         self._values[Register.PARAMETERS] = QUEUE_PLAYS | TRIGGER_LATENCY_TICKS << 8 | FILTER_TICKS << 16
-        self.limits = LimitSettings()
+        self.limits = LimitSettings()  # settings of the stages' limits
         self._set_limits()
 
     @property

@@ -22,23 +22,13 @@ REST_TAUS = 3.0  # after T
 
 @dataclass(frozen=True, eq=False)
 class FocusSeries:
-    """Series of an emission.
+    """Series of an emission."""
 
-    Attributes
-    ----------
-    time_s : (time,) array
-        From T.
-    displacement_m : (time,) array
-        Of the focus, from its rest at the idle word.
-    channels : (channel,) int array
-        Those of the voltages.
-    stage_v, piezo_v : (time, channel) array
-        Voltage of the push-pull stage just before each time, and on the piezo behind its driver.
-    """
-
-    time_s: Floats
-    displacement_m: Floats
-    channels: NDArray[np.int64]
+    time_s: Floats  # (time,): from T
+    displacement_m: Floats  # (time,): of the focus, from its rest at the idle word
+    channels: NDArray[np.int64]  # (channel,): those of the voltages
+    # stage_v, piezo_v: (time, channel): voltage of the push-pull stage just before each time, and on the piezo behind its
+    # driver
     stage_v: Floats
     piezo_v: Floats
 

@@ -24,10 +24,7 @@ Point = tuple[float, float]
 def check_picture(path: Path) -> None:
     """Refuse a picture that could not be written, before the work for it is done.
 
-    Raises
-    ------
-    ConfigError
-        If its folder does not exist or is not writable, or its suffix is none of `KINDS`.
+    Raises ConfigError if its folder does not exist or is not writable, or its suffix is none of `KINDS`.
     """
     if path.suffix not in KINDS:
         raise ConfigError(f"{path}: a picture is {' or '.join(KINDS)}, by the ending of its name")
@@ -40,17 +37,14 @@ def plot_focus(
 ) -> None:
     """Draw the field to a PNG, SVG or PDF file.
 
+    Raises ConfigError if the file cannot be written.
+
     Parameters
     ----------
     foci : sequence of (x_m, y_m)
         Where the fingers are; the first one gets the cross-section along x.
     series : FocusSeries, optional
         Drawn beside the plate: what happens over time at the first focus.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
     """
     x, y, u = field.map(field.scale.map_step_m / 4)
     u_um = u * 1e6

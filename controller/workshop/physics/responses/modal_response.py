@@ -111,20 +111,11 @@ def _passed(pole: Complex, rest_s: float, band_hz: tuple[float, float]) -> Compl
 
 
 class _Filter(NamedTuple):
-    """The band's filter at the bins that are computed.
+    """The band's filter at the bins that are computed."""
 
-    Attributes
-    ----------
-    turn : (bin,) complex array
-        What a delay of one bit period is in the spectrum.
-    gain : (bin,) array
-    slope : (bin,) complex array
-        Of the gain, for a bin on a pole.
-    """
-
-    turn: Complex
-    gain: Floats
-    slope: Complex
+    turn: Complex  # (bin,): what a delay of one bit period is in the spectrum
+    gain: Floats  # (bin,)
+    slope: Complex  # (bin,): of the gain, for a bin on a pole
 
     def series(self, root: Complex, passed: Complex) -> tuple[Complex, Complex]:
         """Spectrum of each pole's exponential and of its conjugate, filtered, without what is `passed`: (pole, bin) both.
