@@ -82,12 +82,8 @@ class Log:
 
         The first line accepted after a loss is preceded by one that states how many were dropped.
 
-        Parameters
-        ----------
-        message : str
-            Line breaks are replaced by spaces; what exceeds `MAX_LINE_BYTES` is cut off.
-        about : Priority or Event
-            What it tells of, which has a priority; or the priority alone.
+        Line breaks are replaced by spaces; what exceeds `MAX_LINE_BYTES` is cut off. `about` is what the line reports, which has a
+        priority, or the priority alone.
         """
         priority = about.priority if isinstance(about, Event) else about
         self.last.append(Line(time.monotonic(), priority, " ".join(message.splitlines())[:MAX_LINE_BYTES]))

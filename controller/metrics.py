@@ -34,18 +34,7 @@ class LatencyHistogram:
         self._buckets[(octave << SUB_BITS) + (duration_ns >> octave)] += 1
 
     def percentiles_ns(self, fractions: Sequence[float]) -> list[float]:
-        """Percentiles of the recorded durations.
-
-        Parameters
-        ----------
-        fractions : sequence of float
-            Each 0 to 1.
-
-        Returns
-        -------
-        list of float
-            For each fraction the duration in ns that this many of the records do not exceed, within 0.8 %; NaN without records.
-        """
+        """For each fraction, 0 to 1, the duration in ns that this many of the records do not exceed, within 0.8 %; NaN without records."""
         if not self.count:
             return [math.nan] * len(fractions)
         seen = np.cumsum(

@@ -35,11 +35,6 @@ def read_text(file: Path, max_bytes: int = MAX_BYTES) -> str:
     r"""Text of a file, without byte order mark, its lines ended by \n.
 
     Raises OSError if it cannot be read. Raises ValueError if its name has a NUL; as `NotText` if it is too large or no text.
-
-    Parameters
-    ----------
-    max_bytes : int
-        Size that it may have.
     """
     with file.open("rb") as opened:
         data = opened.read(max_bytes + 1)

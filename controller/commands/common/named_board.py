@@ -13,11 +13,6 @@ def named_board(name: str) -> Board:
     """Read and check a board, and say on stderr what of it is odd.
 
     Raises ConfigError if there is no such board, or it is refused.
-
-    Parameters
-    ----------
-    name : str
-        As for --board.
     """
     board = load_board(find_board(name))
     for odd in judge(board).odd:

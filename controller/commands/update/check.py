@@ -48,7 +48,7 @@ def at_work() -> Iterator[tuple[Layout, UpdateSettings]]:
 def ends_within(limit_s: float, said: str) -> Iterator[None]:
     """End what is done within by an error, whatever it waits for.
 
-    Raises UpdateError: saying this, when the time is over.
+    Raises UpdateError, saying this, when the time is over.
     """
 
     def too_long(_: int, __: FrameType | None) -> None:

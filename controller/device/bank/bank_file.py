@@ -27,12 +27,7 @@ class ReadCounters:
 class BankFile:
     """An open bank's file; it may be replaced by a new one meanwhile.
 
-    Parameters
-    ----------
-    fd : int
-        Closed by `close`.
-    rebuild : str
-        What to do about a damaged bank.
+    `close` closes `fd`; `rebuild` says what to do about a damaged bank.
     """
 
     def __init__(self, path: Path, fd: int, header: Header, sections: dict[str, Section], tables: Tables, rebuild: str) -> None:
@@ -98,12 +93,8 @@ class BankFile:
 def map_bytes(fd: int, offset: int, size: int, granularity: int = mmap.ALLOCATIONGRANULARITY) -> memoryview:
     """Map a part of a file, read only.
 
-    Parameters
-    ----------
-    offset, size : int
-        In bytes; any.
-    granularity : int
-        Of mappings on this machine: it may be larger than the 4 kB to which sections are aligned (16 kB on a Pi 5).
+    Any `offset` and `size` will do: mappings have a `granularity`, which may be larger than the 4 kB to which sections are aligned
+    (16 kB on a Pi 5).
     """
     if size == 0:
         return memoryview(b"")

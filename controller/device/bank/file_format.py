@@ -180,16 +180,9 @@ def round_up(value: int, step: int) -> int:
 
 
 def header_length(start: bytes, file_bytes: int) -> int:
-    """Length of the header in bytes.
+    """Length of the header in bytes, by the first 16 bytes of the file, or as many as it has.
 
     Raises BankError for what is empty, no bank, of another version, or cut off within the header.
-
-    Parameters
-    ----------
-    start : bytes
-        First 16 bytes of the file, or as many as it has.
-    file_bytes : int
-        Size of the file.
     """
     if file_bytes == 0:
         raise BankError("is empty")
@@ -208,17 +201,10 @@ def header_length(start: bytes, file_bytes: int) -> int:
 
 
 def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
-    """Read a header; the reverse of `Header.pack`.
+    """Read a header of `header_length` bytes; the reverse of `Header.pack`.
 
     Raises BankError if the checksum is wrong, the file is cut short or has grown, or a table or section is not where this version
     of the format puts it.
-
-    Parameters
-    ----------
-    data : bytes
-        As many bytes as `header_length` said.
-    file_bytes : int
-        Size of the file in which it was found.
     """
     body = data[: -CRC.size]
     if not intact(data):

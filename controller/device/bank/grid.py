@@ -34,11 +34,6 @@ class Grid:
         """Grid of the most cells that are at least one pitch from every side of the plate, centred.
 
         Raises ConfigError if the pitch leaves no cell, or is not above zero.
-
-        Parameters
-        ----------
-        pitch_m : float
-            Distance of neighbouring cells.
         """
         extents = (plate.length_m, plate.width_m)
         if not (math.isfinite(pitch_m) and 0 < pitch_m <= min(extents) / 2):

@@ -59,14 +59,8 @@ def bank_info(path: Path) -> dict[str, Any]:
 def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
     """Read every byte of a bank and check it; a flip of any bit is found.
 
-    Raises BankError: naming the place of the first damage.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    progress : callable, optional
-        Called with bytes read and bytes in all.
+    `progress` is called with bytes read and bytes in all. The BankError that is raised names the place of the first damage. Raises
+    BankError: naming the place of the first damage.
     """
     with Bank.open(path) as bank:  # checks the header, its padding and the tables
         end = bank.sections["index"].offset
@@ -130,16 +124,8 @@ class Fit:
 def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     """Whether a bank is whole, built by this version for this board and its pitch, and has the cells that are needed.
 
-    Raises BankError if this user may not read it.
-
-    Parameters
-    ----------
-    path : Path
-        The bank; it need not exist.
-    board : Board
-        What it must have been built for.
-    cells : (cells of the board's grid,) bool array
-        Cells that it must have; further cells are kept when it is built again because cells are missing.
+    `cells`, of the board's grid, are those that it must have; further cells are kept when it is built again because cells are
+    missing. Raises BankError if this user may not read it.
     """
     if not is_there(path):
         return Fit("there is none yet", cells)

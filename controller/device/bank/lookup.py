@@ -49,14 +49,8 @@ def find_bank(board: Board) -> FoundBank:
 def bank_as_it_is(board: Board, given: str | None, *, keep: bool) -> Bank | None:
     """The bank that is played whatever the scene needs; None: it is the device's own, which is built for the scene.
 
-    Raises BankError if it does not fit the board.
-
-    Parameters
-    ----------
-    given : str or None
-        File that is played instead of the board's own.
-    keep : bool
-        Whether the device's own is played as it is, if it is there: the service of a panel never replaces a bank.
+    `given` is a file that is played instead of the board's own. With `keep` the device's own is played as it is, if it is there:
+    the service of a panel never replaces a bank. Raises BankError if it does not fit the board.
     """
     if given:
         return Bank.open(Path(given), board)

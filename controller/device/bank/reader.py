@@ -47,14 +47,7 @@ class Bank:
     def open(cls, path: Path, board: Board | None = None) -> Bank:
         """Open a bank and check its header and tables.
 
-        Raises BankError with the reason and how to rebuild.
-
-        Parameters
-        ----------
-        path : Path
-            The file.
-        board : Board, optional
-            Refuse a bank that was not built for this board.
+        A bank that was not built for `board` is refused. Raises BankError with the reason and how to rebuild.
         """
         rebuild = build_line(path, board)
         try:

@@ -186,15 +186,9 @@ def sha256(data: bytes) -> bytes:
 def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
     """Read and check a board.toml.
 
-    Raises ConfigError: naming file, key and value; all keys that are missing or unknown, and all relations that refuse
-    (`relations`).
-
-    Parameters
-    ----------
-    path : Path
-        The file, or the folder that holds it.
-    without : collection of Relation
-        Relations between keys that it need not keep: a command that mends these keys has to read them first.
+    `path` is the file, or the folder that holds it. A board may break the relations between keys in `without`: a command that mends
+    these keys has to read them first. Raises ConfigError, naming file, key and value; all keys that are missing or unknown, and all
+    relations that refuse (`relations`).
     """
     file = path / "board.toml" if path.is_dir() else path
     board = as_board(f"{file}: ", read_tables(file))
@@ -206,12 +200,7 @@ def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
 def as_board(before: str, tables: dict[str, Any]) -> Board:
     """Convert the tables of a board.toml to a board, by the record of its kind of touch panel.
 
-    Raises ConfigError as of `as_record`.
-
-    Parameters
-    ----------
-    before : str
-        Start of an error message.
+    `before` is the start of an error message. Raises ConfigError as of `as_record`.
     """
     touch = tables.get("touch")
     record = touch_record(touch.get("kind")) if isinstance(touch, dict) else None
@@ -263,12 +252,8 @@ def board_file(panels: tuple[type[TouchPanel], ...]) -> type[Board]:
 def on_other_plate(board: Board, given: Sequence[str]) -> Board:
     """The board on the plate that a command line asks for.
 
-    Raises ConfigError if there is no such board, key or value, or the patches do not fit on that plate.
-
-    Parameters
-    ----------
-    given : sequence of str
-        A board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free.
+    `given` is a board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free. Raises
+    ConfigError if there is no such board, key or value, or the patches do not fit on that plate.
     """
     keys: dict[str, Any] = {}
     for text in given:

@@ -60,6 +60,7 @@ class Laminate(NamedTuple):
         Over that of a solid plate of the same thickness and bending stiffness; 1 for one layer.
     """
 
+    # thickness_m, young_modulus_pa, poisson_ratio, density_kg_m3: of the homogeneous plate that bends and weighs the same
     thickness_m: float
     young_modulus_pa: float
     poisson_ratio: float

@@ -55,10 +55,7 @@ def user_cache() -> Path:
 def bank_path(board: Board, pitch_m: float | None = None) -> Path:
     """Path of a board's bank on this device, of the format of this program. It serves every scene whose cells it has.
 
-    Parameters
-    ----------
-    pitch_m : float, optional
-        Pitch of the grid in m. A bank with another pitch than the board's has a file of its own, played only with --bank.
+    A bank with another pitch than the board's (`pitch_m`) has a file of its own, played only with --bank.
     """
     own_m = board.bank.pitch_mm * 1e-3
     name = board.key if pitch_m is None or pitch_m == own_m else f"{board.key}-{pitch_m * 1e3:g}mm"

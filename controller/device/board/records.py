@@ -54,11 +54,6 @@ def load_toml(file: Path, kind: type[T]) -> T:
     """Read a TOML file into a Record.
 
     Raises ConfigError if the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
-
-    Parameters
-    ----------
-    kind : type of Record
-        The whole file.
     """
     return as_record(f"{file}: ", read_tables(file), kind)
 
@@ -81,15 +76,8 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
 
     Convert tables with names of the user's choice one by one: msgspec does not report which of them is invalid.
 
-    Raises ConfigError: naming key and value; what is nested too deep; all keys that are missing or unknown, and of values the first
-    that is wrong or not finite.
-
-    Parameters
-    ----------
-    before : str
-        Start of an error message: the file, and the place of the table in it.
-    tables : dict
-        The table as read from TOML.
+    `before` is the start of an error message: the file, and the place of the table in it. Raises ConfigError, naming key and value;
+    what is nested too deep; all keys that are missing or unknown, and of values the first that is wrong or not finite.
     """
     renamed = False
     for path, value in _leaves(tables, ()):

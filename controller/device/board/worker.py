@@ -24,10 +24,7 @@ class Worker:
     Create it before the loop gets real-time priority: the process starts with ordinary priority and sets its own. Its standard
     input is the other end of the socket; it ends when that is closed.
 
-    Parameters
-    ----------
-    arguments : sequence of str
-        Of the Python interpreter, which does not import modules from the working directory (-P).
+    `arguments` are the Python interpreter's, which does not import modules from the working directory (-P).
     """
 
     def __init__(self, arguments: Sequence[str]) -> None:

@@ -95,25 +95,14 @@ def identify(session: Session) -> dict[str, int]:
 def read_slot(session: Session, slot: int, length_words: int) -> bytes:
     """Read the first words of a slot from the FPGA's memory.
 
-    Raises Refused if the slot holds fewer words.
-
-    Returns
-    -------
-    bytes
-        4 for each word.
+    Returns 4 bytes for each word. Raises Refused if the slot holds fewer words.
     """
     words = [session.exchange.read_address(READ_MEMORY + 1024 * slot + word) for word in range(length_words)]
     return np.array(words, "<u4").tobytes()
 
 
 def memory_errors(session: Session, board: Board, rng: np.random.Generator) -> int:
-    """Fill every slot with random words, read them and their CRC back, and count the slots that differ.
-
-    Returns
-    -------
-    int
-        Slots that did not keep their words.
-    """
+    """Fill every slot with random words, read them and their CRC back, and count the slots that differ."""
     wrong = 0
     for slot in range(board.link.slots):
         words = rng.bytes(4 * board.waveform.samples)
@@ -144,12 +133,7 @@ def channel_self_test(
 
     The outputs are off at the end. Without channels nothing is armed.
 
-    Raises LinkError if a channel does not play all its chirps.
-
-    Yields
-    ------
-    int
-        Each channel, after its chirps.
+    Yields each channel after its chirps. Raises LinkError if a channel does not play all its chirps.
     """
     if not channels:
         return

@@ -55,11 +55,6 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
     """Check everything that a board needs, without outputs and without disturbing a running service.
 
     For the service's board, its user checks with the limits of the unit; what root calls runs as that user (systemd/haptic-panel).
-
-    Parameters
-    ----------
-    now_s : callable
-        The host's clock.
     """
     link = board.link
     service = service_user() if board.is_the_systems else None

@@ -122,15 +122,7 @@ def arriving_sck_hz(board: Board) -> float:
 
 
 def evaluated_sck(board: Board, measured_hz: float, counted_hz: float) -> Finding:
-    """Judge the SCK that a measurement shows.
-
-    Parameters
-    ----------
-    measured_hz : float
-        SCK by the time that frames take.
-    counted_hz : float
-        SCK that the link was set to, on which times on the wire are based.
-    """
+    """Evaluate the SCK by the time that frames take, against the one that times on the wire are based on."""
     arriving_hz = arriving_sck_hz(board)
     arriving = "" if measured_hz >= arriving_hz else f"; the FPGA plays nothing while it arrives below {arriving_hz / 1e6:.3g} MHz"
     if measured_hz < SCK_SHARE * counted_hz:

@@ -111,10 +111,7 @@ class Belief:
     def compare(self, status: Status, counters: LinkCounters) -> int:
         """Compare triggers and emissions with a status, count what differs by its cause, and believe the status from now on.
 
-        Returns
-        -------
-        int
-            Emissions that were believed to have begun, and never began.
+        Returns how many emissions were believed to have begun, and never began.
         """
         if not self._known:
             self._triggers, self._ignored, self._known = status.trigger_count, status.ignored, True

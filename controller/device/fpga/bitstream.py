@@ -126,10 +126,7 @@ def sha256_of(file: Path) -> str:
 def differences(identity: Identity, board: Board, build_hash: int) -> list[str]:
     """Why bring-up would refuse a bitstream on a board; empty if it would not.
 
-    Parameters
-    ----------
-    build_hash : int
-        Of the Verilog that belongs to this software.
+    `build_hash` is that of the Verilog that belongs to this software.
     """
     wanted, built = top_parameters(board, build_hash), identity.parameters
     keys = {register.name: key for register, key in LIMITS.items()} | {"CLOCK_HZ": "link.clock_hz", "SLOTS": "link.slots"}

@@ -10,11 +10,6 @@ def build_hash(folder: Path) -> int:
     """CRC-32 over the bytes of the `.v` and `.vh` files of a folder, in the order of their names.
 
     Raises FileNotFoundError if the folder holds no Verilog.
-
-    Returns
-    -------
-    int
-        u32.
     """
     files = sorted((file for file in folder.iterdir() if file.suffix in (".v", ".vh")), key=lambda file: file.name)
     if not files:

@@ -20,11 +20,6 @@ class ClockEstimate:
     host's clock, so each exchange bounds the offset from both sides. The bound kept is the intersection with the earlier one,
     which is widened by `DRIFT_MAX` over the time since. If the two do not intersect (the FPGA was reset, or the host was
     suspended), the estimate starts again from the newest exchange.
-
-    Parameters
-    ----------
-    clock_hz : float
-        Nominal clock of the FPGA.
     """
 
     def __init__(self, clock_hz: float) -> None:
@@ -38,14 +33,9 @@ class ClockEstimate:
         self._updated_s = 0.0
 
     def add(self, before_s: float, after_s: float, ticks: int) -> None:
-        """Update the estimate with one exchange.
+        """Update the estimate with one exchange, whose status carries `ticks`, in clocks since reset.
 
-        Parameters
-        ----------
-        before_s, after_s : float
-            Host time before the exchange began and after its last bit.
-        ticks : int
-            FPGA time in its status, in clocks since reset.
+        `before_s` and `after_s` are host time before it began and after its last bit.
         """
         fpga_s = ticks / self.clock_hz
         low_s, high_s = fpga_s - after_s, fpga_s - before_s

@@ -41,13 +41,6 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     """Check that the FPGA has the gateware this host was made for, built with the limits of this board.
 
     Raises OtherGateware if its identity, protocol, gateware, clock, size or a limit is another; LinkError if it does not answer.
-
-    Parameters
-    ----------
-    read : callable
-        Reads one register.
-    build_hash : int
-        Hash of the gateware expected.
     """
     expected = {
         Register.IDENTITY: IDENTITY_MAGIC,
@@ -99,13 +92,8 @@ def settings(board: Board) -> dict[Register, int]:
 def write_settings(exchange: Exchange, board: Board, bit_period: int) -> None:
     """Write the board's settings, and read each back.
 
-    Raises IncompatibleFpga if the FPGA refuses a value for good; LinkError if it refuses one for now, or reads back another each
-    time that it is written.
-
-    Parameters
-    ----------
-    bit_period : int
-        In 65536ths of an FPGA clock, in place of the board's.
+    `bit_period`, in 65536ths of an FPGA clock, takes the place of the board's. Raises IncompatibleFpga if the FPGA refuses a value
+    for good; LinkError if it refuses one for now, or reads back another each time that it is written.
     """
     for register, value in (settings(board) | {Register.BIT_PERIOD: bit_period}).items():
         if not any(_kept(exchange, register, value) for _ in range(ATTEMPTS)):

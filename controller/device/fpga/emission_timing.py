@@ -26,10 +26,7 @@ class EmissionTiming:
     def period_ticks(self, period_s: float) -> int:
         """FPGA clocks from emission to emission.
 
-        Parameters
-        ----------
-        period_s : float
-            As long as an emission at the board's bit clock means without a pause, also at any other bit clock.
+        A period as long as an emission at the board's bit clock means without a pause, also at any other bit clock.
         """
         if period_s != self._period_s or self._period_of != self.bit_period:
             self._period_s, self._period_of, self._period = period_s, self.bit_period, self._rounded(period_s)

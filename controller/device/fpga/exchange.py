@@ -50,12 +50,7 @@ class FpgaReset(LinkError):
 class Exchange:
     """Sends messages of frames over a link and checks the answers.
 
-    Parameters
-    ----------
-    now_s : callable
-        The loop's clock.
-    heartbeat_interval_s : float
-        A heartbeat is due this long after the last message.
+    A heartbeat is due `heartbeat_interval_s` after the last message, on the loop's clock.
     """
 
     def __init__(self, link: Link, now_s: Callable[[], float], heartbeat_interval_s: float) -> None:
@@ -69,40 +64,20 @@ class Exchange:
         self._heartbeat_interval_s = heartbeat_interval_s
 
     def send(self, lengths: Sequence[int], *, raise_faults: bool = True) -> Status:
-        """Send the frames packed in `sent` and check every answer.
+        """Send the frames packed in `sent`, of these lengths in bytes, and check every answer.
 
+        Returns the last one, which reports the result of the last frame but one. A latched fault is an error if `raise_faults`.
         Raises HostSilent or FaultError if a fault is latched; Refused with the first result that is not OK; DamagedStatus if an
         answer is no valid status, with a diagnosis of the wires; LinkError if a frame or an answer was damaged or lost.
-
-        Parameters
-        ----------
-        lengths : sequence of int
-            Bytes of each frame.
-        raise_faults : bool
-            Whether a latched fault is an error.
-
-        Returns
-        -------
-        Status
-            The last answer, which reports the result of the last frame but one.
         """
         return self._check(lengths, self._exchange(lengths), raise_faults=raise_faults)
 
     def deliver(self, lengths: Sequence[int], loads: int = 0) -> int:
         """Send the frames packed in `sent`, of whose statuses only few fields are needed; raises as `send`.
 
-        Parameters
-        ----------
-        lengths : sequence of int
-            Bytes of each frame.
-        loads : int
-            This many frames at the beginning are LOADs before their STORE, which succeeds only if everything that it stores
-            arrived intact: their answers are not checked if all after them are good. All frames after them are short.
-
-        Returns
-        -------
-        int
-            Where the last answer begins in `received`.
+        The first `loads` frames are LOADs before their STORE, which succeeds only if everything that it stores arrived intact:
+        their answers are not checked if all after them are good. All frames after them are short. Returns where the last answer
+        begins in `received`.
         """
         sequence = self._exchange(lengths)
         start, count = sum(lengths[: loads + 1]), len(lengths) - loads - 1
@@ -120,20 +95,10 @@ class Exchange:
         return self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1), raise_faults=raise_faults)
 
     def retry(self, send: Callable[[], T], *, then_stop: bool = True) -> T:
-        """Send a message up to three times, until no frame and no answer of it is damaged.
+        """Pack and send a message up to three times, until no frame and no answer of it is damaged; returns what `send` returned.
 
-        Raises Refused or FaultError at once, as `send` raises it; LinkError after the last attempt.
-
-        Parameters
-        ----------
-        send : callable
-            Packs and sends the message.
-        then_stop : bool
-            Send STOP after the last failure, since something of the message may be left to play.
-
-        Returns
-        -------
-        What `send` returned.
+        If `then_stop`, STOP follows the last failure, since something of the message may be left to play. Raises Refused or
+        FaultError at once, as `send` raises it; LinkError after the last attempt.
         """
         for _ in range(ATTEMPTS - 1):
             try:

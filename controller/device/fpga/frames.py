@@ -83,11 +83,6 @@ def upload_slices(length_words: int) -> tuple[slice, ...]:
     """Byte ranges of the LOAD frames of a waveform that lie back to back from 0 on; each is one chip-select assertion.
 
     Raises ValueError if no waveform has this length.
-
-    Parameters
-    ----------
-    length_words : int
-        Drive words of the waveform, 1 to 1000.
     """
     if not 1 <= length_words <= WAVEFORM_WORDS:
         raise ValueError(f"a waveform has 1 to {WAVEFORM_WORDS} words, not {length_words}")
@@ -101,15 +96,7 @@ def upload_slices(length_words: int) -> tuple[slice, ...]:
 
 
 def pack_short(buffer: WritableBuffer, offset: int, kind: FrameType, sequence: int, argument: int, *words: int) -> int:
-    """Pack a short frame.
-
-    Parameters
-    ----------
-    argument : int
-        u16, its meaning depends on `kind`.
-    *words : int
-        Up to 6 payload words of 32 bits; the others are 0.
-    """
+    """Pack a short frame of up to 6 payload words of 32 bits, the others 0; what `argument` (u16) means depends on `kind`."""
     SHORT.pack_into(buffer, offset, FRAME_SYNC, kind, sequence & 0xFF, SHORT_PAYLOAD_BYTES, argument, *words, *_ZEROS[len(words)])
     return seal(buffer, offset, offset + SHORT.size)
 
@@ -145,12 +132,7 @@ def pack_control(buffer: WritableBuffer, offset: int, sequence: int, command: Co
 def pack_store(buffer: WritableBuffer, offset: int, sequence: int, slot: int, length_words: int, crc: int) -> int:
     """Pack a STORE: the chunks loaded before become the waveform of a slot.
 
-    Parameters
-    ----------
-    length_words : int
-        Drive words of the waveform.
-    crc : int
-        CRC-32 of their bytes; a slot whose content has another one cannot be played.
+    `crc` is the CRC-32 of their bytes; a slot whose content has another one cannot be played.
     """
     return pack_short(buffer, offset, FrameType.STORE, sequence, slot, length_words, crc)
 
@@ -173,12 +155,7 @@ def pack_test(buffer: WritableBuffer, offset: int, sequence: int, payload: Reada
 def pack_load(buffer: WritableBuffer, offset: int, sequence: int, chunk: int, words: memoryview) -> int:
     """Pack a LOAD: one chunk of a waveform, padded with zeros to the shortest payload allowed.
 
-    Parameters
-    ----------
-    chunk : int
-        0 to 7.
-    words : memoryview of bytes
-        Drive words of 4 bytes, at most 500 bytes.
+    `chunk` is 0 to 7; `words` are at most 500 bytes.
     """
     payload = offset + HEADER.size
     end = payload + words.nbytes

@@ -40,13 +40,7 @@ class Pattern:
 
 
 class PlayMessages:
-    """Packs the messages of uploads and plays.
-
-    Parameters
-    ----------
-    sent : memoryview of bytes
-        The send buffer, in which every message begins at 0.
-    """
+    """Packs the messages of uploads and plays into the send buffer, in which every message begins at 0."""
 
     def __init__(self, sent: memoryview, board: Board) -> None:
         self._sent = sent
@@ -73,12 +67,7 @@ class PlayMessages:
     def play(self, sequence: int, play: Play, *, stop: bool) -> tuple[int, ...]:
         """Pack the play of a resident waveform; returns the length of each frame in bytes.
 
-        Parameters
-        ----------
-        sequence : int
-            Of the first frame.
-        stop : bool
-            Put a STOP first.
+        `sequence` is that of the first frame; with `stop` a STOP comes first.
         """
         sent, pattern = self._sent, self._plays[stop]
         sent[pattern.part] = pattern.blank
@@ -89,14 +78,8 @@ class PlayMessages:
     def upload(self, sequence: int, slot: int, waveform: Waveform) -> tuple[int, ...]:
         """Pack an upload into a slot, with NOPs until its check is done; returns the length of each frame in bytes.
 
+        `sequence` is that of the first frame; the waveform is drive words, 4 bytes for each sample, or the frames that carry them.
         Raises ValueError if the waveform is not as long as the board's.
-
-        Parameters
-        ----------
-        sequence : int
-            Of the first frame.
-        waveform : memoryview of bytes, or ReadyFrames
-            Drive words, 4 bytes for each sample; or the frames that carry them.
         """
         sent, pattern = self._sent, self._upload
         crc = self._pack_loads(sequence, waveform)
@@ -108,16 +91,7 @@ class PlayMessages:
     def upload_and_play(self, sequence: int, play: Play, waveform: Waveform, *, stop: bool) -> tuple[int, ...]:
         """Pack an upload into the slot of a play, and that play; returns the length of each frame in bytes.
 
-        Raises ValueError as `upload`.
-
-        Parameters
-        ----------
-        sequence : int
-            Of the first frame.
-        waveform
-            As in `upload`.
-        stop : bool
-            Put a STOP before the PLAY.
+        With `stop` a STOP comes before the PLAY. Raises ValueError as `upload`.
         """
         sent, pattern = self._sent, self._uploads_and_plays[stop]
         crc = self._pack_loads(sequence, waveform)

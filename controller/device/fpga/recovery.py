@@ -41,13 +41,7 @@ class Action(Enum):
 
 
 def action_for(error: ControllerError) -> Action:
-    """What to do after an error of the link or the FPGA.
-
-    Returns
-    -------
-    Action
-        By the table of this module.
-    """
+    """What to do after an error of the link or the FPGA, by the table of this module."""
     if isinstance(error, FaultError):
         faults = Fault(error.faults)
         if not faults or faults & ~(PERMIT_FAULTS | Fault.HOST_SILENT):
@@ -77,13 +71,7 @@ def panel_state_after(error: ControllerError) -> PanelState:
 
 
 class Recovery:
-    """Brings the FPGA to armed: call `step` whenever `next_s` has come, until it returns True; after a failure call `begin`.
-
-    Parameters
-    ----------
-    session : Supervision
-        Need not be brought up.
-    """
+    """Brings the FPGA to armed: call `step` whenever `next_s` has come, until it returns True; after a failure call `begin`."""
 
     def __init__(self, session: Supervision, board: Board) -> None:
         self.next_s = -math.inf  # when to call `step`, on the loop's clock
@@ -109,14 +97,7 @@ class Recovery:
     def begin(self, error: ControllerError, now_s: float) -> None:
         """Switch the outputs off and schedule the first retry.
 
-        Raises ControllerError: `error` itself, if the rule is to fail.
-
-        Parameters
-        ----------
-        error : ControllerError
-            What failed.
-        now_s : float
-            Time on the loop's clock.
+        Raises `error` itself if the rule is to fail.
         """
         self._session.off()
         self._pause_s = self._safe_s
@@ -140,19 +121,9 @@ class Recovery:
         self._known = False
 
     def step(self, now_s: float) -> bool:
-        """Do the next step.
+        """Do the next step; True once the outputs are at their idle levels: consider all slots empty then.
 
         Raises ControllerError if an error occurs for which the rule is to fail.
-
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock.
-
-        Returns
-        -------
-        bool
-            True once the outputs are at their idle levels; consider all slots empty then.
         """
         try:
             return self._next(now_s)

@@ -43,11 +43,6 @@ class Session(Supervision):
     """Uploads and plays waveforms on one FPGA.
 
     Raises LinkError if the FPGA does not answer, or is not the one that board and gateware call for.
-
-    Parameters
-    ----------
-    link, board, build_hash, now_s, bring_up
-        As in `Supervision`.
     """
 
     def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True) -> None:
@@ -60,27 +55,18 @@ class Session(Supervision):
         self._messages = PlayMessages(self._sent, board)
 
     def play(self, play: Play, *, stop: bool) -> None:
-        """Queue the play of a resident waveform.
+        """Queue the play of a resident waveform; with `stop` it ends a running repetition first.
 
         Raises Refused if the FPGA cannot play it. Raises FpgaReset if it was reset, and the waveform is lost. Raises LinkError if
         every attempt was damaged; nothing is left to play then.
-
-        Parameters
-        ----------
-        stop : bool
-            End a running repetition first.
         """
         self._send(play, None, stop=stop)
 
     def upload(self, slot: int, waveform: Waveform) -> None:
         """Send drive words and store them as a slot's waveform, without playing it.
 
-        Raises Refused if the FPGA cannot store it; LinkError if every attempt was damaged.
-
-        Parameters
-        ----------
-        waveform : memoryview of bytes, or ReadyFrames
-            Drive words, 4 bytes for each sample; or the frames that carry them.
+        The waveform is drive words, 4 bytes for each sample, or the frames that carry them. Raises Refused if the FPGA cannot store
+        it; LinkError if every attempt was damaged.
         """
 
         def send() -> None:
@@ -95,15 +81,8 @@ class Session(Supervision):
         The words are copied once, into the frames. If no copy of a message was taken, the next one may be too late for
         `play.when_ticks`: it is refused then, with the waveform stored.
 
-        Raises Refused if the FPGA cannot store or play it. Raises FpgaReset if it was reset. Raises LinkError if every attempt was
-        damaged; nothing is left to play then.
-
-        Parameters
-        ----------
-        waveform
-            As in `upload`.
-        stop : bool
-            End a running repetition first.
+        With `stop` a running repetition is ended first. Raises Refused if the FPGA cannot store or play it. Raises FpgaReset if it
+        was reset. Raises LinkError if every attempt was damaged; nothing is left to play then.
         """
         self._send(play, waveform, stop=stop)
 
@@ -169,17 +148,8 @@ class Session(Supervision):
     def set_bit_period(self, scale: float) -> bool:
         """Scale the bit clock, for example for the plate's temperature; kept over `bring_up`.
 
+        A `scale` above 1 plays faster than the board's bit clock. Returns False if something plays or is queued: try again later.
         Raises Refused if the FPGA does not allow this rate.
-
-        Parameters
-        ----------
-        scale : float
-            Factor of the board's bit clock; above 1 plays faster.
-
-        Returns
-        -------
-        bool
-            False if something plays or is queued: try again later.
         """
         period = self.timing.scaled_bit_period(scale)
         if period == self.bit_period:
@@ -260,12 +230,8 @@ class Session(Supervision):
     def _first_copy(self, play: Play, waveform: Waveform | None, *, stopped: bool) -> tuple[bool, bool]:
         """Ask what became of a message of which a frame or an answer was damaged.
 
+        Returns whether the waveform is in its slot, and whether the play was accepted; nothing of it waits in the queue if not.
         Raises LinkError if the FPGA cannot be asked.
-
-        Returns
-        -------
-        stored, taken : bool
-            Whether the waveform is in its slot, and whether the play was accepted; nothing of it waits in the queue if not.
         """
         address = Register.EMISSION_TIME_LOW if waveform is None else READ_SLOT_CRC + play.slot
         try:

@@ -31,20 +31,8 @@ class StillOn(LinkError):
 class Supervision:
     """Supervises one FPGA, from the check of its identity until its outputs are off.
 
-    Raises LinkError if the FPGA does not answer, or is not the one that board and gateware call for.
-
-    Parameters
-    ----------
-    link : Link
-        Open link.
-    board : Board
-        Settings to give the FPGA: idle levels, bit clock, ramp, heartbeat timeout.
-    build_hash : int
-        Hash of the gateware that this host was made for.
-    now_s : callable
-        The loop's clock.
-    bring_up : bool
-        Call `bring_up` at once; otherwise call it before anything else.
+    `build_hash` is that of the gateware that this host was made for. Without `bring_up` at once, call `bring_up` before anything
+    else. Raises LinkError if the FPGA does not answer, or is not the one that board and gateware call for.
     """
 
     def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True) -> None:
@@ -122,13 +110,9 @@ class Supervision:
     def arm(self) -> float:
         """Arm the outputs: the high voltage settles, then all channels ramp to their idle levels.
 
-        Raises Refused if the FPGA refuses, for example without its run permit; FpgaReset if it was reset since the last heartbeat
-        or bring-up: it would arm with other limits than the board's; LinkError if every attempt was damaged.
-
-        Returns
-        -------
-        float
-            When the ramp ends, on the loop's clock.
+        Returns when the ramp ends, on the loop's clock. Raises Refused if the FPGA refuses, for example without its run permit;
+        FpgaReset if it was reset since the last heartbeat or bring-up: it would arm with other limits than the board's; LinkError
+        if every attempt was damaged.
         """
         fresh = self.fresh
         self.heartbeat()
@@ -169,12 +153,7 @@ class Supervision:
     def disarm(self) -> float:
         """Ramp all outputs to 0 V. They are off when a heartbeat has said so (`may_be_on`).
 
-        Raises LinkError if every attempt was damaged.
-
-        Returns
-        -------
-        float
-            When the ramp ends, on the loop's clock.
+        Returns when the ramp ends, on the loop's clock. Raises LinkError if every attempt was damaged.
         """
         self._armed = False
         self.exchange.control(Control.DISARM)

@@ -65,13 +65,9 @@ def null_places(
 ) -> int:
     """Change drive words so that some places stay still near T.
 
+    Returns -1 when done; otherwise a cell that is needed, which has no response or one that may not be used: nothing was changed.
     Raises ValueError if there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers
     too short for them.
-
-    Returns
-    -------
-    int
-        -1: done. Otherwise a cell that is needed, which has no response or one that may not be used; nothing was changed.
     """
     bank = _Responses(plan, entries, scales, good, response)
     if not (1 <= len(points) <= MAX_FOCI and 1 <= len(nulls) <= MAX_NULLS):

@@ -89,13 +89,9 @@ def compose(
 ) -> int:
     """Drive words that make every point jump at the end of the emission.
 
-    Raises ValueError if there are no points or too many, or numbers that are not finite or beyond their range, or buffers too short
-    for them.
-
-    Returns
-    -------
-    int
-        -1: done. Otherwise a cell that a point needs, which has no response or one that may not be used; nothing was composed.
+    Returns -1 when done; otherwise a cell that a point needs, which has no response or one that may not be used: nothing was
+    composed. Raises ValueError if there are no points or too many, or numbers that are not finite or beyond their range, or buffers
+    too short for them.
     """
     bank = _Responses(plan, entries, scales, good, response)
     count = len(points)

@@ -14,13 +14,7 @@ LEAST_STEP: Final = 20e-6  # of the scale: costs 1e-5 of the amplitude, and a re
 
 
 class BitClock:
-    """Scales an FPGA's bit clock as the thermometer says, whenever nothing plays.
-
-    Parameters
-    ----------
-    period_s : float
-        Time between readings.
-    """
+    """Scales an FPGA's bit clock as the thermometer says, whenever nothing plays; it is read every `period_s`."""
 
     def __init__(self, session: Session, thermometer: TemperatureSource, period_s: float) -> None:
         self.scale = 1.0  # factor of the bit clock that the FPGA uses now

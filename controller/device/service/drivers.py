@@ -43,14 +43,8 @@ def gateware_hash() -> int:
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:
     """Link to a board's FPGA.
 
-    Raises ConfigError if it is simulated; LinkError if its device cannot be opened.
-
-    Parameters
-    ----------
-    now_s : callable
-        The host's clock.
-    unhurried : bool
-        Wait longer for answers over a serial port: for bring-up, not for the event loop.
+    An `unhurried` link waits longer for answers over a serial port: for bring-up, not for the event loop. Raises ConfigError if it
+    is simulated; LinkError if its device cannot be opened.
     """
     if board.link.kind == "spi":
         from controller.device.fpga.links.spi_link import SpiLink
@@ -98,16 +92,9 @@ def open_panel(board: Board) -> EventReader:
 
 
 def open_input(device: str, *, grab: bool = False) -> EventReader:
-    """Driver of an input device of the kernel.
+    """Driver of an input device of the kernel, by path or name; with `grab` other programs cannot read it.
 
     Raises TouchError if it is not there.
-
-    Parameters
-    ----------
-    device : str
-        Path or name.
-    grab : bool
-        Keep other programs from reading it.
     """
     from controller.device.touch.drivers.event_device import LinuxInput
 

@@ -96,13 +96,7 @@ class Housekeeping:
         self._scene = prepared
 
     def progress(self, now_s: float) -> None:
-        """Do what is due in this turn of the loop.
-
-        Parameters
-        ----------
-        now_s : float
-            Host time.
-        """
+        """Do what is due in this turn of the loop."""
         self._watchdog.progress(now_s)
         loop = self._loop
         if loop is None:

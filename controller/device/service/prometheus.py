@@ -92,12 +92,8 @@ class PanelFigures:
 class PanelCollector(Collector):
     """Metrics of one panel, collected when Prometheus asks.
 
-    Parameters
-    ----------
-    ask : callable
-        Version, board and figures of the panel; ControllerError if it does not answer.
-    more : callable, optional
-        Further metrics that do not need the panel, such as those of its releases.
+    `ask` gives version, board and figures of the panel, or raises ControllerError if it does not answer; `more` gives metrics that
+    do not need the panel, such as those of its releases.
     """
 
     def __init__(self, ask: Ask, more: Callable[[], Iterator[Metric]] = lambda: iter(())) -> None:

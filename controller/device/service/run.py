@@ -72,14 +72,9 @@ def serve(
 ) -> dict[str, Any]:
     """Run a panel.
 
-    Raises IncompatibleFpga if the FPGA does not have the gateware or limits that software and board require, also after it was
-    loaded. The service waits for an FPGA or touch panel that is not connected. Raises FaultError if the FPGA has switched off
-    because of a fault that the host must not clear.
-
-    Returns
-    -------
-    dict
-        Counters and latencies, ready for JSON.
+    Returns counters and latencies, ready for JSON. Raises IncompatibleFpga if the FPGA does not have the gateware or limits that
+    software and board require, also after it was loaded. The service waits for an FPGA or touch panel that is not connected. Raises
+    FaultError if the FPGA has switched off because of a fault that the host must not clear.
     """
     with ExitStack() as stack:
         # Before there is a loop whose trace it asks for, it would end the process.

@@ -32,12 +32,7 @@ class StatusFile(SpareTime):
 
     The folder lies in memory (tmpfs): nothing of it waits for a disk. A status that is not taken is counted and reported once.
 
-    Parameters
-    ----------
-    folder : Path or None
-        The runtime folder; None: nothing is written.
-    board : str
-        Name of the board.
+    Without a folder nothing is written.
     """
 
     def __init__(self, folder: Path | None, board: str) -> None:

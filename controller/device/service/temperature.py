@@ -22,10 +22,7 @@ RETRY_S: Final = 10.0  # after a failure: on a stuck bus each attempt takes BUS_
 class Thermometer:
     """A temperature sensor with a check of its readings, which holds the last valid one while the sensor is missing.
 
-    Parameters
-    ----------
-    sensor : Sensor or None
-        None: the one that the settings name; it may be missing and be connected later.
+    `sensor` None: the one that the settings name; it may be missing and be connected later.
     """
 
     def __init__(self, settings: Temperature, sensor: Sensor | None = None) -> None:

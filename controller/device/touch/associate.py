@@ -87,24 +87,9 @@ class Contact:
 def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int], step_s: float) -> dict[int, Contact]:
     """Carry the state of the contacts of the last report over to those of a new one.
 
-    Parameters
-    ----------
-    old : dict
-        Contacts of the last report by identity.
-    new : list of Contact
-        Contacts of this report, each with both positions and the device's tracking id, negative without one.
-    axes : Axes
-        Gives positions on the plate.
-    serials : iterator of int
-        Identities for new contacts without tracking id, from FIRST_SERIAL on.
-    step_s : float
-        Time from the last report to this one.
-
-    Returns
-    -------
-    dict
-        Contacts of this report by identity, the old ones updated in place. Of two contacts with one tracking id the
-        first counts.
+    `old` holds contacts by identity; each of `new` has both positions and the device's tracking id, negative without one. `serials`
+    gives identities for new contacts without one, from FIRST_SERIAL on; `step_s` has passed since the last report. Returns the
+    contacts of this report by identity, the old ones updated in place; of two contacts with one tracking id the first counts.
     """
     now: dict[int, Contact] = {}
     untracked = []
@@ -132,15 +117,8 @@ def assignment(costs: Sequence[Sequence[float]]) -> list[int]:
     Shortest augmenting paths (Jonker and Volgenant, Computing 38, 1987); a row whose cheapest column no other row prefers is
     assigned at once.
 
-    Parameters
-    ----------
-    costs : (row, column) sequences of float
-        At least as many columns as rows; inf for an impossible pair, at least one finite cost in each row.
-
-    Returns
-    -------
-    list of int
-        Column of each row.
+    `costs` has at least as many columns as rows, inf for an impossible pair, and at least one finite cost in each row. Returns the
+    column of each row.
     """
     rows, columns = range(len(costs)), range(len(costs[0]) if costs else 0)
     row_of = [-1 for _ in columns]

@@ -27,12 +27,7 @@ class Axes:
     `touch.y_mm_from_axes`: per unit of x, per unit of y, at their minimum) gives the position on the plate. Axes may be
     mirrored or swapped, and may reach beyond the glass.
 
-    Parameters
-    ----------
-    board : TouchedPlate
-        Gives the plate and the map.
-    x, y : AxisRange
-        Ranges of the device's axes. An axis without extent (guessed from one single tap) reads as its middle.
+    An axis without extent (guessed from one single tap) reads as its middle.
     """
 
     __slots__ = ("from_axes", "plate_m", "settings", "size_m_per_unit", "unit_m", "x", "y")
@@ -55,18 +50,7 @@ class Axes:
         return _clamped(x, self.x), _clamped(y, self.y)
 
     def position_m(self, x: int, y: int) -> tuple[float, float]:
-        """Position on the plate of a raw position.
-
-        Parameters
-        ----------
-        x, y : int
-            Inside the ranges.
-
-        Returns
-        -------
-        (x_m, y_m)
-            Clamped to the plate.
-        """
+        """Position (x_m, y_m) on the plate, clamped to it, of a raw position inside the ranges."""
         x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self.from_axes
         length_m, width_m = self.plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0

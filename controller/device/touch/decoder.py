@@ -55,16 +55,8 @@ class Decoder:
 
     `feed_report` is on the hot path from touch to emission: it allocates only the samples.
 
-    Parameters
-    ----------
-    axes : Axes
-        Maps raw positions to the plate.
-    protocol : Protocol
-        See `event_codes.protocol_of`.
-    slot, last_slot : int
-        Current slot at the start; highest slot that the device declares, None if unknown.
-    after : Decoder, optional
-        Decoder before a reconnection of the device, whose counts, warnings and finger numbers are continued.
+    `slot` is current at the start; `last_slot` is the highest that the device declares, None if unknown. After a reconnection of
+    the device, counts, warnings and finger numbers of the decoder `after` are continued.
     """
 
     def __init__(
@@ -108,17 +100,7 @@ class Decoder:
     def feed_report(self, events: Iterable[Event], time_s: float) -> tuple[TouchSample, ...] | None:
         """Take events that all happened at one time; their own times are not looked at.
 
-        Parameters
-        ----------
-        events : iterable of Event
-            Type, code and value as in struct input_event.
-        time_s : float
-            Time of the samples.
-
-        Returns
-        -------
-        tuple of TouchSample or None
-            If the last event is SYN_REPORT: fingers released, then fingers moved or begun; else None.
+        Returns None unless the last event is SYN_REPORT; else samples of fingers released, then of fingers moved or begun.
         """
         samples = None
         self.touched = False
@@ -156,13 +138,7 @@ class Decoder:
         return samples
 
     def release(self, time_s: float) -> tuple[TouchSample, ...]:
-        """Release every finger and forget the panel's state, at the end of the stream or after a loss of events.
-
-        Parameters
-        ----------
-        time_s : float
-            Time of the samples.
-        """
+        """Release every finger and forget the panel's state, at the end of the stream or after a loss of events."""
         fingers = [c for c in (*self._replaced, *self._slots.values()) if c.finger is not None]
         self._slots.clear()
         self._replaced.clear()
@@ -175,13 +151,7 @@ class Decoder:
         return released
 
     def overdue(self, time_s: float) -> tuple[TouchSample, ...]:
-        """Samples of fingers because there was no report by `due_s`; see `Plausibility.overdue`.
-
-        Parameters
-        ----------
-        time_s : float
-            Time of the samples.
-        """
+        """Samples of fingers because there was no report by `due_s`; see `Plausibility.overdue`."""
         samples = self._plausibility.overdue(self._slots.values(), time_s)
         if samples and self._is_a and self._plausibility.due_s == inf:  # what is reported next starts again
             self._slots = {key: contact for key, contact in self._slots.items() if contact.finger is not None}

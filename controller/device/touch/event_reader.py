@@ -65,19 +65,9 @@ class EventReader(Protocol):
         """When to call `read` without a readable file, on the loop's clock; None: never."""
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Take the events of at most one report.
+        """Take the events of at most one report: SYN_REPORT last, a long report in several parts; empty if there is none.
 
         It blocks for one bus transfer at most. Errors of the device are handled here: counted, or the device counts as lost.
-
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock.
-
-        Returns
-        -------
-        sequence of Event
-            SYN_REPORT last; a long report comes in several parts. Empty if there is none.
         """
 
     def close(self) -> None:

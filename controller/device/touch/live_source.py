@@ -18,13 +18,6 @@ class LiveSource:
     """Driver and decoder of a panel; a `TouchSource`.
 
     When the panel is lost its fingers are released. After a reconnection its axes are read again and new fingers begin.
-
-    Parameters
-    ----------
-    reader : EventReader
-        Driver of the panel.
-    board : TouchedPlate
-        Gives the plate and the map from the panel's axes to it.
     """
 
     def __init__(self, reader: EventReader, board: TouchedPlate) -> None:

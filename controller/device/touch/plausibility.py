@@ -40,19 +40,8 @@ KINDS: Final = ("far_outside", "no_finger", "too_fast", "more_than_played", "fal
 def figures(counts: Counts, warnings: Mapping[str, int]) -> dict[str, int]:
     """Figures of the stage, for JSON.
 
-    Parameters
-    ----------
-    counts : Counts
-        Of the source.
-    warnings : mapping of str to int
-        Of the source, by kind.
-
-    Returns
-    -------
-    dict
-        `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step
-        that no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are
-        fingers.
+    `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step that
+    no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are fingers.
     """
     found = {"points": counts.points, "believed": counts.believed, "held": counts.held, "confirmed": counts.confirmed}
     return found | {kind: warnings.get(kind, 0) for kind in KINDS}
@@ -96,21 +85,8 @@ class Plausibility:
     ) -> tuple[TouchSample, ...]:
         """Take a report.
 
-        Parameters
-        ----------
-        contacts : iterable of Contact
-            All that the device has, down or not.
-        replaced : list of Contact
-            Those that another one has replaced; it is emptied.
-        time_s : float
-            Of the report.
-        hovering : bool
-            Whether no contact touches the panel.
-
-        Returns
-        -------
-        tuple of TouchSample
-            Fingers released, then fingers moved or begun.
+        `contacts` are all that the device has, down or not; `replaced`, those that another one has replaced, is emptied. If
+        `hovering`, no contact touches the panel. Returns fingers released, then fingers moved or begun.
         """
         samples: list[TouchSample] = []
         changed: list[Contact] = []
@@ -169,17 +145,7 @@ class Plausibility:
     def overdue(self, contacts: Iterable[Contact], time_s: float) -> tuple[TouchSample, ...]:
         """Decide, as there was no report by `due_s`: a panel that repeats its reports has no finger, any other has fingers at rest.
 
-        Parameters
-        ----------
-        contacts : iterable of Contact
-            As in `report`.
-        time_s : float
-            Of the samples.
-
-        Returns
-        -------
-        tuple of TouchSample
-            Fingers released, or confirmed where they were held back.
+        Returns fingers released, or confirmed where they were held back.
         """
         samples: list[TouchSample] = []
         habits = self._habits
@@ -204,13 +170,7 @@ class Plausibility:
         return tuple(samples)
 
     def released(self, contact: Contact, time_s: float) -> TouchSample:
-        """Release the finger of a `contact`; a position held back is left out.
-
-        Returns
-        -------
-        TouchSample
-            With its last place.
-        """
+        """Release the finger of a `contact` at its last place; a position held back is left out."""
         finger = contact.finger
         assert finger is not None
         contact.finger = None

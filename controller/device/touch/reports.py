@@ -72,13 +72,7 @@ def describe_warnings(warnings: Mapping[str, int]) -> list[str]:
 
 
 def off_plate_warning(positions: int, off_plate: int) -> str:
-    """Line that says that the board's map of the axes does not fit the panel; empty unless most positions lie off the plate.
-
-    Parameters
-    ----------
-    positions, off_plate : int
-        As in `source.Counts`.
-    """
+    """Line that says that the board's map of the axes does not fit the panel; empty unless most positions lie off the plate."""
     if off_plate * 2 <= positions:
         return ""
     return (
@@ -88,13 +82,7 @@ def off_plate_warning(positions: int, off_plate: int) -> str:
 
 
 class ReportClock:
-    """Corrects the times of reports: never later than now, never decreasing.
-
-    Parameters
-    ----------
-    warnings : Counter of str
-        Counts `time_ahead` and `time_backwards`.
-    """
+    """Corrects the times of reports: never later than now, never decreasing; counts `time_ahead` and `time_backwards`."""
 
     def __init__(self, warnings: Counter[str]) -> None:
         self.warnings = warnings
@@ -187,13 +175,8 @@ class ReportRate:
 class PanelHabits:
     """How a panel reports, learnt from its reports: its period, and what it means if it falls silent while it is touched.
 
-    Parameters
-    ----------
-    rate : ReportRate
-        Measured again.
-    tells_all : bool
-        Whether each report lists all contacts (protocol A): then it repeats itself, and a panel that has never reported that no
-        contact is left reports releases by silence.
+    Each report of a panel that `tells_all` (protocol A) lists all contacts: then it repeats itself, and a panel that has never
+    reported that no contact is left reports releases by silence.
     """
 
     __slots__ = (

@@ -109,18 +109,7 @@ class TouchSource(Protocol):
         """When to call `read`, on the loop's clock; None: when the file is readable or, without a file, never again."""
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
-        """Take the samples of at most one report.
-
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock; a later report stays where it is.
-
-        Returns
-        -------
-        tuple of TouchSample
-            Empty if no report is due or no finger changed.
-        """
+        """Take the samples of at most one report, by `now_s` on the loop's clock; empty if none is due or no finger changed."""
 
     def close(self) -> None:
         """Close the device or file."""
@@ -133,20 +122,7 @@ class TrackedTouch(TouchSource, Protocol):
         """Numbers of the fingers that are down."""
 
     def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
-        """Predict the position of a finger.
-
-        Parameters
-        ----------
-        finger : int
-            Number as in the samples.
-        at_s : float
-            Time on the loop's clock, at most some tens of ms ahead.
-
-        Returns
-        -------
-        (x_m, y_m) or None
-            On the plate; None once the finger is released.
-        """
+        """Position (x_m, y_m) on the plate predicted for a finger at most some tens of ms ahead; None once it is released."""
 
     def missed_m(self, finger: int) -> float:
         """Distance in m of a finger's last report from where it was predicted; inf once the finger is released."""
@@ -158,10 +134,7 @@ class TrackedTouch(TouchSource, Protocol):
     def confirmed(self, finger: int) -> bool:
         """Whether the panel has confirmed a contact; the loop limits the emissions of an unconfirmed one.
 
-        Parameters
-        ----------
-        finger : int
-            Number as in the samples. A released finger is still known until the next `read`, for its release effect.
+        A released finger is still known until the next `read`, for its release effect.
         """
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
@@ -169,12 +142,7 @@ class TrackedTouch(TouchSource, Protocol):
 
         Call it in the order of `start_s`, at the latest when the emission starts. It ends the one announced before.
 
-        Parameters
-        ----------
-        start_s, end_s : float
-            Start and end of the emission on the loop's clock.
-        period_s : float
-            Above 0: the emission repeats with this period until the next call; `emitted(now_s, now_s)` ends it.
+        With `period_s` above 0 the emission repeats until the next call; `emitted(now_s, now_s)` ends it.
         """
 
     def quiet_until_s(self, now_s: float, next_s: float) -> float:
@@ -183,15 +151,6 @@ class TrackedTouch(TouchSource, Protocol):
         Ask before every emission and while an emission repeats. The pause is at most one emission and the life of its
         ghosts long, and the share of time spent in pauses is limited.
 
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock.
-        next_s : float
-            When the next emission would begin, now or later.
-
-        Returns
-        -------
-        float
-            Time until which no emission may begin; `now_s` or earlier: no pause.
+        The next emission would begin at `next_s`, now or later. Returns the time until which none may begin; `now_s` or earlier: no
+        pause.
         """

@@ -55,10 +55,7 @@ class StationaryTouches:
     def take(self, samples: Sequence[TouchSample], now_s: float) -> tuple[float, float] | None:
         """Take the `samples` of one read at `now_s` (loop's clock).
 
-        Returns
-        -------
-        (x_m, y_m) or None
-            Median of the reports of a finger that has now been held for long enough.
+        Returns the median (x_m, y_m) of the reports of a finger that has now been held for long enough, else None.
         """
         found = self._held(samples[0].time_s if samples else now_s)
         for sample in samples:
@@ -141,17 +138,9 @@ def check_targets(targets: Sequence[Point], plate: Plate) -> None:
 def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) -> Calibration:
     """Fit the least-squares affine map from touches to targets.
 
-    Raises CalibrationError if targets or touches coincide or lie on one line, a value is not finite, an axis would have an
-    implausible scale or skew, or a residual exceeds `MAX_RESIDUAL_MM`.
-
-    Parameters
-    ----------
-    targets : sequence of (x_mm, y_mm)
-        Three to five points on the plate.
-    touches : sequence of (x, y)
-        Touch of each target on the panel's axes, normalised to 0..1.
-    plate : Plate
-        Gives the sides, against which scale and skew of the axes are evaluated.
+    `targets` are three to five points (x_mm, y_mm) on the plate; `touches` are on the panel's axes, normalised to 0..1. Raises
+    CalibrationError if targets or touches coincide or lie on one line, a value is not finite, an axis would have an implausible
+    scale or skew, or a residual exceeds `MAX_RESIDUAL_MM`.
     """
     check_targets(targets, plate)
     if len(touches) != len(targets):
@@ -180,13 +169,8 @@ def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) 
 def _leave_one_out_mm(columns: NDArray[np.float64], off_mm: NDArray[np.float64]) -> NDArray[np.float64]:
     """Distance of each touch from the least-squares map of all others.
 
-    Parameters
-    ----------
-    columns : (touches, 3) array
-        Design matrix of the fit.
-    off_mm : (touches, 2) array
-        Residuals of the fit of all; a leave-one-out residual is that over 1 - leverage (Cook and Weisberg, Residuals and
-        Influence in Regression, 2.2).
+    `columns` (touch, 3) is the design matrix of the fit, `off_mm` (touch, 2) are the residuals of the fit of all; a leave-one-out
+    residual is that over 1 - leverage (Cook and Weisberg, Residuals and Influence in Regression, 2.2).
     """
     q, _ = np.linalg.qr(columns)
     redundancy = 1 - np.sum(q * q, axis=1)

@@ -66,14 +66,8 @@ class GhostFigures:
 def ghost_figures(recording: Recording, board: Board) -> GhostFigures:
     """Evaluate a recording of emissions on an untouched panel.
 
-    Raises CalibrationError if there are too few emissions, or contacts that cannot be ghosts.
-
-    Parameters
-    ----------
-    recording : Recording
-        With emissions among its events (`event_capture.emission_event`).
-    board : Board
-        Gives the map from the panel's axes to the plate.
+    The recording has emissions among its events (`event_capture.emission_event`). Raises CalibrationError if there are too few
+    emissions, or contacts that cannot be ghosts.
     """
     emissions = [(at_s, at_s + us * 1e-6) for kind, code, us, at_s in recording.events if (kind, code) == (EV_SND, SND_CLICK)]
     if not emissions:

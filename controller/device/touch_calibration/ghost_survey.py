@@ -28,13 +28,7 @@ STAYS_S = 1.0  # a contact that lasts longer is no ghost; the measurement ends
 
 
 class Overheard:
-    """A `TrackedTouch` that counts the contacts of a source and passes none to the loop.
-
-    Parameters
-    ----------
-    source : TouchSource
-        Touches of the panel.
-    """
+    """A `TrackedTouch` that counts the contacts of a source and passes none to the loop."""
 
     def __init__(self, source: TouchSource) -> None:
         self.ghosts = 0  # contacts so far

@@ -52,15 +52,8 @@ class LagFigures:
 def lag_figures(recording: Recording, board: Board) -> LagFigures:
     """Evaluate a recording of one finger and a mouse that moved together.
 
-    Raises CalibrationError if there are too few strokes, several fingers, no mouse or a slow one, or finger and mouse did not move
-    together.
-
-    Parameters
-    ----------
-    recording : Recording
-        Of the panel, with the mouse's EV_REL among its events.
-    board : Board
-        Gives the map from the panel's axes to the plate.
+    The mouse's EV_REL are among the events of the recording. Raises CalibrationError if there are too few strokes, several fingers,
+    no mouse or a slow one, or finger and mouse did not move together.
     """
     mouse = _mouse(recording)
     at_s, positions_m = _finger(recording, board)

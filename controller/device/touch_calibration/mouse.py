@@ -12,12 +12,7 @@ from controller.errors import TouchError
 class Mouse:
     """A pointing device that reports relative steps.
 
-    Raises TouchError if it is absent, cannot be opened or is no mouse.
-
-    Parameters
-    ----------
-    device : str
-        Path, best below /dev/input/by-id.
+    `device` is a path, best below /dev/input/by-id. Raises TouchError if it is absent, cannot be opened or is no mouse.
     """
 
     def __init__(self, device: str) -> None:

@@ -77,14 +77,7 @@ class Evaluation:
 def judge(before: Evaluation, now_s: float, status: PanelStatus | None, rules: Rules) -> Evaluation:
     """What is known of a trial after its status was read once more.
 
-    Parameters
-    ----------
-    before : Evaluation
-        What was known; at first `Evaluation()`.
-    now_s : float
-        CLOCK_MONOTONIC.
-    status : PanelStatus or None
-        None: there is none, or it cannot be read.
+    `before` is what was known, at first `Evaluation()`; `status` is None if there is none, or it cannot be read.
     """
     if before.verdict is not Verdict.NOT_YET:
         return before

@@ -144,12 +144,8 @@ def this_platform() -> str:
 def read_manifest(data: bytes, origin: str) -> Manifest:
     """A manifest from its JSON.
 
-    Raises UpdateError if it is not valid, or a path of it leaves its folder or comes twice.
-
-    Parameters
-    ----------
-    origin : str
-        What it is called in errors.
+    `origin` is what it is called in errors. Raises UpdateError if it is not valid, or a path of it leaves its folder or comes
+    twice.
     """
     if len(data) > MANIFEST_BYTES_MAX:
         raise UpdateError(f"{origin}: {len(data):,} bytes are more than the {MANIFEST_BYTES_MAX:,} of any manifest")

@@ -22,14 +22,8 @@ BLOCK_S = 96e-6  # over which the local strength of a response is taken
 class Composer:
     """Composes drive words from a bank's responses in memory taken once.
 
+    The response section of the bank is mapped with the first composition; bit q of `idle_word` is the level of channel q at rest.
     Raises BankError if the bank's waveforms are longer than can be composed; ValueError if the idle word is not 32 bits.
-
-    Parameters
-    ----------
-    bank : Bank
-        The open bank; its response section is mapped with the first composition.
-    idle_word : int
-        Level of each channel at rest: bit q is channel q.
     """
 
     def __init__(self, bank: Bank, idle_word: int) -> None:
@@ -66,19 +60,9 @@ class Composer:
         Points within 2.8 mm of each other (at the simulated board's wavelength) are one place and get the smallest of their
         amplitudes. No point gets more than it asks for.
 
-        Raises BankError if a cell that a point needs is not in the bank, or damaged; ValueError if there are no points or too many,
-        or numbers that are not finite or beyond their range.
-
-        Parameters
-        ----------
-        points : sequence of (x_m, y_m, amplitude)
-            1 to `MAX_FOCI`; above 0 to 1. Points beyond the outermost cells take the nearest place
-            among the cells.
-
-        Returns
-        -------
-        memoryview
-            4 bytes a sample, as they go to the wire; valid until the next call.
+        There are 1 to `MAX_FOCI` points; those beyond the outermost cells take the nearest place among the cells. Returns 4 bytes a
+        sample, as they go to the wire; valid until the next call. Raises BankError if a cell that a point needs is not in the bank,
+        or damaged; ValueError if there are no points or too many, or numbers that are not finite or beyond their range.
         """
         words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
         if not self._responses:
@@ -90,15 +74,8 @@ class Composer:
     def keep_still(self, points: Sequence[Point], nulls: Sequence[Point]) -> None:
         """Change the words that `compose` gave for these points, so that other places stay still near T.
 
-        Raises BankError if a response is damaged; ValueError if there are too many places, or numbers that are not finite or beyond
-        their range.
-
-        Parameters
-        ----------
-        points : sequence of (x_m, y_m, amplitude)
-            As composed.
-        nulls : sequence of (x_m, y_m, amplitude)
-            At most `MAX_NULLS`, of any amplitude above 0; those without responses in the bank are left out.
+        At most `MAX_NULLS` places, of any amplitude above 0; those without responses in the bank are left out. Raises BankError if
+        a response is damaged; ValueError if there are too many places, or numbers that are not finite or beyond their range.
         """
         words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
         there = [place for place in nulls if bank.responses.has(place[0], place[1])]

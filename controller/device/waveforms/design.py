@@ -36,15 +36,9 @@ class DesignMethod(Protocol):
         """One to four words for tables and legends."""
 
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
-        """Find drive words for one emission.
+        """Find drive words for one emission, with places (`nulls`) that shall stay still near T.
 
-        Raises ValueError if there is no point, if numbers are not finite or beyond their range, or if the method cannot do what is
-        asked: nulls, or less than full amplitude.
-
-        Parameters
-        ----------
-        points : sequence of (x_m, y_m, amplitude)
-            Foci; amplitudes above 0 to 1, each a share of what the point would get if all points were composed at full amplitude.
-        nulls : sequence of (x_m, y_m)
-            Places that shall stay still near T.
+        Amplitudes are above 0 to 1, each a share of what the point would get if all points were composed at full amplitude. Raises
+        ValueError if there is no point, if numbers are not finite or beyond their range, or if the method cannot do what is asked:
+        nulls, or less than full amplitude.
         """

@@ -22,13 +22,7 @@ NEAR_S = 25e-6  # a null is evaluated this long before and after T
 
 
 class DeviceComposition:
-    """Any points at any amplitude, and nulls; what it expects is what the bank knows.
-
-    Parameters
-    ----------
-    bank : Bank
-        Open, of this board.
-    """
+    """Any points at any amplitude, and nulls; what it expects is what the bank knows."""
 
     name = "device composition"
 

@@ -157,15 +157,7 @@ class Selection:
             self._bank.drive.recheck_composed(key)
 
     def reusable(self, key: Key, resident: Key) -> bool:
-        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within `reuse_m`.
-
-        Parameters
-        ----------
-        key : Key
-            The waveform that is to be played.
-        resident : Key
-            The one that the FPGA holds.
-        """
+        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within `reuse_m`."""
         wanted, there = self.single_focus(key), self.single_focus(resident)
         if wanted is None or there is None or wanted[2] != there[2]:
             return False

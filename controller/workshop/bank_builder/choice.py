@@ -59,12 +59,7 @@ class Setting:
 def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource | None = None) -> list[Setting]:
     """All candidates for a scene.
 
-    Parameters
-    ----------
-    margin_m : float
-        As of `cells_needed`.
-    source : ResponseSource, optional
-        Of the responses; the board's plate model by default.
+    `margin_m` is as of `cells_needed`; responses come from the board's plate model by default.
     """
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
     source, scale = source or ResponseModel(board), wave_scale(board)
@@ -103,22 +98,9 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
 def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source: ResponseSource | None = None) -> dict[str, Any]:
     """What `compose.method = "auto"` chooses for a scene, to be written into its bank.
 
-    Raises ConfigError if no setting keeps both bounds.
-
-    Parameters
-    ----------
-    scene_file : Path
-        Where the scene was read.
-    margin_m : float
-        As of `cells_needed`.
-    source : ResponseSource, optional
-        Of the responses; the board's plate model by default.
-
-    Returns
-    -------
-    dict
-        The fields of the chosen `Setting`; `asked`, as `inspection.asked_of`; `scene`; `why`, a line for people; `front`: pitch,
-        snap (None: no responses), error, time of a lone finger and bytes of each setting on the front.
+    `margin_m` is as of `cells_needed`; responses come from the board's plate model by default. Returns the fields of the chosen
+    `Setting`; `asked`, as `inspection.asked_of`; `scene`; `why`, a line for people; `front`: pitch, snap (None: no responses),
+    error, time of a lone finger and bytes of each setting on the front. Raises ConfigError if no setting keeps both bounds.
     """
     found = settings(board, scene, margin_m, source)
     front = [one for one in found if not any(one.beaten_by(other) for other in found)]

@@ -27,10 +27,7 @@ SAID_CHARACTERS = 160
 def dask_errors(where: str) -> Iterator[None]:
     """Raise what dask raises as a BankError of one line.
 
-    Parameters
-    ----------
-    where : str
-        The option that asked for dask, with its value.
+    `where` is the option that asked for dask, with its value.
     """
     try:
         yield

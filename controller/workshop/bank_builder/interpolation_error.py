@@ -53,14 +53,9 @@ class InterpolationError:
 
 
 def interpolation_error(board: Board, source: ResponseSource, grid: Grid, cells: NDArray[np.bool_]) -> InterpolationError:
-    """Judge a grid at random places between cells that are built.
+    """Evaluate a grid at random places between the `cells` (cells of the grid,) that are built.
 
-    Parameters
-    ----------
-    source : ResponseSource
-        Of this board.
-    cells : (cells of the grid,) bool array
-        Cells that are built. A place is evaluated where all four around it are; there may be none.
+    A place is evaluated where all four around it are; there may be none.
     """
     distances, interpolated, nearest = [], [], []
     for row, places_m in _sample(grid, cells):

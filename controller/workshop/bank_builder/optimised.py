@@ -100,23 +100,10 @@ def remove_kept(bank: Path) -> None:
 def optimised_words(whole: Task, cells: NDArray[np.intp], kept: Path, workers: Workers, *, progress: bool = False) -> Words:
     """Optimise the entries of cells, the same bits whoever does it.
 
-    Raises BankError if the scheduler is not found, a worker has another version, or what is done cannot be kept.
-
-    Parameters
-    ----------
-    whole : Task
-        All cells as one.
-    cells : (cell,) int array
-        Their numbers.
-    kept : Path
-        File of what is done; what it holds is not computed again. The caller names it by all that determines the words, and removes
-        it when they are safe.
-    progress : bool
-        Show a bar with the time left on stderr if that is a terminal.
-
-    Returns
-    -------
-    (cell, sample) uint32 array
+    `whole` has all cells as one, `cells` (cell,) are their numbers. What the file `kept` holds is not computed again: the caller
+    names it by all that determines the words, and removes it when they are safe. With `progress`, a bar shows the time left on
+    stderr if that is a terminal. Returns (cell, sample). Raises BankError if the scheduler is not found, a worker has another
+    version, or what is done cannot be kept.
     """
     words: Words = np.zeros((len(cells), whole.board.waveform.samples), WORD)
     with _Kept.open(kept, words.shape[1]) as done:

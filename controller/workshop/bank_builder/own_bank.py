@@ -56,14 +56,8 @@ class Order:
     def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
         """Build it, its file beside or in place of another.
 
-        Raises ConfigError or BankError.
-
-        Parameters
-        ----------
-        cells : (cells of the grid,) bool array, optional
-            Other cells than those of the scene.
-        how
-            Further fields of `BankRequest`.
+        `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`. Raises
+        ConfigError or BankError.
         """
         refuse_coarse(self.board, self.pitch_m)
         return build_bank(
@@ -85,14 +79,9 @@ class Order:
 def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None = None) -> Order:
     """The order of a bank: for the whole plate, or for the cells that a scene can reach.
 
-    Raises ConfigError if the pitch is too small, the scene is invalid, or no choice keeps the board's bounds.
-
-    Parameters
-    ----------
-    scene_file : Path, optional
-        None: the whole plate; where the pitch is chosen, the board's own scene.
-    pitch_mm : float, optional
-        The board's own or, where its `compose.method` is "auto", a chosen one by default.
+    `scene_file` None: the whole plate; where the pitch is chosen, the board's own scene. `pitch_mm` None: the board's own or, where
+    its `compose.method` is "auto", a chosen one. Raises ConfigError if the pitch is too small, the scene is invalid, or no choice
+    keeps the board's bounds.
     """
     if not pitch_of(board, pitch_mm) >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")

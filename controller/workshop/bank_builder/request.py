@@ -21,13 +21,7 @@ from controller.workshop.physics.responses.response_source import ResponseSource
 
 @dataclass(frozen=True)
 class BankRequest:
-    """What `build_bank` makes: the first fields say of what the bank is, the last five how it is built.
-
-    Attributes
-    ----------
-    fixed emitters : sequence of FixedEmitter
-        What they play together is composed beforehand.
-    """
+    """What `build_bank` makes: the first fields say of what the bank is, the last five how it is built."""
 
     board: Board
     path: Path  # its folder is made if it is missing

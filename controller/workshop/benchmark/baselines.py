@@ -36,12 +36,7 @@ class Baseline:
 class Baselines:
     """The baselines of a machine.
 
-    Parameters
-    ----------
-    bank : Bank
-        With the cells of all scenes.
-    folder : Path
-        For compiled C.
+    `bank` has the cells of all scenes; `folder` is for compiled C.
     """
 
     def __init__(self, board: Board, bank: Bank, folder: Path) -> None:

@@ -47,17 +47,7 @@ def still(family: str, points: Sequence[Place], null: Place, detuning: float = 1
 
 
 def scenes(board: Board, seed: int, each: int, random_scenes: int) -> list[FingerScene]:
-    """Draw the scenes of a benchmark.
-
-    Parameters
-    ----------
-    seed : int
-        Equal seeds give equal scenes.
-    each : int
-        Scenes of each family.
-    random_scenes : int
-        Scenes of one to ten fingers anywhere at least 12 mm from the edges.
-    """
+    """Draw the scenes of a benchmark, `each` of every family; random ones have one to ten fingers at least 12 mm from the edges."""
     random = np.random.default_rng(seed)
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     size = np.array([board.plate.length_m, board.plate.width_m])

@@ -56,10 +56,7 @@ class Reference:
 class Judge:
     """Errors of drive words.
 
-    Parameters
-    ----------
-    detunings : iterable of float
-        Ratios of modal frequencies for which scenes ask.
+    `detunings` are ratios of modal frequencies for which scenes ask.
     """
 
     def __init__(self, board: Board, detunings: Iterable[float] = (1.0,)) -> None:
@@ -79,24 +76,15 @@ class Judge:
         return self._plates[1.0].model.modes
 
     def errors(self, scene: FingerScene, words: Sequence[Words], free_polarity: Sequence[bool]) -> list[Errors]:
-        """Judge drive words of one scene.
+        """Evaluate drive words (sample,) of one scene by several methods; an emission shorter than the board's starts later.
 
-        Parameters
-        ----------
-        words : sequence of (sample,) uint32 arrays
-            Drive words of several methods; an emission shorter than the board's starts later.
-        free_polarity : sequence of bool
-            Whether a method may kick downwards.
-
-        Returns
-        -------
-        list of dict
-            `loss`: 1 - A / A_ref, mean over the points. `worst_loss`: that of the worst one. `bound_loss`: 1 - share of the worst
-            one in the band over the bound of all words. `felt_loss`: 1 - A / A_ref of the worst one over the best that any of
-            `words` reaches. `amplitude_over_unfiltered`: A over half the supply times sum |h|, mean. `quiet`: largest displacement
-            of the finger that shall feel nothing within 25 us of T, over the mean |A|. `contrast`: of the worst point, over the rms
-            outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz (`physics.audible`). `crest_m`: distance of the crest,
-            largest of the points. `stage_j`: heat in the drivers' series resistors.
+        `free_polarity`: whether a method may kick downwards. Figures: `loss`: 1 - A / A_ref, mean over the points. `worst_loss`:
+        that of the worst one. `bound_loss`: 1 - share of the worst one in the band over the bound of all words. `felt_loss`: 1 - A
+        / A_ref of the worst one over the best that any of `words` reaches. `amplitude_over_unfiltered`: A over half the supply
+        times sum |h|, mean. `quiet`: largest displacement of the finger that shall feel nothing within 25 us of T, over the mean
+        |A|. `contrast`: of the worst point, over the rms outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz
+        (`physics.audible`). `crest_m`: distance of the crest, largest of the points. `stage_j`: heat in the drivers' series
+        resistors.
         """
         plate = self._plates[scene.detuning]
         reference = plate.reference(scene.points)
@@ -243,10 +231,7 @@ def bound(unit: Floats) -> float:
     Weights are those of a simplex, found by multiplicative steps on the convex function; its value for any weights is an
     upper bound for the words of these polarities.
 
-    Parameters
-    ----------
-    unit : (point, value) array
-        Responses in the band, each over the sum of its absolute values.
+    `unit` (point, value) are responses in the band, each over the sum of its absolute values.
     """
     count = len(unit)
     if count == 1:

@@ -6,21 +6,11 @@ from collections.abc import Sequence
 
 
 def pareto_front(costs: Sequence[float], errors: Sequence[float]) -> list[int]:
-    """Find the settings that no other one dominates.
+    """Indices, by ascending cost, of the settings that no other one dominates; of equal settings all.
 
     One setting dominates another if neither its cost nor its error is larger and one of both is smaller.
 
     Raises ValueError if there are not as many errors as costs.
-
-    Parameters
-    ----------
-    costs, errors : sequence of float
-        Of each setting.
-
-    Returns
-    -------
-    list of int
-        Indices by ascending cost. Of equal settings all are listed.
     """
     by_cost = sorted(zip(costs, errors, range(len(costs)), strict=True))
     front: list[int] = []

@@ -17,17 +17,9 @@ SHOWN_DB = 60.0
 
 
 def plot_optimised(path: Path, board: Board, point_m: tuple[float, float], fields: Sequence[tuple[str, Field]]) -> None:
-    """Draw fields of foci at one point side by side.
+    """Draw fields of foci at one point side by side to a .png, .svg or .pdf file, each with its title.
 
     Raises ConfigError if the file cannot be written.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    point_m : (float, float)
-        Where the focus is.
-    fields : sequence of (title, Field)
     """
     figure = Figure(figsize=(4.2 * len(fields), 3.4), layout="constrained")
     places = figure.subplots(1, len(fields), sharey=True)

@@ -64,10 +64,7 @@ def work_precision(
 ) -> Figures:
     """Measure errors and costs of all methods.
 
-    Returns
-    -------
-    dict
-        Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says.
+    Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says.
     """
     surroundings = environment()  # first: the load of the machine is still that of others
     drawn = scenes(board, seed, effort.each, effort.random_scenes)

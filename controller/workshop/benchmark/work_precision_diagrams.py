@@ -47,21 +47,9 @@ LOST = "amplitude lost by the worst finger: 1 − A / bound"
 
 
 def draw_all(folder: Path, figures: Figures) -> list[Path]:
-    """Draw every diagram as PNG and SVG.
+    """Draw every diagram as PNG and SVG into a folder that is there; returns the files written.
 
     Raises ConfigError if one cannot be written.
-
-    Parameters
-    ----------
-    folder : Path
-        There already.
-    figures : dict
-        Of `work_precision`.
-
-    Returns
-    -------
-    list of Path
-        The files written.
     """
     timed = any(setting["time_us"] for setting in figures["settings"])
     written = []

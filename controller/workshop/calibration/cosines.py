@@ -111,10 +111,7 @@ def fill_places(
 
     Where none is missing, neighbours weigh the same all over the plate but near its edges; else `EVALUATED` places stand for all.
 
-    Returns
-    -------
-    (bin, place, channel) array
-        Places as foreseen by their neighbours, NaN where that was not estimated.
+    Returns places (bin, place, channel) as foreseen by their neighbours, NaN where that was not estimated.
     """
     places = lattice.points()
     measured, foreseen = values.copy() if not known.all() else values, np.full_like(values, np.nan)

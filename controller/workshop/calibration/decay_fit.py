@@ -36,12 +36,8 @@ def fit_decays(
 ) -> list[Decay]:
     """Fit the decay in parts of the band; those in which nothing can be determined are left out.
 
-    Parameters
-    ----------
-    responses : (point, sample, channel) array
-    known : (point, channel) bool array
-    noise : (point, channel) array
-        Standard deviation of a sample; NaN where it cannot be determined.
+    `responses` are (point, sample, channel), `known` and `noise` (point, channel): the standard deviation of a sample, NaN where it
+    cannot be determined.
     """
     channels = np.flatnonzero(known.any(axis=0))
     chosen = np.random.default_rng(1).permutation(np.flatnonzero(known.any(axis=1)))[: max(RECORDS // max(channels.size, 1), 1)]

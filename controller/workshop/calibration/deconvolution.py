@@ -76,19 +76,10 @@ class RawBins:
         return self.step_hz * np.arange(self.first, self.first + len(self.gain), dtype=np.float64)
 
     def response(self, transfer: NDArray[np.complexfloating], delay_s: float = 0.0) -> Floats:
-        """Responses in time.
+        """Responses in time (..., length) in m per V, from transfer functions (..., bin) in m s per V.
 
-        Parameters
-        ----------
-        transfer : (..., bin) complex array
-            In m s per V.
-        delay_s : float
-            By which what happened is later in the records than they say; taken out.
-
-        Returns
-        -------
-        (..., length) array
-            m per V; sample j is (j + 1) bit periods after the start of the pulse, the last ones before it.
+        Sample j is (j + 1) bit periods after the start of the pulse, the last ones before it. What happened is `delay_s` later in
+        the records than they say; that is taken out.
         """
         spectrum = np.zeros((*transfer.shape[:-1], self.length // 2 + 1), np.complex128)
         turn = np.exp(2j * np.pi * self.frequency_hz * (delay_s + 1 / self.bit_clock_hz))
@@ -115,12 +106,8 @@ class Transfers:
 class Deconvolution:
     """Deconvolves the records of a measurement.
 
-    Raises CalibrationError if the recorder is too slow for the band, or what was played determines no channel, with what to do.
-
-    Parameters
-    ----------
-    length : int
-        Samples of a record.
+    `length` is the samples of a record. Raises CalibrationError if the recorder is too slow for the band, or what was played
+    determines no channel, with what to do.
     """
 
     def __init__(self, measurement: Measurement, board: Board, length: int) -> None:
@@ -162,10 +149,7 @@ class Deconvolution:
     def spectra(self, records: PointRecords, clock_ppm: float = 0.0) -> Complex:
         """Spectra of a point's records as displacement, (emission, repetition, bin) in m s; of what is not there zero.
 
-        Parameters
-        ----------
-        clock_ppm : float
-            By which the recorder's clock is faster than the player's.
+        The recorder's clock is faster than the player's by `clock_ppm`.
         """
         rate_hz = self._rate_hz * (1 + clock_ppm * 1e-6)
         there = np.where(records.there[:, :, None], records.values, 0.0)
@@ -193,14 +177,7 @@ class Deconvolution:
         return self._duration_s >= EARLIEST_S
 
     def transfers(self, spectra: Complex, there: NDArray[np.bool_]) -> Transfers:
-        """Least squares over what is there.
-
-        Parameters
-        ----------
-        spectra : (emission, repetition, bin) complex array
-            As `spectra` gives them.
-        there : (emission, repetition) bool array
-        """
+        """Least squares over what is there (emission, repetition) of `spectra` (emission, repetition, bin)."""
         count = there.sum(axis=1)
         inverse, spread, resolution, leverage = self._operator(count)
         mean = (spectra * there[:, :, None]).sum(axis=1) / np.maximum(count, 1)[:, None]  # (emission, bin)

@@ -70,10 +70,7 @@ def direct_waves(
 ) -> DirectWaves | None:
     """Regression of transfer functions on the direct wave.
 
-    Returns
-    -------
-    DirectWaves or None
-        None where it does not stand out: too few points, too near to the patches, or nothing like this board.
+    None where it does not stand out: too few points, too near to the patches, or nothing like this board.
     """
     channels = [a.channel for a in board.actuators]
     measured = transfers[:, channels] * np.sqrt(bins.gain)

@@ -142,10 +142,8 @@ def krige(
 ) -> tuple[SpectralField, Spectra]:
     """Solve for the weights, and for the estimate at each point from all others.
 
-    Returns
-    -------
-    (bin, point, channel) complex array
-        Left out, each point by itself: w_i / (K^-1)_ii beside the measured value, exactly. Zero where nothing was measured.
+    The estimate (bin, point, channel) leaves each point out by itself: w_i / (K^-1)_ii beside the measured value, exactly. Zero
+    where nothing was measured.
     """
     weights, left_out = np.zeros_like(spectra), np.zeros_like(spectra)
     covariance = prior.between(points_m, points_m)

@@ -45,7 +45,7 @@ class Learned:
     def require(self, accepted: Collection[str] = ()) -> LearnedResponses:
         """The responses, if nothing is wrong that would make a wrong bank.
 
-        Raises CalibrationError: naming all that is wrong and not `accepted`.
+        Raises CalibrationError, naming all that is wrong and not `accepted`.
         """
         raise_fatal(str(self.measurement.folder), self.findings, accepted)
         return self.responses

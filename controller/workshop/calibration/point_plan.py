@@ -69,14 +69,8 @@ def scattered_points(board: Board, count: int, margin_m: float, *, avoid_actuato
 
     Each is the farthest from those before among random candidates (Mitchell's best candidate).
 
-    Raises ConfigError if the margin leaves no plate, or there would be too many points.
-
-    Parameters
-    ----------
-    margin_m : float
-        Least distance from the plate's edges.
-    avoid_actuators : bool
-        Keep off the patches.
+    `margin_m` is the least distance from the plate's edges; `avoid_actuators` keeps them off the patches. Raises ConfigError if the
+    margin leaves no plate, or there would be too many points.
     """
     if not 0 < count <= MOST_POINTS:
         raise ConfigError(f"{count} points are not from 1 to {MOST_POINTS:,}")

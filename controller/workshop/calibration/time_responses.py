@@ -32,10 +32,7 @@ def responses_in_time(
 ) -> tuple[LearnedResponses, float]:
     """Responses in time, with the noise of each: from the variance of its transfer function, else from what precedes the pulse.
 
-    Returns
-    -------
-    ringing : float
-        What is left of responses where the records end, beyond noise, over their rms; median.
+    Also returns what is left of responses where the records end, beyond noise, over their rms; median.
     """
     bins, count = deconvolution.bins, len(measurement.names)
     samples = min(samples, bins.length - round(EARLY_S[1] * bins.bit_clock_hz))
@@ -70,12 +67,7 @@ def responses_in_time(
 def _noise(deconvolution: Deconvolution, found: Transfers, whole: NDArray[np.floating[Any]], early: slice) -> tuple[Floats, Floats]:
     """Standard deviation of the noise in each of a point's responses, and their coherence, (32,) both.
 
-    Parameters
-    ----------
-    whole : (32, sample) array
-        Responses.
-    early : slice
-        Samples that hold noise alone, for responses whose variance is not known.
+    `whole` are the responses (32, sample); `early` are samples that hold noise alone, for responses whose variance is not known.
     """
     bins = deconvolution.bins
     noise: Floats = np.sqrt(2 * found.variance * (bins.gain**2).sum()) * bins.step_hz

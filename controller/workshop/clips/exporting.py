@@ -66,16 +66,9 @@ WRITERS: Final[dict[str, Callable[[str, Pulses], dict[str, Any]]]] = {
 
 
 def exported(name: str, train: Train, suffix: str) -> tuple[str, dict[str, Any]]:
-    """An effect as the text of a file of a kind, and its figures.
+    """The effect `name` as the text of a file of a kind, and its figures; `suffix` is a key of `WRITERS`.
 
     Raises ConfigError if it is silent, or has too many pulses.
-
-    Parameters
-    ----------
-    name : str
-        Of the effect.
-    suffix : str
-        Of the file, a key of `WRITERS`.
     """
     pulses = pulses_of(name, train)
     if not pulses:

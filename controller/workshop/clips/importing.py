@@ -34,16 +34,9 @@ LONGEST_S: Final = 600.0  # of all vibrations of a clip
 def imported(files: Sequence[Path], board: Board, when: str, low_hz: float, high_hz: float) -> tuple[str, list[dict[str, Any]]]:
     """Effects of files, as TOML, and the figures of each.
 
-    Raises ConfigError if a file cannot be read, is silent, or has more pulses than an effect can.
-
-    Parameters
-    ----------
-    board : Board
-        Whose duty limit says how near two pulses may be.
-    when : str
-        Occasion of the effects.
-    low_hz, high_hz : float
-        Rates of a vibration of sharpness 0 and 1; the board's duty limits them.
+    The board's duty limit says how near two pulses may be, and limits the rates of a vibration of sharpness 0 (`low_hz`) and 1
+    (`high_hz`); `when` is the occasion of the effects. Raises ConfigError if a file cannot be read, is silent, or has more pulses
+    than an effect can.
     """
     highest_hz = highest_rate_hz(board)
     if not 0 < low_hz <= high_hz:

@@ -42,12 +42,7 @@ class ImportReport(NamedTuple):
 def rhythm_of(clip: Clip, least_ms: float, low_hz: float, high_hz: float) -> tuple[list[list[float]], ImportReport]:
     """Pulses [ms, amplitude] of a clip, in order of time.
 
-    Parameters
-    ----------
-    least_ms : float
-        From pulse to pulse.
-    low_hz, high_hz : float
-        Rates of a vibration of sharpness 0 and 1.
+    Pulses are at least `least_ms` apart; `low_hz` and `high_hz` are rates of a vibration of sharpness 0 and 1.
     """
     kept: dict[float, float] = {}  # amplitude by time in ms
     times: list[float] = []  # the same times in order

@@ -47,17 +47,7 @@ class FpgaDesign:
 
     @classmethod
     def of(cls, board: Board, top: Path, part: FpgaPart, device: str) -> FpgaDesign:
-        """The design of a board.
-
-        Parameters
-        ----------
-        board : Board
-            Whose limits are built in.
-        top : Path
-            Folder of top.v and pins.
-        device : str
-            One of `part.devices`.
-        """
+        """The design of a board with the top.v and pins of a folder, for one of `part.devices`."""
         rtl = data_folder("fpga_rtl")
         sources = [file for file in rtl.iterdir() if file.suffix in (".v", ".vh")] + [top / TOP, top / part.constraints]
         files = {file.name: file.read_bytes() for file in sorted(sources, key=lambda file: file.name)}
@@ -141,10 +131,7 @@ def synthesise(design: FpgaDesign, work: Path, *more: str) -> None:
 def lost_pins(ports: Mapping[str, Any]) -> list[str]:
     """Inputs and pins of either direction that synthesis has made a constant, which nextpnr would drive.
 
-    Parameters
-    ----------
-    ports : dict
-        Of the top in Yosys' netlist.
+    `ports` are those of the top in Yosys' netlist.
     """
     bits = (
         (name, index, bit)
@@ -177,12 +164,7 @@ def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> Placement:
 def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> Placement:
     """Figures of nextpnr's report: of the clock that misses its constraint by most, else of the fastest constraint.
 
-    Parameters
-    ----------
-    report : dict
-        The file's content.
-    text : bytes
-        The placement itself.
+    `text` is the placement itself.
     """
     clocks = report["fmax"]
     met = {name: min(clock["achieved"] / clock["constraint"], 1.0) for name, clock in clocks.items()}

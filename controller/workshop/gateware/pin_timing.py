@@ -47,14 +47,9 @@ def frame_ticks(size_bytes: int) -> int:
 
 
 def sck_rise_tick(select_tick: int, release_tick: int, size_bytes: int, bit: int) -> int:
-    """Tick in which SCK rises for bit `bit` of a frame.
+    """Tick in which SCK rises for bit `bit`, from 0 on, of a frame of `size_bytes`.
 
-    Parameters
-    ----------
-    select_tick, release_tick : int
-        When chip select falls and rises; SCK is spread evenly between them.
-    size_bytes, bit : int
-        Length of the frame, and number of the bit from 0 on.
+    SCK is spread evenly between fall and rise of chip select.
     """
     room = release_tick - select_tick - SELECT_TO_SCK_TICKS - (SCK_TO_RELEASE_TICKS - SCK_TICKS)
     return select_tick + SELECT_TO_SCK_TICKS + bit * room // (8 * size_bytes)

@@ -41,14 +41,8 @@ KERNEL = Path("controller", "device", "kernel")  # in a checkout
 def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Path, str]:
     """Text that each generated file has to have.
 
-    Raises ValueError if a record cannot be right, or a file has no place for what is generated.
-
-    Parameters
-    ----------
-    folder : Path
-        That of the Verilog; its files give what is not generated.
-    registers : iterable of Register
-        All registers, in the order of their addresses.
+    `folder` is that of the Verilog, whose files give what is not generated; registers come in the order of their addresses. Raises
+    ValueError if a record cannot be right, or a file has no place for what is generated.
     """
     registers = list(registers)
     _check(registers)
@@ -139,14 +133,7 @@ def _with_numbers(text: str) -> str:
 def with_table(readme: str, lines: list[str]) -> str:
     """The README's text with one of its tables replaced: that whose first two columns have the same heads.
 
-    Raises ValueError if it does not have exactly one such table.
-
-    Parameters
-    ----------
-    readme : str
-        Text of the README.
-    lines : list of str
-        Of the table, without line ends.
+    `lines` are the table's, without line ends. Raises ValueError if it does not have exactly one such table.
     """
     head = "|".join(lines[0].split("|")[:3])
     found = list(re.finditer(rf"^{re.escape(head)}\|.*\n(?:\|.*\n)*", readme, re.MULTILINE))

@@ -59,16 +59,9 @@ def verilator_root() -> Path | None:
 def build_library(parameters: dict[str, int], compiling: Callable[[], None] = lambda: None, design: Design | None = None) -> Path:
     """Return the library of a design with these parameters; build it if it is not in the cache.
 
-    Raises LinkError if Verilator or the C++ compiler is missing or fails, or the cache cannot be written.
-
-    Parameters
-    ----------
-    parameters : dict
-        Values of the top module's parameters.
-    compiling : callable
-        Called before a build, which takes several seconds.
-    design : Design, optional
-        `core_design()` by default.
+    `parameters` are the values of the top module's; `compiling` is called before a build, which takes several seconds; the design
+    is `core_design()` by default. Raises LinkError if Verilator or the C++ compiler is missing or fails, or the cache cannot be
+    written.
     """
     root = verilator_root()
     if root is None:

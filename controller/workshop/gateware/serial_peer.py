@@ -30,14 +30,8 @@ from controller.workshop.gateware.model.model import GatewareModel
 class UartPanel:
     """The gateware model behind its UART: bytes in, bytes out.
 
-    Parameters
-    ----------
-    gateware : GatewareModel
-        Just reset; its permits are set here.
-    clock_hz, baud : int
-        Clock and baud rate of the gateware; a byte takes the time of ten bits, whenever the terminal delivers it.
-    now_s : callable
-        Clock that the gateware's clock follows; tick 0 is its present value.
+    The gateware was just reset; its permits are set here. A byte takes the time of ten bits, whenever the terminal delivers it.
+    Tick 0 is the present value of `now_s`, which the gateware's clock follows.
     """
 
     def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:
@@ -101,10 +95,7 @@ def decoded(line: bytes | bytearray) -> bytes:
 class PseudoTerminal:
     """A pseudo-terminal that a thread answers; a context manager.
 
-    Parameters
-    ----------
-    answer : callable
-        Takes the bytes received, returns the bytes to send.
+    `answer` takes the bytes received and returns the bytes to send.
     """
 
     def __init__(self, answer: Callable[[bytes], bytes]) -> None:

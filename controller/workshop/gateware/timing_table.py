@@ -82,7 +82,7 @@ class Case:
 def load_cases(folder: Path) -> list[Case]:
     """Read every case of all `*.timing.toml` files of a folder, in the order of files and of their text.
 
-    Raises ValueError: naming file and case, if a table cannot be read or two have the same name.
+    Raises ValueError, naming file and case, if a table cannot be read or two have the same name.
     """
     cases: list[Case] = []
     for path in sorted(folder.glob("*.timing.toml")):
@@ -101,16 +101,8 @@ def load_cases(folder: Path) -> list[Case]:
 def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case:
     """Read one case.
 
-    Raises ValueError if an entry is missing, unknown or of another type, or a row cannot be read.
-
-    Parameters
-    ----------
-    name : str
-        Its key in the file.
-    entries : dict
-        Its TOML table.
-    ticks : dict
-        Named ticks of the file.
+    `name` is its key in the file, `entries` its TOML table, `ticks` are named ticks of the file. Raises ValueError if an entry is
+    missing, unknown or of another type, or a row cannot be read.
     """
     for key, kind in _NEEDED.items():
         if not isinstance(entries.get(key), kind):
@@ -135,20 +127,9 @@ def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case
 
 
 def read_table(text: str, ticks: dict[str, int]) -> tuple[tuple[Change, ...], tuple[Change, ...]]:
-    """Read the rows of a table.
+    """Read the rows of a table, `tick: inputs -> outputs`, with comments after `#`, into its inputs and outputs.
 
-    Raises ValueError: naming the row, if it cannot be read or comes before the one above it.
-
-    Parameters
-    ----------
-    text : str
-        Rows `tick: inputs -> outputs`, with comments after `#`.
-    ticks : dict
-        Named ticks.
-
-    Returns
-    -------
-    inputs, outputs : tuple of Change
+    `ticks` are named ones. Raises ValueError, naming the row, if it cannot be read or comes before the one above it.
     """
     inputs: list[Change] = []
     outputs: list[Change] = []

@@ -58,14 +58,8 @@ def surface_spectrum(
 
     Parameters (`board`, `words`, `idle_word`, `low_hz`, `high_hz`, `before_word`, `modes`) as there.
 
-    Returns
-    -------
-    frequency : (n,) array
-        In Hz, evenly spaced, half a step from both limits.
-    density : (n,) array
-        In (m/s)^2 s / Hz, both signs of frequency together.
-    step_hz : float
-        Between the frequencies.
+    The arguments are as there. Returns the frequencies (n,) in Hz, evenly spaced, half a step from both limits; the density (n,) in
+    (m/s)^2 s / Hz, both signs of frequency together; and the step in Hz.
     """
     from scipy.signal import zoom_fft  # noqa: PLC0415 - a second of imports, which a build of a bank does without
 

@@ -132,10 +132,7 @@ class Field:
     def focus_metrics(self, x_m: float, y_m: float, foci: Sequence[Point] = ()) -> FocusMetrics:
         """Figures of merit of the focus at (x_m, y_m).
 
-        Parameters
-        ----------
-        foci : sequence of (x_m, y_m)
-            All points focused on at this time; contrast is taken outside 10 mm (of the scale) of any. Default: this one.
+        `foci` are all points focused on at this time, by default this one; contrast is taken outside 10 mm (of the scale) of any.
         """
         amplitude = float(self.at((x_m, y_m))[0])
         x, y, u = self.map()

@@ -64,19 +64,8 @@ class PointMotion:
     def displacement(self, fingers: Mapping[int, Finger], after_s: ArrayLike = 0.0) -> Floats:
         """Displacement of all points with fingers on some.
 
-        Raises ValueError if a time is after what the motion was computed for.
-
-        Parameters
-        ----------
-        fingers : mapping of int to Finger
-            By the number of the point under each; empty: the free plate.
-        after_s : (time,) array or float
-            Times from T.
-
-        Returns
-        -------
-        (time, point) array
-            In m, from the rest position at the idle word.
+        Fingers go by the number of the point under each; none: the free plate. `after_s` (time,) is from T. Returns (time, point)
+        in m, from the rest position at the idle word. Raises ValueError if a time is after what the motion was computed for.
         """
         time = self.end_s + np.atleast_1d(np.asarray(after_s, np.float64))
         if time.max() > self.window_s / WINDOW_LENGTHS * (1 + 1e-9):

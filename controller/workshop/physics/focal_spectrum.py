@@ -43,15 +43,9 @@ class FocalSpectrum:
 
     @classmethod
     def of(cls, plate: Plate, driver: Driver, patch_m: float, band_hz: tuple[float, float], bit_clock_hz: float) -> FocalSpectrum:
-        """Spectrum by a square patch and its driver; waves come to it from all directions alike.
+        """Spectrum by a square patch with edges of `patch_m` and its driver; waves come to it from all directions alike.
 
-        Parameters
-        ----------
-        patch_m : float
-            Edge length of a patch.
-        band_hz : (float, float)
-        bit_clock_hz : float
-            Of the words, whose length is a filter too.
+        The length of the words is a filter too.
         """
         frequency_hz: Floats = np.linspace(*band_hz, FREQUENCIES)
         omega = 2 * np.pi * frequency_hz

@@ -97,12 +97,8 @@ class CombinedModes:
 def with_patches(bare: Modes, plate: Plate, patches: Patches, places: Sequence[Patch], highest_hz: float) -> CombinedModes:
     """Modes of `plate` with patches up to `highest_hz`.
 
-    Raises ConfigError if the bare plate has too many modes, or none is left.
-
-    Parameters
-    ----------
-    bare : Modes
-        Of the plate without patches, up to `BASIS` times `highest_hz`.
+    `bare` are modes of the plate without patches, up to `BASIS` times `highest_hz`. Raises ConfigError if the bare plate has too
+    many modes, or none is left.
     """
     if bare.count > MOST_MODES:
         raise ConfigError(

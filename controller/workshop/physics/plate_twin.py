@@ -61,14 +61,8 @@ class Work:
 class PlateTwin:
     """A simulated plate behind 32 pins.
 
-    Parameters
-    ----------
-    highest_hz : float, optional
-        Modes above are left out; `mode_cut_hz` by default.
-    remembered : int
-        Groups kept (0.1 MB each); the one not used for longest goes first.
-    modes : Modes, optional
-        In place of those of the board's plate.
+    Modes above `highest_hz` are left out, `mode_cut_hz` by default; `modes` take the place of those of the board's plate. Of the
+    `remembered` groups (0.1 MB each) the one not used for longest goes first.
     """
 
     def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256, modes: Modes | None = None) -> None:
@@ -92,17 +86,8 @@ class PlateTwin:
     def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
         """Displacement of the plate at every focus tick, relative to rest at the board's idle word.
 
-        Parameters
-        ----------
-        capture : Capture
-            From tick 0 on, everything low before its first change.
-        clock_hz : float
-            Of the ticks.
-
-        Yields
-        ------
-        Field
-            In the order of `focus_ticks`. A step at the focus tick itself counts as after it.
+        The capture is from tick 0 on, everything low before its first change. Fields come in the order of `focus_ticks`; a step at
+        the focus tick itself counts as after it.
         """
         ticks = capture.ticks.astype(np.int64)
         words = np.zeros(len(ticks) + 1, np.uint32)  # step i goes from words[i] to words[i + 1]
@@ -267,13 +252,7 @@ def capture_of_words(
 ) -> Capture:
     """Pins that idle from tick 0 on and play `words` from `start_tick` on, without an FPGA.
 
-    Parameters
-    ----------
-    words : (sample,) uint32 array
-    bit_ticks : int
-        Ticks for which a word is held.
-    period_ticks : int
-        Start to start, if there is more than one repetition; between emissions the pins hold `idle_word`.
+    A word is held for `bit_ticks`; repetitions are `period_ticks` from start to start, between which the pins hold `idle_word`.
     """
     starts = start_tick + np.arange(repetitions) * period_ticks
     length = len(words) * bit_ticks

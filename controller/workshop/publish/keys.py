@@ -24,17 +24,8 @@ PASSPHRASE_LENGTH_MIN: Final = 12
 def new_key(file: Path, passphrase: str) -> Path:
     """Make an ed25519 key: `file` with the private part, encrypted, mode 0600; beside it `*.pub` with the public part.
 
-    Raises UpdateError if one of the files exists, or the passphrase is too short.
-
-    Parameters
-    ----------
-    file : Path
-        Its name without the ending is the name of its owner.
-
-    Returns
-    -------
-    Path
-        The public part.
+    The name of `file` without the ending is the name of its owner. Returns the public part. Raises UpdateError if one of the files
+    exists, or the passphrase is too short.
     """
     public = file.with_suffix(PUBLIC)
     if file == public:

@@ -27,14 +27,8 @@ LEFT_OVERS: Final = frozenset({"targets", ".draft.new", LOCK})  # of an `init` t
 def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], threshold: int, now: datetime) -> None:
     """Draft a repository without releases.
 
-    Raises UpdateError if there is a repository already, or fewer keys than the threshold.
-
-    Parameters
-    ----------
-    keys : mapping
-        Of each role.
-    threshold : int
-        How many people must sign what is root and targets.
+    `keys` are those of each role; `threshold` people must sign what is root and targets. Raises UpdateError if there is a
+    repository already, or fewer keys than the threshold.
     """
     if others := {path.name for path in repository.folder.iterdir()} - LEFT_OVERS:
         raise UpdateError(f"{repository.folder}: holds {min(others)} already: name a new folder, or an empty one")
@@ -59,13 +53,8 @@ def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], thres
 def draft_releases(repository: Repository, folders: Sequence[Path], channel: str, now: datetime) -> list[Manifest]:
     """Put releases into a channel.
 
-    Raises UpdateError if a release was altered, its counter is not larger than that of the release it follows, or its version is
-    taken.
-
-    Parameters
-    ----------
-    folders : sequence of Path
-        Releases as `make-release` made them, such as one for each platform.
+    Folders are releases as `make-release` made them, such as one for each platform. Raises UpdateError if a release was altered,
+    its counter is not larger than that of the release it follows, or its version is taken.
     """
     repository.must_have_no_draft()
     if not CHANNEL.fullmatch(channel):

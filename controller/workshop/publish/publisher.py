@@ -41,11 +41,8 @@ LOCK: Final = ".lock"  # a file of the owner's: the folder itself may be locked 
 class Repository:
     """A repository, for as long as nobody else works on it.
 
-    Parameters
-    ----------
-    dated : str, optional
-        A date such as 2027-03-28 that people have looked up: a timestamp of that date is signed however long after the last
-        one, or before it.
+    With `dated`, a date such as 2027-03-28 that people have looked up, a timestamp of that date is signed however long after the
+    last one, or before it.
     """
 
     def __init__(self, folder: Path, dated: str | None = None) -> None:
@@ -102,14 +99,8 @@ class Repository:
     def changed(self, role: str, now: datetime, edit: Callable[[Any], None] = lambda _: None) -> Metadata[Any]:
         """The next version of what is published of a role, without signatures.
 
-        Raises UpdateError if nothing of it is published yet; for the timestamp, if now is no time that it can be made at.
-
-        Parameters
-        ----------
-        now : datetime
-            Its life begins now.
-        edit : callable
-            Changes its content.
+        Its life begins `now`; `edit` changes its content. Raises UpdateError if nothing of it is published yet; for the timestamp,
+        if now is no time that it can be made at.
         """
         found = self.published(role)
         if found is None:
@@ -152,15 +143,10 @@ class Repository:
         return {key_id: root.get_key(key_id) for root in roots for key_id in root.roles[role].keyids}
 
     def sign(self, signer: CryptoSigner) -> list[str]:
-        """Sign every role of the draft that this key counts for.
+        """Sign every role of the draft that this key counts for; returns the roles.
 
         Raises UpdateError if there is no draft, the key counts for nothing of it, or it is dated as no timestamp may be that
         follows the last.
-
-        Returns
-        -------
-        list of str
-            The roles.
         """
         roles = [role for role in self._draft_roles() if signer.public_key.keyid in self.signers(role)]
         if not roles:
@@ -175,14 +161,9 @@ class Repository:
         return roles
 
     def take(self, folder: Path) -> list[str]:
-        """Take over signatures from a copy of the draft, which was signed elsewhere.
+        """Take over signatures from a copy of the draft, which was signed elsewhere; returns whose they are.
 
         Raises UpdateError if it is the copy of another draft, or has a signature that does not hold.
-
-        Returns
-        -------
-        list of str
-            Whose they are.
         """
         other, taken = Repository(folder), set()
         if not other.draft.is_dir():
@@ -221,12 +202,8 @@ class Repository:
 
         A copy without `targets/`, in which somebody has signed elsewhere, publishes nothing.
 
-        Raises UpdateError if the draft contradicts what is published, or files of it are missing or altered.
-
-        Returns
-        -------
-        bool
-            Whether it was published.
+        Returns whether it was published. Raises UpdateError if the draft contradicts what is published, or files of it are missing
+        or altered.
         """
         if self.lacking() or not self.targets.is_dir():
             return False

@@ -29,12 +29,8 @@ PIP: Final = ("-m", "pip", "--disable-pip-version-check", "--no-input", "--quiet
 def fetched(packages: Iterable[Locked], target: Target, tools: Path, cache: Path) -> Path:
     """Folder with a wheel of each package: of the registry, or built of its sources; made once.
 
-    Raises UpdateError if a package cannot be fetched or built, or must be built for another platform than this computer's.
-
-    Parameters
-    ----------
-    tools : Path
-        Lock file of what wheels are built with.
+    `tools` is the lock file of what wheels are built with. Raises UpdateError if a package cannot be fetched or built, or must be
+    built for another platform than this computer's.
     """
     packages = list(packages)
     built = [one for one in packages if one.name in BUILT]
@@ -61,22 +57,9 @@ def fetched(packages: Iterable[Locked], target: Target, tools: Path, cache: Path
 def built_here(source: Path, time_s: int, tools: Path, cache: Path, folder: Path, *, mypyc: bool, workshop: bool) -> Path:
     """This project's wheel, built from its source.
 
+    `source` is the folder of pyproject.toml; its files get the time `time_s`, in s since 1970; `tools` is the lock file of what
+    wheels are built with; the wheel goes into `folder`. With `mypyc` the loop is compiled too; no device needs the `workshop`.
     Raises UpdateError if it does not build.
-
-    Parameters
-    ----------
-    source : Path
-        Folder of pyproject.toml.
-    time_s : int
-        Of its files, in s since 1970.
-    tools : Path
-        Lock file of what wheels are built with.
-    cache, folder : Path
-        `folder` is where it goes.
-    mypyc : bool
-        Compile the loop too.
-    workshop : bool
-        With that wing, which no device needs.
     """
     wanted = {"HAPTIC_PANEL_MYPYC": str(int(mypyc)), "HAPTIC_PANEL_WING": "" if workshop else "device"}
     _run(

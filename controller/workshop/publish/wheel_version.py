@@ -36,12 +36,7 @@ def check_version(version: str) -> None:
 def with_version(wheel: Path, version: str, folder: Path) -> Path:
     """A wheel of this project with another version: in its name, its metadata, its manual and `controller.__version__`.
 
-    Raises UpdateError if it is no wheel of this project.
-
-    Parameters
-    ----------
-    folder : Path
-        Where it goes. The same wheel makes the same bytes.
+    It goes into `folder`; the same wheel makes the same bytes. Raises UpdateError if it is no wheel of this project.
     """
     name, old, *tags = wheel.name.split("-")
     parse_wheel_filename(wheel.name)

@@ -55,7 +55,7 @@ class Drift:
     def read(cls, file: Path) -> Drift:
         """Drift from a CSV file.
 
-        Raises ConfigError: naming file and line.
+        Raises ConfigError, naming file and line.
         """
         try:
             rows = list(csv.reader(read_text(file).splitlines()))

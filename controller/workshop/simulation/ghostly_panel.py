@@ -148,15 +148,7 @@ class GhostlyPanel:
 def pins_of(link: SimulatedLink) -> Callable[[float], bool]:
     """Return the `disturbed` of a panel in front of this link's gateware.
 
-    Parameters
-    ----------
-    link : SimulatedLink
-        Its captures are consumed.
-
-    Returns
-    -------
-    callable
-        Whether a channel pin changed between the last call and a time in s.
+    Captures of the link are consumed. It says whether a channel pin changed between the last call and a time in s.
     """
     ahead: list[int] = []  # changes later than that time: the link computes a frame's whole time on the wire at once
 

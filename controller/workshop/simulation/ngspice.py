@@ -57,16 +57,8 @@ class Traces:
 def transient(netlist: str, vectors: Sequence[str], step_s: float, end_s: float) -> Traces:
     """Simulate a netlist from its operating point.
 
+    `netlist` is without its title, analysis and end; `vectors` are such as ``v(out)`` and ``i(v1)``; `step_s` is the longest step.
     Raises ControllerError if there is no ngspice, or it could not simulate this.
-
-    Parameters
-    ----------
-    netlist : str
-        Without its title, analysis and end.
-    vectors : sequence of str
-        What to keep, such as ``v(out)`` and ``i(v1)``.
-    step_s, end_s : float
-        Longest step, and end of the simulation.
     """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -46,20 +46,9 @@ def serve(
 ) -> None:
     """Run the simulated panel until SIGTERM or SIGINT.
 
-    Raises ControllerError if scene or socket cannot be opened, or from the event loop.
-
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        Settings of the socket, instead of the board's.
-    bank : Bank
-        Bank of the whole plate.
-    touched_s : float
-        How long the fingers are down.
-    ready : callable
-        Called once the outputs are on.
-    fingers : int
-        How many, at most `len(SWINGS_MM)`.
+    `settings` of the socket take the place of the board's; `bank` is of the whole plate. At most `len(SWINGS_MM)` `fingers` are
+    down for `touched_s`; `ready` is called once the outputs are on. Raises ControllerError if scene or socket cannot be opened, or
+    from the event loop.
     """
     clock = MonotonicClock()
     scene = load_scene(find_scene(board), board)

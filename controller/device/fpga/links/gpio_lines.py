@@ -26,14 +26,8 @@ LINE_VALUES: Final = struct.Struct("=QQ")  # struct gpio_v2_line_values: values,
 class GpioLines:
     """Trigger, run permit and `configured` of one panel, held until `close`, which withdraws the permit.
 
-    Raises LinkError if the chip or a line is absent or held by another program, or two lines are the same.
-
-    Parameters
-    ----------
-    settings : LinkSettings
-        Label of the GPIO chip and names or numbers of the lines; permit and configured are optional.
-    now_s : callable
-        The loop's clock.
+    Permit and configured are optional. Raises LinkError if the chip or a line is absent or held by another program, or two lines
+    are the same.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
@@ -58,12 +52,7 @@ class GpioLines:
     def pulse(self) -> float:
         """Pulse the trigger line: two system calls, much longer than the 4 clocks that the gateware needs.
 
-        Raises LinkError if the line fails.
-
-        Returns
-        -------
-        float
-            Time in s on the loop's clock, read directly after the rising edge.
+        Returns the loop's clock, read directly after the rising edge. Raises LinkError if the line fails.
         """
         try:
             fcntl.ioctl(self._fd, SET_VALUES, self._high)  # a bytearray: anything else is first tried as one, and copied twice

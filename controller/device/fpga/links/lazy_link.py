@@ -11,12 +11,7 @@ from controller.errors import LinkError
 class LazyLink:
     """`Link` that is opened by the first exchange for which the device is there.
 
-    Parameters
-    ----------
-    open_link : callable
-        Returns the open link, or raises LinkError.
-    now_s : callable
-        The loop's clock.
+    `open_link` returns the open link, or raises LinkError.
     """
 
     def __init__(self, open_link: Callable[[], Link], now_s: Callable[[], float]) -> None:

@@ -45,14 +45,8 @@ def read_bufsiz() -> int:
 class SpiLink:
     """`Link` to an FPGA on SPI, with its trigger and permit lines.
 
-    Raises LinkError if the device or a line is absent, in use or unsuitable, or the FPGA is not configured.
-
-    Parameters
-    ----------
-    settings : LinkSettings
-        Of kind "spi".
-    now_s : callable
-        The loop's clock.
+    `settings` is of kind "spi". Raises LinkError if the device or a line is absent, in use or unsuitable, or the FPGA is not
+    configured.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
@@ -126,19 +120,9 @@ class SpiLink:
         return 8e9 * self.bytes_sent / self.wire_ns if self.wire_ns else 0.0
 
     def set_sck_hz(self, sck_hz: int) -> float:
-        """Set SCK.
+        """Set SCK, at most the board's; returns the actual SCK in Hz.
 
         Raises ValueError if it is outside 1 to the board's; LinkError if the controller refuses it.
-
-        Parameters
-        ----------
-        sck_hz : int
-            At most the board's.
-
-        Returns
-        -------
-        float
-            Actual SCK in Hz.
         """
         if not 0 < sck_hz <= self._settings.sck_hz:
             raise ValueError(f"sck_hz = {sck_hz} is not 1 to the board's {self._settings.sck_hz}")

@@ -25,12 +25,7 @@ PROGRAM = (
 class HelperProcess:
     """One helper at a time; another one can be started in its place.
 
-    Parameters
-    ----------
-    what : str
-        What it prepares: a word that `scene_helper_process` knows.
-    limit_s : float
-        Time limit of one preparation, in s.
+    `what` it prepares is a word that `scene_helper_process` knows; `limit_s` is the time limit of one preparation.
     """
 
     def __init__(self, what: str, limit_s: float) -> None:

@@ -33,10 +33,7 @@ class _TooLong(Exception):
 class LayerChecker:
     """Checks layers against a board and its bank.
 
-    Parameters
-    ----------
-    setup : LayerSetup
-        Its `checked` cells are not checked again, nor are those that were checked for a layer before.
+    Cells that the setup has as `checked`, or that were checked for a layer before, are not checked again.
     """
 
     def __init__(self, setup: LayerSetup) -> None:
@@ -97,12 +94,7 @@ class LayerChecker:
 def serve_layers(loop: socket.socket, limit_s: float) -> None:
     """Answer requests until the other end of the socket is closed.
 
-    Parameters
-    ----------
-    loop : socket
-        Stream, to the loop; the first message is the setup.
-    limit_s : float
-        Time limit of one request, in s.
+    `loop` is a stream to the loop, whose first message is the setup; `limit_s` is the time limit of one request.
     """
     signal.signal(signal.SIGALRM, _too_long)
     checker: LayerChecker | None = None

@@ -30,22 +30,10 @@ def prepare(board: Board, name: str, bank_file: Path) -> Scene:
 
 
 def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) -> int:
-    """Read and check what a scene can ask of a bank.
+    """Read and check what a scene, `called` so in errors, can ask of a bank; returns the number of cells.
 
-    Raises BankError if the bank lacks one, or one is damaged.
-
-    Parameters
-    ----------
-    called : str
-        Name of the scene, for errors.
-    responses : bool
-        Also the responses from which waveforms are composed: nine tenths of a bank. Otherwise they are read and checked when they
-        are used.
-
-    Returns
-    -------
-    int
-        Cells.
+    With `responses` also those from which waveforms are composed: nine tenths of a bank. Otherwise they are read and checked when
+    they are used. Raises BankError if the bank lacks one, or one is damaged.
     """
     cells = cells_of(bank, scene, called)
     if not bank.composes and (needs_responses(scene, bank.wave_scale) or not _emitters_composed(bank, scene)):

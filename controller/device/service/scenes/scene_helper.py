@@ -32,12 +32,7 @@ CHUNK_BYTES = 1 << 16
 def serve(loop: socket.socket, limit_s: float) -> None:
     """Answer requests until the other end of the socket is closed.
 
-    Parameters
-    ----------
-    loop : socket
-        Stream, to the loop.
-    limit_s : float
-        Time limit of one preparation, in s.
+    `loop` is a stream to the loop; `limit_s` is the time limit of one preparation.
     """
     while (request := receive(loop)) is not None:
         pid, pipe = _begin(request, loop, limit_s)

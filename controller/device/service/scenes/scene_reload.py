@@ -28,16 +28,8 @@ GRACE_S = 5.0  # after that limit, until the helper itself counts as hanging
 class SceneChanger:
     """A `SceneChange` that starts and uses a helper process.
 
-    Raises ConfigError if there is no such scene.
-
-    Parameters
-    ----------
-    name : str
-        Name or path of the scene in force.
-    bank : Bank
-        The bank in use.
-    limit_s : float
-        Time limit of one preparation, in s.
+    `name` is the name or path of the scene in force; `limit_s` is the time limit of one preparation. Raises ConfigError if there is
+    no such scene.
     """
 
     def __init__(self, board: Board, name: str, bank: Bank, limit_s: float = LIMIT_S) -> None:

@@ -18,10 +18,7 @@ NO_DEVICE: Final = DeviceDescription("no device yet", axes=dict.fromkeys(ev.POSI
 class AwaitedReader:
     """An `EventReader` that opens another one, at once or later.
 
-    Parameters
-    ----------
-    open_reader : callable
-        Opens the driver without blocking, or raises TouchError.
+    `open_reader` opens the driver without blocking, or raises TouchError.
     """
 
     def __init__(self, open_reader: Callable[[], EventReader]) -> None:

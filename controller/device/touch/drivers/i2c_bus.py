@@ -31,14 +31,7 @@ def write_message(address: int, data: bytes) -> Any:
 class Transfer:
     """A read of consecutive registers, with its buffer, made once and used for every report.
 
-    Parameters
-    ----------
-    address : int
-        Of the device on the bus.
-    register : bytes
-        Address of the first register, as it is sent.
-    size_bytes : int
-        How many bytes to read.
+    `register` is the address of the first register, as it is sent.
     """
 
     def __init__(self, address: int, register: bytes, size_bytes: int) -> None:
@@ -52,14 +45,8 @@ class Transfer:
 class I2cBus:
     """An open bus.
 
-    Raises TouchError if it cannot be opened, or its adapter has no combined messages.
-
-    Parameters
-    ----------
-    path : str
-        Of the bus, such as /dev/i2c-1.
-    warnings : Counter of str
-        Counts `bus_retried`.
+    `path` is such as /dev/i2c-1; `warnings` counts `bus_retried`. Raises TouchError if it cannot be opened, or its adapter has no
+    combined messages.
     """
 
     def __init__(self, path: str, warnings: Counter[str]) -> None:
@@ -88,11 +75,6 @@ class I2cBus:
         """Read registers once.
 
         Raises OSError if the last attempt fails.
-
-        Parameters
-        ----------
-        address, register, size_bytes
-            As of `Transfer`.
         """
         transfer = Transfer(address, register, size_bytes)
         self.fetch(transfer)
@@ -102,11 +84,6 @@ class I2cBus:
         """Read registers that the device may lack; None if it does not acknowledge them.
 
         Raises OSError if the bus fails in another way.
-
-        Parameters
-        ----------
-        address, register, size_bytes
-            As of `Transfer`.
         """
         try:
             return self.read(address, register, size_bytes)
@@ -119,11 +96,6 @@ class I2cBus:
         """Write registers that the device may lack; False if it does not acknowledge them.
 
         Raises OSError if the bus fails in another way.
-
-        Parameters
-        ----------
-        address, data
-            As of `write`.
         """
         try:
             self.write(address, data)
@@ -141,16 +113,9 @@ class I2cBus:
         self._run((message,))
 
     def write(self, address: int, data: bytes) -> None:
-        """Write registers.
+        """Write registers: `data` is the register's address and the values.
 
         Raises OSError if the last attempt fails.
-
-        Parameters
-        ----------
-        address : int
-            Of the device on the bus.
-        data : bytes
-            Register address and values.
         """
         self.send(write_message(address, data))
 

@@ -39,21 +39,9 @@ class Chip(Protocol):
     marks_reports: bool
 
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
-        """Reset and identify the chip.
+        """Reset and identify the chip; yields the time in s to wait before the next step.
 
         Raises OSError if it does not answer; TouchError if another device answers.
-
-        Parameters
-        ----------
-        bus : I2cBus
-            Where it answers.
-        lines : PanelLines
-            Its interrupt and reset lines.
-
-        Yields
-        ------
-        float
-            Time in s to wait before the next step.
         """
 
     @property
@@ -65,35 +53,17 @@ class Chip(Protocol):
         """Whether the interrupt line rises to signal a report; else it falls."""
 
     def fetch(self, bus: I2cBus) -> Sequence[ReportedContact] | None:
-        """Read the newest report.
+        """Read the newest report: all contacts that are down.
 
-        Raises OSError if it does not answer; ValueError if the report has impossible content.
-
-        Parameters
-        ----------
-        bus : I2cBus
-            Where the chip answers.
-
-        Returns
-        -------
-        sequence of ReportedContact, or None
-            All contacts that are down; None if there is no new report, or none that can be believed.
+        None if there is no new report, or none that can be believed. Raises OSError if it does not answer; ValueError if the report
+        has impossible content.
         """
 
 
 class I2cReader:
     """An `EventReader` of a chip on a bus.
 
-    Raises TouchError if bus, lines or chip are absent.
-
-    Parameters
-    ----------
-    settings : I2cTouch
-        Bus and lines.
-    chip : Chip
-        Start sequence and report format.
-    warnings : Counter of str
-        Counts anomalies; shared with the chip.
+    `settings` gives bus and lines; `warnings` is shared with the chip. Raises TouchError if bus, lines or chip are absent.
     """
 
     def __init__(self, settings: I2cTouch, chip: Chip, warnings: Counter[str]) -> None:

@@ -22,14 +22,9 @@ EVIOCSCLOCKID: Final = 0x400445A0  # _IOW('E', 0xa0, int)
 def open_touch_device(device: str, *, grab: bool) -> tuple[evdev.InputDevice[str], DeviceDescription]:
     """Open the event device of a touch panel.
 
-    Raises TouchError if it is absent, cannot be opened or is no touch panel, or if several panels have this name.
-
-    Parameters
-    ----------
-    device : str
-        Path, best below /dev/input/by-path, or the name that the device reports.
-    grab : bool
-        Whether other programs stop receiving its events.
+    `device` is a path, best below /dev/input/by-path, or the name that the device reports; with `grab` other programs stop
+    receiving its events. Raises TouchError if it is absent, cannot be opened or is no touch panel, or if several panels have this
+    name.
     """
     path = device if device.startswith("/") else _path_of(device)
     try:

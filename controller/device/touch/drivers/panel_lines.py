@@ -20,14 +20,8 @@ MAX_READS: Final = 64  # calls at a time: a line with noise has edges faster tha
 class PanelLines:
     """Interrupt line and reset line of one panel, both optional.
 
-    Raises TouchError if there is no such chip or line, or a line is in use.
-
-    Parameters
-    ----------
-    chip_label : str
-        Label of the GPIO chip, such as pinctrl-bcm2711; empty without lines.
-    interrupt, reset : str
-        Names or numbers of lines of that chip; empty: there is none.
+    `chip_label` is such as pinctrl-bcm2711, empty without lines; `interrupt` and `reset` are names or numbers of lines of that
+    chip, empty: there is none. Raises TouchError if there is no such chip or line, or a line is in use.
     """
 
     def __init__(self, chip_label: str, interrupt: str, reset: str = "") -> None:

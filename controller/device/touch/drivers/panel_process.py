@@ -73,13 +73,7 @@ def _warnings_message(warnings: Mapping[str, int]) -> bytes:
 
 
 class PanelProcess:
-    """The loop's end: an `EventReader` of a panel that may be absent.
-
-    Parameters
-    ----------
-    worker : Worker
-        Process that runs `serve_panel`.
-    """
+    """The loop's end: an `EventReader` of a panel that may be absent; `worker` runs `serve_panel`."""
 
     def __init__(self, worker: Worker) -> None:
         self.warnings: Counter[str] = Counter()  # anomalies found by the driver, by kind
@@ -129,14 +123,8 @@ class PanelProcess:
 def serve_panel(open_reader: Callable[[], EventReader], loop: socket.socket, shared: SharedPanel | None = None) -> None:
     """Read a panel and send what it reports, until the loop closes its end.
 
-    Parameters
-    ----------
-    open_reader : callable
-        Opens the driver, or raises TouchError; it may block.
-    loop : socket
-        The other end of `Worker`.
-    shared : SharedPanel, optional
-        Hands the contacts on to other programs, once the loop has them.
+    `open_reader` opens the driver, or raises TouchError; it may block. `loop` is the other end of `Worker`. `shared` hands the
+    contacts on to other programs, once the loop has them.
     """
     try:
         _serve(open_reader, loop, shared)

@@ -34,14 +34,8 @@ def why_not() -> str:
 class Screen(evdev.UInput):
     """A touch screen.
 
-    Raises TouchError if the kernel refuses it.
-
-    Parameters
-    ----------
-    name : str
-        Under which other programs see it.
-    length_mm, width_mm : float
-        Sides of the plate; its axes are as long, in units of 0.01 mm.
+    `name` is what other programs see; the axes are as long as the sides of the plate, in units of 0.01 mm. Raises TouchError if the
+    kernel refuses it.
     """
 
     def __init__(self, name: str, length_mm: float, width_mm: float) -> None:

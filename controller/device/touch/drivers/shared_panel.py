@@ -74,14 +74,7 @@ class TouchScreen(Protocol):
 class SharedPanel:
     """Hands the contacts of one panel on.
 
-    Parameters
-    ----------
-    touch : TouchPanel
-        The board's [touch].
-    length_m, width_m : float
-        Sides of the plate.
-    open_screen : callable
-        Makes the touch screen, by name and sides in mm, or raises TouchError.
+    `open_screen` makes the touch screen, by name and sides in mm, or raises TouchError.
     """
 
     def __init__(

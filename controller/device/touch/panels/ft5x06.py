@@ -64,23 +64,10 @@ class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft
 
 
 def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[ReportedContact] | None:
-    """Decode a report.
+    """Decode the registers from 0 on, as far as read; counts `ghost_points`.
 
-    Raises ValueError if the report has more than `MAX_CONTACTS` contacts.
-
-    Parameters
-    ----------
-    report : bytes
-        Registers from 0 on, as far as read.
-    warnings : Counter of str
-        Counts `ghost_points`.
-    in_part : bool
-        Decode what was read of a report with more contacts.
-
-    Returns
-    -------
-    list of ReportedContact, or None
-        None if the report has more contacts than were read, unless `in_part`.
+    Returns None if the report has more contacts than were read, unless what there is of it is wanted (`in_part`). Raises ValueError
+    if the report has more than `MAX_CONTACTS` contacts.
     """
     count = report[STATUS] & 0x0F
     if count > MAX_CONTACTS:
@@ -94,16 +81,9 @@ def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool 
 
 
 def contacts_of_m06(report: Sequence[int], warnings: Counter[str]) -> list[ReportedContact]:
-    """Decode a report of an EDT M06.
+    """Decode the answer of an EDT M06 to `M06_REPORT`; counts `ghost_points`.
 
     Raises ValueError if its header or its checksum is wrong.
-
-    Parameters
-    ----------
-    report : bytes
-        Answer to `M06_REPORT`, `M06_BYTES` long.
-    warnings : Counter of str
-        Counts `ghost_points`.
     """
     if bytes(report[: len(M06_HEADER)]) != M06_HEADER:
         raise ValueError("no header of a report")
@@ -130,17 +110,9 @@ def _contacts(report: Sequence[int], starts: range, skipped: tuple[int, ...], wa
 
 
 def edt_model(answer: bytes) -> tuple[str, bool]:
-    """Identify an EDT module.
+    """Identify an EDT module by its answer to `EDT_NAME`.
 
-    Parameters
-    ----------
-    answer : bytes
-        To `EDT_NAME`.
-
-    Returns
-    -------
-    (str, bool)
-        Model, empty if it is no EDT module; whether it has the firmware of an M06.
+    Returns the model, empty if it is no EDT module, and whether it has the firmware of an M06.
     """
     for start, m06 in ((0, False), (1, True)):
         if answer[start : start + len(EDT_MODEL)].upper() == EDT_MODEL:
@@ -154,12 +126,7 @@ class Ft5x06:
     The first reports after a start may be from before it: reports are skipped until they change or are empty. A chip has to answer
     the registers of its report; there are boards that imitate one and refuse all others.
 
-    Parameters
-    ----------
-    settings : Ft5x06Touch
-        Address and extents.
-    warnings : Counter of str
-        Counts `ghost_points`, `stale_reports` and `points_refused`.
+    Counts `ghost_points`, `stale_reports` and `points_refused`.
     """
 
     def __init__(self, settings: Ft5x06Touch, warnings: Counter[str]) -> None:

@@ -54,23 +54,10 @@ class Gt911Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="gt9
 
 
 def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[ReportedContact] | None:
-    """Decode a report.
+    """Decode the registers from `STATUS` on, as far as read; counts `ghost_points`.
 
-    Raises ValueError if the report has more than `MAX_CONTACTS` contacts.
-
-    Parameters
-    ----------
-    report : bytes
-        Registers from `STATUS` on, as far as read.
-    warnings : Counter of str
-        Counts `ghost_points`.
-    in_part : bool
-        Decode what was read of a report with more contacts.
-
-    Returns
-    -------
-    list of ReportedContact, or None
-        None if the report has more contacts than were read, unless `in_part`.
+    Returns None if the report has more contacts than were read, unless what there is of it is wanted (`in_part`). Raises ValueError
+    if the report has more than `MAX_CONTACTS` contacts.
     """
     count = report[0] & 0x0F
     if count > MAX_CONTACTS:
@@ -92,16 +79,9 @@ def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool 
 
 
 def product_of(identity: bytes, bus: str) -> str:
-    """Product number of a chip.
+    """Product number of a chip, from its registers from `PRODUCT_ID` on.
 
     Raises TouchError if it is not one of `PRODUCTS`.
-
-    Parameters
-    ----------
-    identity : bytes
-        Registers from `PRODUCT_ID` on.
-    bus : str
-        In the message.
     """
     name = identity[:4].rstrip(b"\0")
     if name.decode("ascii", "replace") in PRODUCTS:
@@ -125,12 +105,7 @@ class Gt911:
 
     It has to answer the registers of its report; the others are used where it has them.
 
-    Parameters
-    ----------
-    settings : Gt911Touch
-        Address, and extents if they overrule the chip's.
-    warnings : Counter of str
-        Counts `ghost_points` and `points_refused`.
+    The extents of `settings` overrule the chip's. Counts `ghost_points` and `points_refused`.
     """
 
     def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:

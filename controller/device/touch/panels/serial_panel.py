@@ -78,11 +78,6 @@ class SerialPanel:
     """An `EventReader` of a SmartSet panel: one finger, by BTN_TOUCH, ABS_X and ABS_Y.
 
     Raises TouchError if the port cannot be opened.
-
-    Parameters
-    ----------
-    settings : EloTouch
-        Port and baud rate.
     """
 
     def __init__(self, settings: EloTouch) -> None:

@@ -52,14 +52,7 @@ def event_line(kind: int, code: int, value: int, microseconds: int) -> str:
 class EvemuWriter:
     """Writes a recording; the file ends with a complete line at any time.
 
-    Raises OSError if the disk is full or gone.
-
-    Parameters
-    ----------
-    file : FileIO
-        Unbuffered, so that an error shows at the report that causes it.
-    description : DeviceDescription
-        Of the device.
+    `file` is unbuffered, so that an error shows at the report that causes it. Raises OSError if the disk is full or gone.
     """
 
     def __init__(self, file: FileIO, description: DeviceDescription) -> None:
@@ -70,16 +63,9 @@ class EvemuWriter:
         self._append(head(description))
 
     def write(self, events: Iterable[Event], time_s: float) -> None:
-        """Append a report.
+        """Append a report; the time of all its events is written to a microsecond.
 
         Raises OSError if the disk is full or gone; earlier reports stay in the file.
-
-        Parameters
-        ----------
-        events : iterable of Event
-            Of one report.
-        time_s : float
-            Of all of them, written to a microsecond.
         """
         if self._first_s is None:
             self._first_s = time_s
@@ -119,16 +105,7 @@ def record(reader: EventReader, file: FileIO, seconds: float | None) -> Recorded
 
     A panel that is disconnected and comes back continues the same recording.
 
-    Raises TouchError if the disk is full, or another panel takes the place of this one.
-
-    Parameters
-    ----------
-    reader : EventReader
-        Driver of the panel.
-    file : FileIO
-        From `open_recording`.
-    seconds : float or None
-        How long to record; None: until a signal.
+    `seconds` None: until a signal. Raises TouchError if the disk is full, or another panel takes the place of this one.
     """
     description = reader.description
     clock = ReportClock(reader.warnings)
@@ -160,11 +137,6 @@ def open_recording(path: Path) -> FileIO:
     """Create the file of a new recording; an existing recording is overwritten, any other file is refused.
 
     Raises TouchError if the file cannot be created; ConfigError if a file that is no recording has this name.
-
-    Parameters
-    ----------
-    path : Path
-        Of the recording.
     """
     try:
         if path.is_file():

@@ -67,16 +67,8 @@ class Track:
 class Recording:
     """One parsed recording.
 
-    Raises ConfigError: see `read_recording`.
-
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    name : str
-        Name in messages.
-    path : str
-        Of the file, in errors; left out: the name.
+    `text` is the content of the file; `name` stands in messages, `path` in errors (left out: the name). Raises ConfigError as
+    `read_recording`.
     """
 
     def __init__(self, text: str, name: str = "recording", path: str = "") -> None:
@@ -141,12 +133,7 @@ class Recording:
     def tracks(self, axes: Axes, start_s: float = 0.0) -> dict[int, Track]:
         """Track of each finger by its number in a replay, with a position at every report while it is down.
 
-        Parameters
-        ----------
-        axes : Axes
-            From `self.axes`.
-        start_s : float
-            Start of the replay: a decision at the very time of a report falls as in that replay.
+        A decision at the very time of a report falls as in the replay that starts at `start_s`.
         """
         decoder = self.decoder(axes)
         points: dict[int, list[tuple[float, float, float]]] = {}
@@ -176,12 +163,7 @@ def rebased(raw_s: Sequence[float], warnings: Counter[str]) -> list[float]:
     An event earlier than the one before, or more than a minute later, or with a time that is not a number, takes the time
     of the one before. If the events after it stay off, the clock was set while recording: they keep their intervals.
 
-    Parameters
-    ----------
-    raw_s : sequence of float
-        As recorded, in s; any values.
-    warnings : Counter of str
-        Counts `time_backwards` and `time_absurd`.
+    Counts `time_backwards` and `time_absurd`.
     """
     times: list[float] = []
     offset_s = 0.0

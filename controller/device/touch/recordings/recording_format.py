@@ -44,13 +44,6 @@ def decoded(data: bytes, name: str) -> tuple[str, int]:
     """Text of a file, and how many of its lines have bytes that are no text.
 
     Raises ConfigError if it is compressed.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-    name : str
-        In the message.
     """
     for sign, program in PACKED.items():
         if data.startswith(sign):
@@ -66,17 +59,9 @@ def decoded(data: bytes, name: str) -> tuple[str, int]:
 def read_recording(text: str, warnings: Counter[str], name: str) -> RecordedDevice | None:
     """The touch panel of a recording with its events; None if no line is of a recording.
 
-    Raises ConfigError if it is of another program, lacks what it takes to know where fingers are and when they are lifted, or holds
-    no touch panel or several; the message says how to go on.
-
-    Parameters
-    ----------
-    text : str
-        evemu text, versions 1.0 to 1.3; YAML of libinput record; what evtest or getevent has printed.
-    warnings : Counter of str
-        Counts what was skipped or clamped.
-    name : str
-        In messages.
+    `text` is evemu text, versions 1.0 to 1.3, YAML of libinput record, or what evtest or getevent has printed; `warnings` counts
+    what was skipped or clamped. Raises ConfigError if it is of another program, lacks what it takes to know where fingers are and
+    when they are lifted, or holds no touch panel or several; the message says how to go on.
     """
     sign = SIGNS.search(text)
     program = sign.lastgroup if sign else "evemu"

@@ -15,14 +15,7 @@ class RecordingSource:
 
     Fingers still down at the end are released then.
 
-    Parameters
-    ----------
-    recording : Recording
-        Gives the events.
-    axes : Axes
-        From `recording.axes(board)`.
-    start_s : float
-        Time of its first event on the loop's clock.
+    The first event is at `start_s` on the loop's clock.
     """
 
     def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:

@@ -41,14 +41,8 @@ class TransferStatistics:
 def check(layout: Layout, settings: UpdateSettings, source: str = "", now: datetime | None = None) -> tuple[Offer, int]:
     """What a repository offers this device, and how many bytes of it are not there yet.
 
-    Raises UpdateError.
-
-    Parameters
-    ----------
-    source : str
-        http(s) address or folder; empty: that of the settings.
-    now : datetime, optional
-        What the clock says; for tests.
+    `source` is an http(s) address or a folder, empty: that of the settings; `now` is what the clock says, for tests. Raises
+    UpdateError.
     """
     origin = source_of(source or settings.source, settings.total_s, settings.bytes_per_s)
     with trusted(layout, origin, _built_s(layout), now) as repository:

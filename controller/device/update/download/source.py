@@ -43,16 +43,9 @@ class Source(FetcherInterface):
 
     @abstractmethod
     def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:
-        """Chunks of a file.
+        """Chunks of a file from byte `start` on; no more than `length` bytes if that is given.
 
         Raises NoRanges if only the whole file is to be had. Raises DownloadError in all other cases; also while chunks are taken.
-
-        Parameters
-        ----------
-        start : int
-            First byte wanted.
-        length : int, optional
-            Bytes wanted, after which no more come; without it whatever there is.
         """
 
     def _fetch(self, url: str) -> Iterator[bytes]:

@@ -70,14 +70,9 @@ def built(built_s: int) -> datetime:
 
 
 def earliest(clock: Path, built_s: int) -> datetime:
-    """Time that it is at least.
+    """Time that it is at least, by a file with the time that was kept; one that holds none counts as absent.
 
-    Parameters
-    ----------
-    clock : Path
-        File with the time that was kept; one that holds none counts as absent.
-    built_s : int
-        When the running release was made, in s since 1970.
+    The running release was made at `built_s`, in s since 1970.
     """
     kept = Kept.read(clock)
     return max(built(built_s), kept.moment) if kept else built(built_s)

@@ -45,12 +45,8 @@ class Offer:
 def offered(repository: DeviceUpdater, layout: Layout, channel: str, where: str) -> Offer:
     """What a channel of a repository offers this device now.
 
-    Raises UpdateError if the repository is wrong, not merely of no use to this device; DownloadError or RepositoryError.
-
-    Parameters
-    ----------
-    where : str
-        What the repository is called in errors.
+    `where` is what the repository is called in errors. Raises UpdateError if the repository is wrong, not merely of no use to this
+    device; DownloadError or RepositoryError.
     """
     platform, installed = this_platform(), manifest_of(layout.current)
     releases = _channel(repository.read(Channel.target(channel), CHANNEL_BYTES_MAX), f"{where}: {Channel.target(channel)}").releases

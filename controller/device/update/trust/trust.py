@@ -118,14 +118,8 @@ class DeviceUpdater(Updater):
 def trusted(layout: Layout, source: Source, built_s: int, now: datetime | None = None) -> Iterator[DeviceUpdater]:
     """A repository whose metadata was verified just now; no other process works on updates meanwhile.
 
-    Raises UpdateError for whatever is wrong with it, also within the block.
-
-    Parameters
-    ----------
-    built_s : int
-        When the running release was made, in s since 1970.
-    now : datetime, optional
-        What the clock says; for tests.
+    The running release was made at `built_s`, in s since 1970; `now` is what the clock says, for tests. Raises UpdateError for
+    whatever is wrong with it, also within the block.
     """
     try:
         root = layout.trusted_root.read_bytes()

@@ -26,12 +26,7 @@ PHASE_BITS, FORM_BITS, STATE_BITS = 14, 15, 28
 class AudibleForm:
     """Audible energy of many emissions at once, in a unit of this class.
 
-    Parameters
-    ----------
-    model : ResponseModel
-        Of this board.
-    longest_lag : int
-        Samples.
+    `longest_lag` is in samples.
     """
 
     def __init__(self, board: Board, model: ResponseModel, longest_lag: int) -> None:

@@ -91,13 +91,7 @@ class _Cells:
 
 
 class Descent:
-    """Optimised waveforms for single points at full amplitude.
-
-    Parameters
-    ----------
-    model : ResponseModel
-        Of this board.
-    """
+    """Optimised waveforms for single points at full amplitude."""
 
     def __init__(self, board: Board, model: ResponseModel, aim: Aim) -> None:
         self.name = f"descent: {aim.name}"
@@ -279,16 +273,8 @@ class Descent:
 def _settle(levels: Floats, slope: Floats, curvature: Floats, change: Floats) -> None:
     """Choose the bits of one sample: round levels between 0 and 1, then flip the bits that gain most.
 
-    Parameters
-    ----------
-    levels : (cell, 32) array
-        From 0 to 1; becomes 0 or 1.
-    slope : (cell, 32) array
-        Derivative of the gain by each level; overwritten.
-    curvature : (cell, 32, 32) array
-        Of the loss.
-    change : (cell, 32) array
-        Receives the change of the levels.
+    `levels` (cell, 32) become 0 or 1; `slope` (cell, 32), the derivative of the gain by each, is overwritten; `curvature` (cell,
+    32, 32) is that of the loss; `change` (cell, 32) receives the change of the levels.
     """
     half = np.diagonal(curvature, axis1=1, axis2=2) / 2
     between = (levels > 0) & (levels < 1)

@@ -42,11 +42,6 @@ class FieldForm:
     """The field at T of many emissions at once; an array's axis `cell` counts emissions, each with a focus of its own.
 
     All displacements are in a unit of this class, from rest at the idle word.
-
-    Parameters
-    ----------
-    model : ResponseModel
-        Of this board.
     """
 
     def __init__(self, board: Board, model: ResponseModel) -> None:
@@ -115,18 +110,8 @@ class FieldForm:
     def near(self, modal: Floats, places: list[Surroundings]) -> tuple[Floats, Floats]:
         """The part of the field that counts as the focus.
 
-        Parameters
-        ----------
-        modal : (cell, mode) array
-        places : list of Surroundings
-            One for each cell.
-
-        Returns
-        -------
-        modes : (cell, mode) array
-            The field there brought back to the modes: what `mean_square` takes off `modal` in its derivative.
-        squares : (cell,) array
-            Sum of squares over the map's points there.
+        `modal` is (cell, mode); each cell has a place. Returns the field there brought back to the modes (cell, mode), which
+        `mean_square` takes off `modal` in its derivative, and the sum of squares over the map's points there (cell,).
         """
         coarse = rounded(modal * self._size, 26, 1)
         back, squares = np.zeros_like(modal), np.zeros(len(modal))

@@ -20,10 +20,7 @@ NEAR_S = 25e-6  # a null is evaluated this long before and after T
 class FocusPrediction:
     """Displacements at T that drive words cause, from rest at the idle word.
 
-    Parameters
-    ----------
-    source : ResponseSource
-        Of this board or another, whose plate then is the one that plays.
+    The source is of this board or another, whose plate then is the one that plays.
     """
 
     def __init__(self, board: Board, source: ResponseSource) -> None:
@@ -44,13 +41,7 @@ class FocusPrediction:
 
 
 class Prediction(FocusPrediction):
-    """The same, and before and after T, which takes a model: responses that go on after an emission.
-
-    Parameters
-    ----------
-    model : ResponseModel
-        As of `FocusPrediction`.
-    """
+    """The same, and before and after T, which takes a model: responses that go on after an emission."""
 
     def __init__(self, board: Board, model: ResponseModel) -> None:
         super().__init__(board, model)

@@ -27,19 +27,8 @@ def interleaved(
 ) -> list[CallTiming]:
     """Time jobs, by the processor time of this thread: other processes only disturb its caches.
 
-    Parameters
-    ----------
-    jobs : sequence of sequences of callables
-        The calls of each job; each is made twice in every turn. What the clock itself takes is left out.
-    most_s : float
-        A job that has taken longer makes three turns and no more.
-    each : callable, optional
-        Called after each turn.
-
-    Returns
-    -------
-    list of CallTiming
-        Of each job, over its calls and turns.
+    Each call of a job is made twice in every turn; what the clock itself takes is left out. A job that has taken longer than
+    `most_s` makes three turns and no more. `each` is called after each turn.
     """
     clock = time.thread_time_ns
     empty = []

@@ -36,12 +36,8 @@ class BankOfReference(ctypes.Structure):
 class PlainC:
     """Plain C on the responses of an open bank of which every cell that is played was used before.
 
-    Raises ConfigError if there is no C compiler, or it fails, or the bank's waveforms are not of 1,000 samples.
-
-    Parameters
-    ----------
-    folder : Path
-        For the compiled library.
+    `folder` is for the compiled library. Raises ConfigError if there is no C compiler, or it fails, or the bank's waveforms are not
+    of 1,000 samples.
     """
 
     def __init__(self, folder: Path, bank: Bank, idle_word: int) -> None:

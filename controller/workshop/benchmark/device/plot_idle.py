@@ -30,18 +30,9 @@ FIRST_ORDER_MS = 50.0
 
 
 def plot_idle(path: Path, board: Board, figures: dict[str, Any]) -> None:
-    """Draw a board's `idle_figures`.
+    """Draw a board's `idle_figures` to a .png, .svg or .pdf file.
 
     Raises ConfigError if the file cannot be written.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    board : Board
-        Panel that was evaluated.
-    figures : dict
-        What `idle_figures` returned.
     """
     x_m, y_m = random_points(board, figures["seed"], 1, board.plate.width_m / 3)[0].tolist()  # away from patches and edges
     drive_order = ResponseModel(board).drive_order_responses([(x_m, y_m)], dtype=np.float64)

@@ -137,23 +137,11 @@ def recording(board: Board, case: SkipCase) -> Recording:
 def skipping(board: Board, bank_file: Path, case: SkipCase, off: Sequence[str] = (), repeats: int = REPEATS) -> dict[str, Any]:
     """Play one case with and without skipping.
 
-    Parameters
-    ----------
-    board : Board
-        With the plate of the simulated one; its touch panel is the case's recording.
-    bank_file : Path
-        A bank of the whole plate.
-    off : sequence of str
-        Fields of `Skips` that are switched off in the second run; all by default.
-    repeats : int
-        Further runs of each for `host_ms`, from a bank that is checked beforehand as for the service.
-
-    Returns
-    -------
-    dict
-        `done` and `without`: figures of both runs; `saved`: their differences; `exact_bits`: whether exact skipping leaves every
-        output bit as it is; `must_be_exact`; `other_bits`: share of the bits that differ between both runs, None if they have not
-        as many emissions; `bank`: cells that the scene needs, of how many.
+    The board's plate is the simulated one's, its touch panel the case's recording; `bank_file` is of the whole plate. `off` are
+    fields of `Skips` that are switched off in the second run; all by default. `repeats` are further runs of each for `host_ms`,
+    from a bank that is checked beforehand as for the service. Returns `done` and `without`: figures of both runs; `saved`: their
+    differences; `exact_bits`: whether exact skipping leaves every output bit as it is; `must_be_exact`; `other_bits`: share of the
+    bits that differ between both runs, None if they have not as many emissions; `bank`: cells that the scene needs, of how many.
     """
     fewer = NONE if not off else replace(ALL, **dict.fromkeys(off, False))
     done, without = (figures(board, bank_file, case, skips) for skips in (ALL, fewer))
@@ -218,13 +206,7 @@ def exact_bits(board: Board, bank_file: Path, case: SkipCase) -> bool:
 
 
 def figures(board: Board, bank_file: Path, case: SkipCase, skips: Skips) -> dict[str, Any]:
-    """Counts and costs of one way of playing a case, and `words`, the drive words of its emissions, (emission, sample).
-
-    Parameters
-    ----------
-    board, bank_file, case
-        As for `skipping`.
-    """
+    """Counts and costs of one way of playing a case, and `words`, the drive words of its emissions, (emission, sample)."""
     run, pages = _run(board, bank_file, case, skips, whole=skips == NONE)
     counters = run.counters
     sent = counters.uploads + counters.prefetched
@@ -299,12 +281,7 @@ def all_cases(
 ) -> dict[str, Any]:
     """Play all cases from a bank that is built for it; `cases`: what `skipping` found, for each.
 
-    Parameters
-    ----------
-    board, off, repeats
-        As for `skipping`.
-    progress : callable, optional
-        Called with the number of cases done and of all cases.
+    The arguments are as for `skipping`; `progress` is called with the number of cases done and of all cases.
     """
     found = []
     with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):

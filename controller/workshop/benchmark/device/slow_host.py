@@ -126,14 +126,8 @@ class Pulses:
 def run_slow(board: Board, scene: Scene, bank: Bank, recording: Recording, p50_s: float, seed: int = 1) -> Pulses:
     """Replay a recording through the event loop on a slow host.
 
-    Parameters
-    ----------
-    board, scene, bank, recording
-        As in `simulation.simulated_run.play`.
-    p50_s : float
-        Median host time of an upload; 0: the host takes no time.
-    seed : int
-        Of the host times.
+    `p50_s` is the median host time of an upload, 0: the host takes no time; `seed` is that of the host times. The rest is as in
+    `simulation.simulated_run.play`.
     """
     clock = HostClock()
     link = SlowLink(board.link, clock.now_s, GatewareModel(BuildParameters.of(board, gateware_hash())))

@@ -67,25 +67,8 @@ class Observed:
 def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, places: int) -> dict[str, Any]:
     """Send commands at a constant rate and read all answers.
 
-    Raises LinkError if the panel ends a connection.
-
-    Parameters
-    ----------
-    path : str
-        Socket of the panel.
-    pid : int
-        Process of the service, whose memory is watched.
-    seconds, rate_hz : float
-        Duration of the load; commands a second, of all clients together.
-    clients : int
-        Number of connections.
-    places : int
-        Number of different points on the plate. The waveforms of a few stay resident in the FPGA, those of many are uploaded.
-
-    Returns
-    -------
-    dict
-        Figures, ready for JSON.
+    `pid` is the service's, whose memory is watched; `rate_hz` is that of all clients together. The waveforms of a few different
+    `places` on the plate stay resident in the FPGA, those of many are uploaded. Raises LinkError if the panel ends a connection.
     """
     decoder, observed = messages.message_decoder(), Observed()
     with PanelClient(path) as panel:
@@ -237,14 +220,9 @@ def _resident_bytes(pid: int) -> int:
 
 
 def run(options: argparse.Namespace) -> dict[str, Any]:
-    """Start the simulated panel, drive it with the options of the command line, and stop it.
+    """Start the simulated panel, drive it with the options of the command line, and stop it; figures of `drive`.
 
     Raises ControllerError if the panel does not start; LinkError if it ends a connection.
-
-    Returns
-    -------
-    dict
-        Figures of `drive`.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "panel.sock")

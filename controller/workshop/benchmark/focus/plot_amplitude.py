@@ -12,16 +12,9 @@ from controller.errors import ConfigError
 
 
 def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
-    """Draw the figures of `amplitude_figures`.
+    """Draw the figures of `amplitude_figures` to a .png, .svg or .pdf file.
 
     Raises ConfigError if the file cannot be written.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    figures : dict
-        What `amplitude_figures` returned.
     """
     figure = Figure(figsize=(11, 4.5), layout="constrained")
     against, errors, single = figure.subplots(1, 3)

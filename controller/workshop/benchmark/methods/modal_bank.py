@@ -44,12 +44,8 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
 class ModalBank:
     """Drive words from modes.
 
-    Parameters
-    ----------
-    energy_share : float
-        The strongest modes are kept that have this share of the energy of all.
-    pulses : (sample, weight) array, optional
-        Of `baseband.pulse_matrix`.
+    The strongest modes are kept that have `energy_share` of the energy of all; `pulses` (sample, weight) are of
+    `baseband.pulse_matrix`.
     """
 
     def __init__(self, model: ResponseModel, energy_share: float, idle_word: int, pulses: NDArray[np.float64] | None) -> None:

@@ -25,16 +25,9 @@ SHOWN_SKIN_MS = (-0.1, 0.6)
 
 
 def plot_paper(path: Path, figures: Figures) -> None:
-    """Draw the figures of `paper_figures`.
+    """Draw the figures of `paper_figures` to a .png, .svg or .pdf file.
 
     Raises ConfigError if the file cannot be written.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    figures : dict
-        What `paper_figures` returned.
     """
     figure = Figure(figsize=(16, 13), layout="constrained")
     parts: Any = figure.subfigures(2, 1, height_ratios=[1.25, 1])

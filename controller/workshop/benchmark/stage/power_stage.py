@@ -445,16 +445,8 @@ def parameters() -> dict[str, float]:
 def measure(board: Board, parts: Parts | None = None, benches: Sequence[str] = tuple(BENCHES)) -> list[Figure]:
     """All figures of some benches.
 
-    Raises ControllerError if ngspice is missing or fails.
-
-    Parameters
-    ----------
-    board : Board
-        Whose limits the figures are compared with.
-    parts : mapping, optional
-        Parts that are not those of the netlists, by the names of their parameters.
-    benches : sequence of str
-        Of `BENCHES`.
+    The figures are compared with the limits of `board`; `parts` take the place of those of the netlists, by the names of their
+    parameters; `benches` are of `BENCHES`. Raises ControllerError if ngspice is missing or fails.
     """
     known = limits(board)
     measured = {name: value for bench in benches for name, value in BENCHES[bench](board, parts or {}).items()}

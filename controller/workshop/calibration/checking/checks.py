@@ -58,15 +58,8 @@ def listed(names: Sequence[object]) -> str:
 def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], driven: NDArray[np.bool_]) -> list[Objection]:
     """Channels of which nothing arrives anywhere.
 
-    Parameters
-    ----------
-    power : (point, 32) array
-        Of the responses, noise taken off; NaN where not resolved.
-    coherence : (point, 32) array
-    channels : sequence of int
-        Those with an actuator.
-    driven : (32,) bool array
-        Those that were ever driven.
+    `power` (point, 32) is that of the responses, noise taken off, NaN where not resolved; `coherence` is as large. `channels` are
+    those with an actuator, `driven` (32,) those that were ever driven.
     """
     never = [channel for channel in channels if np.isnan(power[:, channel]).all()]
     others = [channel for channel in channels if channel not in never]
@@ -140,10 +133,7 @@ def wrong_strength(waves: DirectWaves, alive: Sequence[int]) -> list[Objection]:
 def clipped_records(counts: dict[str, int]) -> list[Objection]:
     """Points whose records stand at the end of the converter's range; those are left out.
 
-    Parameters
-    ----------
-    counts : dict
-        Name of a point to its number of such records.
+    `counts` is the number of such records by the name of a point.
     """
     if not counts:
         return []

@@ -59,14 +59,8 @@ def remarks_on(
 ) -> list[Objection]:
     """What was corrected, and what is worth knowing.
 
-    Parameters
-    ----------
-    delay_s : float
-        That was corrected.
-    ringing : float
-        What is left of responses where the records end.
-    excited_hz : (float, float)
-        What was played reaches so far.
+    `delay_s` was corrected; `ringing` is what is left of responses where the records end; `excited_hz` is how far what was played
+    reaches.
     """
     settings, findings = measurement.settings, list[Objection]()
     if delay_s and settings.records.first_sample_us is not None:

@@ -18,14 +18,8 @@ def plot_plan(
 ) -> None:
     """Draw it to a PNG, SVG or PDF file.
 
-    Raises ConfigError if the file cannot be written.
-
-    Parameters
-    ----------
-    points_m : (point, 2) array
-        In the order of the path.
-    places_m, shares : (place, 2) and (place,) array
-        What is foreseen where.
+    `points_m` (point, 2) are in the order of the path; `shares` (place,) are foreseen at `places_m` (place, 2). Raises ConfigError
+    if the file cannot be written.
     """
     figure = Figure(figsize=(9, 6.5), layout="constrained")
     plate = figure.subplots()

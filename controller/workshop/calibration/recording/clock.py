@@ -37,15 +37,7 @@ class RecorderClock:
 
 
 def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], delay_s: float) -> RecorderClock:
-    """Estimate it.
-
-    Parameters
-    ----------
-    records : sequence of PointRecords
-        Of a few points.
-    delay_s : float
-        Of the records; to 20 us.
-    """
+    """Estimate it from the records of a few points, which are late by `delay_s`, to 20 us."""
     span_s = max(float(one.first_s.max()) for one in records)
     if span_s == 0:
         records = [_averaged(one) for one in records]  # repetitions that were triggered alike tell the same

@@ -94,13 +94,9 @@ class InPlace:
     def measure(self) -> Floats:
         """Play all emissions and record them; the outputs are off afterwards.
 
-        Raises LinkError or FaultError if the FPGA does not play all of them; CalibrationError if the recorder fails, or does not
-        hear them.
-
-        Returns
-        -------
-        (emission, repetition, sample) array
-            In the sensor's unit; its first sample is `BEFORE_S` before the first word, or at the trigger.
+        The records (emission, repetition, sample) are in the sensor's unit; the first sample is `BEFORE_S` before the first word,
+        or at the trigger. Raises LinkError or FaultError if the FPGA does not play all of them; CalibrationError if the recorder
+        fails, or does not hear them.
         """
         session = self._session
         with selectors.DefaultSelector() as selector:

@@ -24,15 +24,9 @@ MOST_LINE_BYTES: Final = 200
 class AlsaRecorder:
     """Two tracks of a sound card: the sensor on the first, a channel's drive, divided to the card's level, on the second.
 
-    Raises ConfigError if sounddevice or PortAudio is missing; LinkError if there is no such device, or it does not record at this
-    rate.
-
-    Parameters
-    ----------
-    device : str
-        Name or part of it, as `python -m sounddevice` lists them.
-    full_scale : float
-        Of the card, in the sensor's unit.
+    `device` is the name or part of it, as `python -m sounddevice` lists them; `full_scale` is that of the card, in the sensor's
+    unit. Raises ConfigError if sounddevice or PortAudio is missing; LinkError if there is no such device, or it does not record at
+    this rate.
     """
 
     triggered = False
@@ -87,11 +81,6 @@ class SerialRecorder:
       the CRC-32 (zlib) of these bytes, lowest byte first.
 
     Raises LinkError if the port cannot be opened, or no such sensor answers.
-
-    Parameters
-    ----------
-    device : str
-        Path of the port.
     """
 
     triggered = True

@@ -76,12 +76,7 @@ def simulate_measurement(
 ) -> dict[str, Any]:
     """Write the measurement folder of a simulated plate; points that are there from an interrupted call are kept.
 
-    Raises CalibrationError if the folder holds something else, or cannot be written.
-
-    Returns
-    -------
-    dict
-        Figures, ready for JSON.
+    Returns figures, ready for JSON. Raises CalibrationError if the folder holds something else, or cannot be written.
     """
     words = drive_words(board, recording.kind, recording.seed)
     settings = _settings(board, recording, faults)

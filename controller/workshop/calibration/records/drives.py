@@ -45,15 +45,8 @@ class Drive:
     def spectra(self, first_hz: float, step_hz: float, count: int, bit_period_s: float) -> Complex:
         """Each channel's drive, as a number of pulses of 1 V of one bit period.
 
-        Parameters
-        ----------
-        first_hz, step_hz, count : float, float, int
-            Frequencies; none is a multiple of 1 / `bit_period_s`.
-
-        Returns
-        -------
-        (emission, 32, count) array
-            In V: what the spectrum of a response to such a pulse is multiplied with.
+        No frequency is a multiple of 1 / `bit_period_s`. Returns (emission, 32, count) in V: what the spectrum of a response to
+        such a pulse is multiplied with.
         """
         frequency_hz: Floats = first_hz + step_hz * np.arange(count, dtype=np.float64)
         found = transform(self.volts, self.rate_hz, first_hz, step_hz, count)
@@ -84,7 +77,7 @@ def held_spectrum(frequency_hz: Floats, period_s: float) -> Complex:
 def read_drive(folder: Path, table: DriveTable) -> Drive:
     """The drive that a `measurement.toml` describes.
 
-    Raises CalibrationError: naming the file: absent, of another kind or shape, or too long.
+    Raises CalibrationError, naming the file: absent, of another kind or shape, or too long.
     """
     match table:
         case WordsDrive():

@@ -145,7 +145,7 @@ class MeasurementFile(Record, frozen=True):
 def read_settings(folder: Path) -> MeasurementFile:
     """Read the `measurement.toml` of a folder.
 
-    Raises CalibrationError: naming file, key and value; also for names of files that lead out of the folder.
+    Raises CalibrationError, naming file, key and value; also for names of files that lead out of the folder.
     """
     file = folder / NAME
     try:

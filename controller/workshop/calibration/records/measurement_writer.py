@@ -27,7 +27,7 @@ UFF_TYPES = {"m": 8, "m/s": 11, "m/s^2": 12, "V": 0}
 def claim(folder: Path, settings: MeasurementFile) -> None:
     """Refuse a folder that holds another measurement.
 
-    Raises CalibrationError: naming what differs.
+    Raises CalibrationError, naming what differs.
     """
     if not (folder / NAME).exists():
         if folder.exists() and any(folder.iterdir()):
@@ -87,16 +87,10 @@ def write_measurement(
 
 
 def write_records(folder: Path, settings: MeasurementFile, name: str, values: ArrayLike) -> None:
-    """Write the records of one point, in as many files as `settings.records.files` has fields.
+    """Write the records of the point `name`, in as many files as `settings.records.files` has fields.
 
-    Raises CalibrationError if a file cannot be written.
-
-    Parameters
-    ----------
-    name : str
-        Of the point.
-    values : (emission, repetition, sample) array, or (sample,) if records run through
-        In `settings.records.unit`; as numbers of another type than float, in parts of `full_scale`.
+    `values` are (emission, repetition, sample), or (sample,) if records run through, in `settings.records.unit`; as numbers of
+    another type than float, in parts of `full_scale`. Raises CalibrationError if a file cannot be written.
     """
     array, fields, table = np.asarray(values), settings.records.fields, settings.records
     channels = getattr(settings.drive, "channels", ())

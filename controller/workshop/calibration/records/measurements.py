@@ -85,7 +85,7 @@ class Measurement:
     def records(self, point: int) -> PointRecords:
         """Read the records of a point; of one that is `missing` none is there.
 
-        Raises CalibrationError: naming file and point: damaged, of another length, rate or unit, or with samples that are no
+        Raises CalibrationError, naming file and point: damaged, of another length, rate or unit, or with samples that are no
         numbers.
         """
         return self._cut(point, dict(self._read(point)))
@@ -225,13 +225,8 @@ class Measurement:
 def read_measurement(folder: Path, board: Board) -> Measurement:
     """Read and check all of a measurement folder but the records.
 
-    Raises CalibrationError: naming file and point: absent or invalid settings, points off the plate, twice, or none; a drive that
+    Raises CalibrationError, naming file and point: absent or invalid settings, points off the plate, twice, or none; a drive that
     cannot be read.
-
-    Parameters
-    ----------
-    board : Board
-        Whose plate was measured.
     """
     settings = read_settings(folder)
     drive = read_drive(folder, settings.drive)

@@ -40,7 +40,7 @@ class UffSets:
 def load_array(file: Path, name: str = "records") -> Numbers:
     """Array of a .npy file, mapped, or that called `name` in a .npz file.
 
-    Raises CalibrationError: naming the file: absent, damaged, too large, or no array of real numbers.
+    Raises CalibrationError, naming the file: absent, damaged, too large, or no array of real numbers.
     """
     array: Numbers
     try:
@@ -73,7 +73,7 @@ def load_records(file: Path) -> Numbers:
 def load_wav(file: Path, track: int, rate_hz: float) -> Numbers:
     """Samples (n,) of one track of a WAV file: 8, 16, 24, 32 bit or float; 24 bits are the upper ones of 32.
 
-    Raises CalibrationError: naming the file: absent, damaged, cut short, of another rate, or without that track.
+    Raises CalibrationError, naming the file: absent, damaged, cut short, of another rate, or without that track.
     """
     try:
         with warnings.catch_warnings(record=True) as said:
@@ -102,7 +102,7 @@ def load_uff(file: Path, rate_hz: float, unit: str) -> UffSets:
     The response node is the point, the reference node the emission counted from 1, the version number the repetition counted from
     1; 0 stands for the first.
 
-    Raises CalibrationError: naming file and node: absent, damaged, of another rate or quantity, not evenly spaced, or two records
+    Raises CalibrationError, naming file and node: absent, damaged, of another rate or quantity, not evenly spaced, or two records
     of one place.
     """
     try:

@@ -25,12 +25,7 @@ _DELIVERY = (EventKind.UART_BEGIN, EventKind.LANDING, EventKind.FRAME)
 class Core:
     """`haptic_core.v` behind its input registers.
 
-    Parameters
-    ----------
-    parameters : BuildParameters
-        Of the module.
-    events : Events
-        What happens in which tick.
+    `events` are what happens in which tick.
     """
 
     def __init__(self, parameters: BuildParameters, events: Events) -> None:
@@ -65,12 +60,7 @@ class Core:
     def status(self, port: Port = Port.SPI, tick: int | None = None) -> Status:
         """The status with which a link is answered.
 
-        Parameters
-        ----------
-        port : Port
-            The link.
-        tick : int, optional
-            Tick in which the beginning of its frame is seen; by default the current one.
+        The beginning of the frame is seen in `tick`, by default the current one.
         """
         gate, player, telemetry = self._gate, self._player, self._telemetry
         now = self._events.now if tick is None else tick

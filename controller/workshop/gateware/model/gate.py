@@ -101,10 +101,7 @@ class OutputGate:
     def disarm(self, tick: int, settled_from: int) -> None:
         """Ramp down to 0, or reverse a ramp up.
 
-        Parameters
-        ----------
-        settled_from : int
-            First tick in which the idle word has been held for a bit period.
+        The idle word has been held for a bit period from the tick `settled_from` on.
         """
         samples, bit_ticks = self._registers.ramp_samples, self._registers.bit_ticks
         if self.state is GateState.SETTLING:

@@ -23,13 +23,7 @@ _SETTINGS = (Kind.SETTING, Kind.MASK)
 
 
 class RegisterFile:
-    """Settings by name; constants, what is built in and settings by address, as their records in `Register` say.
-
-    Parameters
-    ----------
-    parameters : BuildParameters
-        With which the gateware is built.
-    """
+    """Settings by name; constants, what is built in and settings by address, as their records in `Register` say."""
 
     def __init__(self, parameters: BuildParameters) -> None:
         self.parameters = p = parameters
@@ -77,33 +71,13 @@ class RegisterFile:
         return self._values[Register.HEARTBEAT_TICKS]
 
     def read(self, register: Register) -> int | None:
-        """Value of a register of 32 bits, or None if it is not kept here.
-
-        Parameters
-        ----------
-        register : Register
-            Kept here are constants, what is built in, and settings.
-        """
+        """Value of a register of 32 bits, or None if it is not kept here."""
         return self._values.get(register)
 
     def write(self, address: int, value: int, *, disarmed: bool, quiet: bool) -> Result:
-        """Change a setting, or say why not.
+        """Change a setting, or say why not; `address` may be no register's.
 
-        Parameters
-        ----------
-        address : int
-            From the frame; it may be no register's.
-        value : int
-            32 bits.
-        disarmed : bool
-            Outputs are off.
-        quiet : bool
-            Outputs are off or armed, and nothing plays or waits.
-
-        Returns
-        -------
-        Result
-            OK if the setting was changed.
+        `disarmed`: outputs are off; `quiet`: they are off or armed, and nothing plays or waits.
         """
         if address not in set(Register):
             return Result.UNKNOWN_REGISTER

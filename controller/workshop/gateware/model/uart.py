@@ -35,10 +35,8 @@ class UartPeripheral:
     def receive(self, byte: int) -> tuple[bool, Frame | None]:
         """Receive a byte.
 
-        Returns
-        -------
-        (bool, Frame or None)
-            Whether a frame begins with this byte, and the frame that ends with it; it is BUSY if another was pending when it began.
+        Returns whether a frame begins with this byte, and the frame that ends with it; it is BUSY if another was pending when it
+        began.
         """
         in_block = self._open and self._left != 0
         if byte == 0:

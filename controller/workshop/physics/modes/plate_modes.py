@@ -27,12 +27,8 @@ KEPT = 4  # plates whose modes are remembered
 def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
     """Modes of a board's plate, kept for the next call.
 
-    Raises ConfigError if there is none, or more than can be computed with.
-
-    Parameters
-    ----------
-    highest_hz : float, optional
-        Modes above are left out; `mode_cut_hz` by default.
+    Modes above `highest_hz` are left out; `mode_cut_hz` by default. Raises ConfigError if there is none, or more than can be
+    computed with.
     """
     places = () if board.patches is None else board.patches.on(board.plate, board.actuators)
     return _modes(board.plate, board.patches, places, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)

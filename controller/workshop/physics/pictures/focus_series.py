@@ -41,13 +41,7 @@ class FocusSeries:
 
 
 def focus_series(twin: PlateTwin, words: NDArray[np.uint32], point_m: tuple[float, float]) -> FocusSeries:
-    """Play words on a plate at rest at the idle word, and watch one point until some decay times after T.
-
-    Parameters
-    ----------
-    words : (sample,) uint32 array
-    point_m : (x_m, y_m)
-    """
+    """Play words on a plate at rest at the idle word, and watch one point until some decay times after T."""
     board = twin.board
     rest = int(min(np.ceil(REST_TAUS * slowest_decay_s(twin.modes) / board.waveform.bit_period_s), 4 * len(words)))
     played = np.concatenate([words, np.full(rest, board.idle_word)]).astype("<u4")

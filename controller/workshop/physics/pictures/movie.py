@@ -92,14 +92,8 @@ class Movie:
     def frames(self, twin: PlateTwin, words: NDArray[np.uint32], memory_mb: float | None = None) -> Iterator[Frames]:
         """Displacement in m of some frames after the others, (frame, ny, nx) each, in float32.
 
+        The words (sample,) are played from rest at the idle word, which follows them; `memory_mb` is the memory that it may take.
         Raises ConfigError if it takes more.
-
-        Parameters
-        ----------
-        words : (sample,) uint32 array
-            Played from rest at the idle word; the idle word follows.
-        memory_mb : float, optional
-            Memory that it may take.
         """
         require(
             self.bytes(twin.modes), memory_mb, f"a movie of {len(self.bits)} frames of {self.x_m.size} x {self.y_m.size} points"

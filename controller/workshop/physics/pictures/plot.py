@@ -37,14 +37,8 @@ def plot_focus(
 ) -> None:
     """Draw the field to a PNG, SVG or PDF file.
 
-    Raises ConfigError if the file cannot be written.
-
-    Parameters
-    ----------
-    foci : sequence of (x_m, y_m)
-        Where the fingers are; the first one gets the cross-section along x.
-    series : FocusSeries, optional
-        Drawn beside the plate: what happens over time at the first focus.
+    `foci` (x_m, y_m) are where the fingers are; the first one gets the cross-section along x. `series` is drawn beside the plate:
+    what happens over time at the first focus. Raises ConfigError if the file cannot be written.
     """
     x, y, u = field.map(field.scale.map_step_m / 4)
     u_um = u * 1e6

@@ -30,12 +30,7 @@ POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough t
 class ResponseModel:
     """Responses of any point of a board's plate, from its modes: a `ResponseSource`.
 
-    Parameters
-    ----------
-    highest_hz : float, optional
-        Modes above are left out; `mode_cut_hz` by default.
-    modes : Modes, optional
-        In place of those of the board's plate.
+    Modes above `highest_hz` are left out, `mode_cut_hz` by default; `modes` take the place of those of the board's plate.
     """
 
     def __init__(self, board: Board, highest_hz: float | None = None, modes: Modes | None = None) -> None:
@@ -93,14 +88,9 @@ class ResponseModel:
         dtype: DTypeLike = np.float64,
         out: NDArray[np.floating[Any]] | None = None,  # (point, sample, 32): filled and returned
     ) -> NDArray[np.floating[Any]]:
-        """Responses in the order of time.
+        """Responses in the order of time (point, sample, 32), m per V held for one bit period.
 
-        Raises ValueError if `out` has another shape or type.
-
-        Returns
-        -------
-        (point, sample, 32) array
-            m per V held for one bit period; zero for channels without an actuator.
+        Zero for channels without an actuator. Raises ValueError if `out` has another shape or type.
         """
         return self._responses(points_m, self._kernel(np.dtype(dtype), band_limited=band_limited), out)
 
