@@ -34,7 +34,7 @@ class LatencyHistogram:
         self._buckets[(octave << SUB_BITS) + (duration_ns >> octave)] += 1
 
     def percentiles_ns(self, fractions: Sequence[float]) -> list[float]:
-        """For each fraction, 0 to 1, the duration in ns that this many of the records do not exceed, within 0.8 %; NaN without records."""
+        """For each fraction, 0 to 1, the duration in ns that as many records do not exceed, within 0.8 %; NaN without any."""
         if not self.count:
             return [math.nan] * len(fractions)
         seen = np.cumsum(

@@ -24,7 +24,7 @@ MOST_SHEAR = 8.0
 MOST_SHEAR_LEFT_OUT = 2.0
 
 
-class Layer(Record, frozen=True):
+class PlateLayer(Record, frozen=True):
     """A layer of the plate, from the bottom up; the layers stick to each other.
 
     Attributes
@@ -70,9 +70,9 @@ class Laminate(NamedTuple):
     shear_flexibility: float
 
 
-def laminate(layers: Sequence[Layer]) -> Laminate:
+def laminate(layers: Sequence[PlateLayer]) -> Laminate:
     """What layers, from the bottom up, are together."""
-    sections: list[tuple[float, float, Layer]] = []  # from, to in m
+    sections: list[tuple[float, float, PlateLayer]] = []  # from, to in m
     top = 0.0
     for layer in layers:
         sections.append((top, top + layer.thickness_mm * 1e-3, layer))
@@ -97,12 +97,12 @@ def laminate(layers: Sequence[Layer]) -> Laminate:
     )
 
 
-def softest(layers: Sequence[Layer]) -> int:
+def softest(layers: Sequence[PlateLayer]) -> int:
     """Number of the layer with the smallest shear modulus."""
     return min(range(len(layers)), key=lambda index: layers[index].young_modulus_pa / (1 + layers[index].poisson_ratio))
 
 
-def _shear(sections: Sequence[tuple[float, float, Layer]], moduli: Sequence[float], axis: float, stiffness: float) -> float:
+def _shear(sections: Sequence[tuple[float, float, PlateLayer]], moduli: Sequence[float], axis: float, stiffness: float) -> float:
     """Integral of tau^2 / G for a unit shear force per length, in m / N: tau(z) is the moment of the moduli below z, over D."""
     below = found = 0.0
     for q, (a, b, layer) in zip(moduli, sections, strict=True):

@@ -143,7 +143,7 @@ class Plate(Record, frozen=True, kw_only=True):
     decay_time_ms: Annotated[float, Meta(ge=0.1, le=10e3)]
     theory: Literal["kirchhoff", "mindlin"] = "kirchhoff"
     foam: Foam | None = None
-    layers: tuple[Layer, ...] = ()
+    layers: tuple[PlateLayer, ...] = ()
     damping: Damping | None = None
 
     @classmethod

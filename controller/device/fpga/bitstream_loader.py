@@ -64,8 +64,8 @@ class BitstreamLoader:
         """Load the FPGA, for what it answers, or does not.
 
         Always raises LinkError while this can still become good: try again later; it is `error` itself for an FPGA that does not
-        answer and that no attempt has failed to load. Raises IncompatibleFpga if there is nothing to load, or it answers with another
-        gateware after the last attempt.
+        answer and that no attempt has failed to load. Raises IncompatibleFpga if there is nothing to load, or it answers with
+        another gateware after the last attempt.
         """
         if not isinstance(error, IncompatibleFpga):
             self._load_silent(error)

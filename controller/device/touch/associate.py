@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from controller.device.touch.axes import Axes
+from controller.device.touch.axes import PanelAxes
 
 # Values of Contact.identity besides the tracking ids of the device, which are never negative
 NO_CONTACT: Final = -1
@@ -84,7 +84,9 @@ class Contact:
         self.step_vx = self.step_vy = math.nan  # velocity in m/s of the last step between two samples; NaN before the first
 
 
-def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int], step_s: float) -> dict[int, Contact]:
+def associate(
+    old: dict[int, Contact], new: list[Contact], axes: PanelAxes, serials: Iterator[int], step_s: float
+) -> dict[int, Contact]:
     """Carry the state of the contacts of the last report over to those of a new one.
 
     `old` holds contacts by identity; each of `new` has both positions and the device's tracking id, negative without one. `serials`

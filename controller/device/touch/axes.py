@@ -20,11 +20,11 @@ class AxisRange:
     maximum: int
 
 
-class Axes:
+class PanelAxes:
     """Both axes of one panel on one board.
 
     A raw value is normalised to 0..1 by the range of its axis; the board's affine map (`touch.x_mm_from_axes`,
-    `touch.y_mm_from_axes`: per unit of x, per unit of y, at their minimum) gives the position on the plate. Axes may be
+    `touch.y_mm_from_axes`: per unit of x, per unit of y, at their minimum) gives the position on the plate. PanelAxes may be
     mirrored or swapped, and may reach beyond the glass.
 
     An axis without extent (guessed from one single tap) reads as its middle.

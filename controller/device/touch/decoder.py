@@ -16,7 +16,7 @@ from math import inf
 from typing import Final
 
 from controller.device.touch.associate import FIRST_SERIAL, IMPLIED, NO_CONTACT, UNKNOWN, Contact, associate
-from controller.device.touch.axes import Axes
+from controller.device.touch.axes import PanelAxes
 from controller.device.touch.event_codes import (
     ABS_MT_DISTANCE,
     ABS_MT_POSITION_X,
@@ -60,7 +60,7 @@ class Decoder:
     """
 
     def __init__(
-        self, axes: Axes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
+        self, axes: PanelAxes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
     ) -> None:
         self.counts: Counts = after.counts if after else Counts()  # reports, contacts and fingers so far
         self.counts.devices += 1

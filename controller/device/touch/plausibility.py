@@ -26,7 +26,7 @@ from math import inf, nan
 from typing import Final
 
 from controller.device.touch.associate import IMPLIED, Contact
-from controller.device.touch.axes import OFF_M, Axes
+from controller.device.touch.axes import OFF_M, PanelAxes
 from controller.device.touch.hand_steps import goes_on, moving_s, reaches
 from controller.device.touch.reports import PanelHabits, ReportRate
 from controller.device.touch.source import Counts, TouchSample, touch_sample
@@ -52,7 +52,7 @@ class Plausibility:
 
     def __init__(
         self,
-        axes: Axes,  # of the device; they give the board's [touch], too
+        axes: PanelAxes,  # of the device; they give the board's [touch], too
         max_played: int,  # fingers that are played at once; a further one is refused until it is lifted
         *,
         tells_all: bool,  # whether each report lists all contacts (protocol A): then it repeats itself while the panel is touched
@@ -236,7 +236,7 @@ class Plausibility:
                 return None
             self._warnings["outside_axes"] += 1
             x, y = self._axes.clamp(x, y)
-        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes  # as `Axes.position_m`, without its call for each report
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes  # as `position_m`, without its call for each report
         length_m, width_m = self._plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
         y_m = y_by_x * x + y_by_y * y + y_at_0

@@ -31,7 +31,7 @@ from controller.device.kernel.crc import intact, sealed
 from controller.errors import BankError, UsageError
 from controller.regular_file import open_private
 from controller.workshop.bank_builder.dask_client import dask_errors, open_client, results_of
-from controller.workshop.bank_builder.methods.descent import CELLS_AT_ONCE, Aim, Descent
+from controller.workshop.bank_builder.methods.descent import CELLS_AT_ONCE, Descent, DescentAim
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 Words = NDArray[np.uint32]
@@ -63,12 +63,12 @@ class Task:
 
     board: Board
     highest_hz: float
-    aim: Aim
+    aim: DescentAim
     points_m: tuple[tuple[float, float], ...]  # each (x_m, y_m)
     maker: str  # `creator()` of who asks: a worker of another version would compute other words
 
 
-def reported(board: Board, aim: Aim) -> dict[str, Any]:
+def reported(board: Board, aim: DescentAim) -> dict[str, Any]:
     """What determines the words besides the board's physics and the cell, for a bank: aim, limit, version of the method."""
     return {**asdict(aim), "max_edge_rate_hz": board.limits.max_edge_rate_hz, "method": METHOD_VERSION}
 
@@ -82,7 +82,7 @@ def compute(task: Task) -> Words:
 
 
 @lru_cache(maxsize=1)
-def _method(board: Board, highest_hz: float, aim: Aim) -> Descent:
+def _method(board: Board, highest_hz: float, aim: DescentAim) -> Descent:
     return Descent(board, ResponseModel(board, highest_hz), aim)
 
 

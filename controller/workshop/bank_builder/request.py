@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.device.scene.scene import FixedEmitter
-from controller.workshop.bank_builder.methods.descent import Aim
+from controller.workshop.bank_builder.methods.descent import DescentAim
 from controller.workshop.bank_builder.optimised import ALONE, Workers
 from controller.workshop.physics.plate import mode_cut_hz
 from controller.workshop.physics.responses.response_source import ResponseSource
@@ -34,7 +34,7 @@ class BankRequest:
     source: ResponseSource | None = None  # of the responses; the board's plate model by default
     # Optimise every entry for this (`workshop/bank_builder/methods/descent.py`). What is done of an interrupted build is kept
     # beside `path`
-    aim: Aim | None = None
+    aim: DescentAim | None = None
     workers: Workers = ALONE  # who optimises
     # Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is
     memory_mb: float | None = None

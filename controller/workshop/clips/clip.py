@@ -55,7 +55,7 @@ class Vibration(NamedTuple):
     phase: float = 0.0  # of its start, in turns
 
 
-class Clip(NamedTuple):
+class DesignedClip(NamedTuple):
     """A clip."""
 
     taps: tuple[Tap, ...]

@@ -13,13 +13,13 @@ from controller.device.scene.library import highest_rate_hz, library
 from controller.errors import ConfigError
 from controller.workshop.clips.ahap import read_ahap
 from controller.workshop.clips.android import read_android
-from controller.workshop.clips.clip import Clip
+from controller.workshop.clips.clip import DesignedClip
 from controller.workshop.clips.haps import read_haps
 from controller.workshop.clips.hjif import read_hjif
 from controller.workshop.clips.lofelt import read_haptic
 from controller.workshop.clips.rhythm import rhythm_of
 
-READERS: Final[dict[str, Callable[[Path], Clip]]] = {  # by the file's suffix
+READERS: Final[dict[str, Callable[[Path], DesignedClip]]] = {  # by the file's suffix
     ".ahap": read_ahap,
     ".haptic": read_haptic,
     ".hjif": read_hjif,
@@ -62,7 +62,7 @@ def imported(files: Sequence[Path], board: Board, when: str, low_hz: float, high
     return "\n".join(tables), figures
 
 
-def _reader(file: Path) -> Callable[[Path], Clip]:
+def _reader(file: Path) -> Callable[[Path], DesignedClip]:
     reader = READERS.get(file.suffix.lower())
     if instead := INSTEAD.get(file.suffix.lower()):
         raise ConfigError(f"{file}: is {instead}")

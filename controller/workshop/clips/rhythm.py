@@ -16,7 +16,7 @@ import numpy as np
 from controller.device.board.devices import MIN_AMPLITUDE
 from controller.device.scene.effects import ROUNDING
 from controller.device.scene.rhythms import SILENCE
-from controller.workshop.clips.clip import Clip, Floats, Vibration
+from controller.workshop.clips.clip import DesignedClip, Floats, Vibration
 
 STEP_S: Final = 1e-4  # of the integral of a rate
 DECIMALS: Final = 3  # of a time in ms: 1 us
@@ -39,7 +39,7 @@ class ImportReport(NamedTuple):
     ignored: dict[str, int]  # what has no counterpart, by its name in the file
 
 
-def rhythm_of(clip: Clip, least_ms: float, low_hz: float, high_hz: float) -> tuple[list[list[float]], ImportReport]:
+def rhythm_of(clip: DesignedClip, least_ms: float, low_hz: float, high_hz: float) -> tuple[list[list[float]], ImportReport]:
     """Pulses [ms, amplitude] of a clip, in order of time.
 
     Pulses are at least `least_ms` apart; `low_hz` and `high_hz` are rates of a vibration of sharpness 0 and 1.

@@ -104,7 +104,7 @@ class FpgaDesign:
 
 
 @dataclass(frozen=True)
-class Placement:
+class PlacedDesign:
     """What nextpnr made of one seed."""
 
     seed: int
@@ -142,7 +142,7 @@ def lost_pins(ports: Mapping[str, Any]) -> list[str]:
     return [f"{name}[{index}]" for name, index, bit in bits if isinstance(bit, str)]
 
 
-def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> Placement:
+def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> PlacedDesign:
     """Place and route what was synthesised, with further arguments of nextpnr.
 
     Raises GatewareError if it does not fit, or a path is longer than the clock's period; the message names it.
@@ -161,7 +161,7 @@ def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> Placement:
     return read_report(json.loads(report.read_bytes()), seed, (work / PLACED).read_bytes())
 
 
-def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> Placement:
+def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> PlacedDesign:
     """Figures of nextpnr's report: of the clock that misses its constraint by most, else of the fastest constraint.
 
     `text` is the placement itself.
@@ -175,7 +175,7 @@ def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> Placement:
     if not longest:
         raise GatewareError(f"nextpnr: names no path of the clock {name}")
     ends = [_net_name(longest[index][side]["cell"]) for index, side in ((0, "from"), (-1, "to"))]
-    return Placement(
+    return PlacedDesign(
         seed=seed,
         text=text,
         clock_mhz=round(clocks[name]["constraint"], 3),
@@ -190,7 +190,7 @@ def _net_name(cell: str) -> str:
     return re.sub(r"_(TRELLIS|LUT4|PFUMX|L6MUX|CCU2C|SB)_?.*$", "", cell)
 
 
-def pack(design: FpgaDesign, placement: Placement, work: Path) -> bytes:
+def pack(design: FpgaDesign, placement: PlacedDesign, work: Path) -> bytes:
     """The bitstream of a placement, with its identity and its seal in the header."""
     comment = design.identity(placement.seed).comment().encode()
     if design.part.family == "ecp5":

@@ -31,7 +31,7 @@ def why_not() -> str:
     return ""
 
 
-class Screen(evdev.UInput):
+class KernelScreen(evdev.UInput):
     """A touch screen.
 
     `name` is what other programs see; the axes are as long as the sides of the plate, in units of 0.01 mm. Raises TouchError if the

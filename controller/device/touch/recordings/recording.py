@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.device.touch import event_codes as ev
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.event_codes import Protocol, protocol_of
 from controller.device.touch.recordings.recorded_device import INT32_MAX, INT32_MIN, RecordedDevice
@@ -121,16 +121,16 @@ class Recording:
         """Time from the first event to the last."""
         return self.events[-1][3] if self.events else 0.0
 
-    def axes(self, board: Board) -> Axes:
+    def axes(self, board: Board) -> PanelAxes:
         """Map from the recording's axes to the plate of `board`."""
-        return Axes(board, self.x, self.y)
+        return PanelAxes(board, self.x, self.y)
 
-    def decoder(self, axes: Axes) -> Decoder:
+    def decoder(self, axes: PanelAxes) -> Decoder:
         """Decoder in the state at the recording's start, with `axes` from `self.axes`."""
         slots = self._declared.get(ev.ABS_MT_SLOT)
         return Decoder(axes, self.protocol, slot=self._first_slot, last_slot=slots.maximum if slots else None)
 
-    def tracks(self, axes: Axes, start_s: float = 0.0) -> dict[int, Track]:
+    def tracks(self, axes: PanelAxes, start_s: float = 0.0) -> dict[int, Track]:
         """Track of each finger by its number in a replay, with a position at every report while it is down.
 
         A decision at the very time of a report falls as in the replay that starts at `start_s`.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from controller.device.touch import event_codes as ev
-from controller.device.touch.axes import Axes
+from controller.device.touch.axes import PanelAxes
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.source import Counts, TouchSample
 
@@ -18,7 +18,7 @@ class RecordingSource:
     The first event is at `start_s` on the loop's clock.
     """
 
-    def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:
+    def __init__(self, recording: Recording, axes: PanelAxes, start_s: float) -> None:
         self._decoder = recording.decoder(axes)
         self.counts: Counts = self._decoder.counts  # reports, contacts and fingers replayed so far
         self._events = recording.events

@@ -49,7 +49,7 @@ WORKING_BYTES = 120e6  # of levels, gradients and modal forces
 
 
 @dataclasses.dataclass(frozen=True)
-class Aim:
+class DescentAim:
     """What a waveform is optimised for."""
 
     name: str
@@ -67,9 +67,9 @@ class Aim:
 AIMS = {
     aim.name: aim
     for aim in (
-        Aim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
-        Aim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
-        Aim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
+        DescentAim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
+        DescentAim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
+        DescentAim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
     )
 }
 
@@ -93,7 +93,7 @@ class _Cells:
 class Descent:
     """Optimised waveforms for single points at full amplitude."""
 
-    def __init__(self, board: Board, model: ResponseModel, aim: Aim) -> None:
+    def __init__(self, board: Board, model: ResponseModel, aim: DescentAim) -> None:
         self.name = f"descent: {aim.name}"
         self._aim, self._model = aim, model
         self._idle_word = board.idle_word

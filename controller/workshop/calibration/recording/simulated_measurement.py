@@ -50,7 +50,7 @@ class RecordingSettings:
 
 
 @dataclass(frozen=True)
-class Faults:
+class Flaws:
     """What is wrong with a measurement; by default nothing but noise."""
 
     snr_db: float = 40.0  # mean square of the records over that of the sensor's noise, which is white and the same at all points
@@ -71,7 +71,7 @@ def simulate_measurement(
     names: tuple[str, ...],
     points_m: Floats,  # (point, 2)
     recording: RecordingSettings,
-    faults: Faults,
+    faults: Flaws,
     progress: Callable[[int, int], None] = lambda *_: None,  # called with the number of points done and of all
 ) -> dict[str, Any]:
     """Write the measurement folder of a simulated plate; points that are there from an interrupted call are kept.
@@ -129,7 +129,7 @@ class _Sensor(NamedTuple):
         return np.clip(heard, -self.full_scale, self.full_scale).astype(np.float32)
 
 
-def _settings(board: Board, recording: RecordingSettings, faults: Faults) -> MeasurementFile:
+def _settings(board: Board, recording: RecordingSettings, faults: Flaws) -> MeasurementFile:
     """What the folder's file says of the records."""
     records = RecordsTable(
         files="records/{point}.npy",
@@ -164,7 +164,7 @@ def _blocks(points: list[int], drift_at: Callable[[int], float]) -> Iterator[tup
 class _Plate:
     """The plate that is measured, as its sensor and recorder see it."""
 
-    def __init__(self, board: Board, real: Board, words: NDArray[np.uint32], recording: RecordingSettings, faults: Faults) -> None:
+    def __init__(self, board: Board, real: Board, words: NDArray[np.uint32], recording: RecordingSettings, faults: Flaws) -> None:
         self.modes = modes_of(real)
         self._real, self._quantity = real, recording.quantity
         idle = np.full((len(words), 1), board.idle_word, np.uint32)
@@ -191,7 +191,7 @@ class _Plate:
         return motion.of_points(points_m, self._step_s, self._steps_v, self._times_s, self._quantity)
 
 
-def _wiring(faults: Faults) -> list[int]:
+def _wiring(faults: Flaws) -> list[int]:
     """Of each patch the channel that is wired to it."""
     wired = list(range(CHANNELS))
     for a, b in faults.swapped:
