@@ -29,9 +29,9 @@ from controller.device.kernel.words_twin import (
     MAX_FOCI,
     REST_SAMPLES,
     STRENGTH_SHIFT,
+    BankBuffers,
     Patch,
     Point,
-    Readable,
     Writable,
     _checked_words,
     _Responses,
@@ -54,12 +54,8 @@ PI: Final = 3.141592653589793
 
 def null_places(
     words: Writable,  # drive words for `points`; changed in place
-    room: Writable,  # room, plan, entries, scales, good, response: as `compose` takes them
-    plan: Readable,
-    entries: Readable,
-    scales: Readable,
-    good: Readable,
-    response: Readable,
+    room: Writable,  # room, bank: as `compose` takes them
+    bank: BankBuffers,
     points: Sequence[Point],  # each (x_m, y_m, amplitude): what the words were made for; amplitudes are not used
     nulls: Sequence[Point],  # each (x_m, y_m, amplitude): 1 to `MAX_NULLS` nulls; amplitudes are not used
 ) -> int:
@@ -69,16 +65,16 @@ def null_places(
     Raises ValueError if there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers
     too short for them.
     """
-    bank = _Responses(plan, entries, scales, good, response)
+    responses = _Responses(bank)
     if not (1 <= len(points) <= MAX_FOCI and 1 <= len(nulls) <= MAX_NULLS):
         raise ValueError(f"{len(points)} points, not 1 to {MAX_FOCI}, and {len(nulls)} nulls, not 1 to {MAX_NULLS}")
-    filled, patches = _checked_words(bank, words, room, [*points, *nulls]), []
+    filled, patches = _checked_words(responses, words, room, [*points, *nulls]), []
     for x_m, y_m, _ in (*points, *nulls):
-        patch, cell = bank.patch(x_m, y_m)
+        patch, cell = responses.patch(x_m, y_m)
         if cell >= 0:
             return cell
         patches.append(patch)
-    _Nulls(bank, filled, patches, len(points)).keep_still()
+    _Nulls(responses, filled, patches, len(points)).keep_still()
     return -1
 
 

@@ -27,7 +27,7 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +62,16 @@ SCALE: Final = struct.Struct("=f")
 OWN_LEVEL: Final = 1 / 16  # difference from the common level from which on a point has its own
 
 
+class BankBuffers(NamedTuple):
+    """What the kernel reads of a bank; of the compiled one a tuple of these."""
+
+    plan: Readable  # as `PLAN` packs it
+    entries: Readable  # for each cell the number of its response; below 0 for none
+    scales: Readable  # m per V of one level of each response
+    good: Readable  # for each response whether it may be used; zero if not yet
+    response: Readable  # the responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each
+
+
 def room_bytes(samples: int) -> int:
     """Bytes of memory in which waveforms of this many samples are composed.
 
@@ -78,11 +88,7 @@ def room_bytes(samples: int) -> int:
 def compose(
     words: Writable,  # filled with 4 bytes for each sample
     room: Writable,  # `room_bytes` at least, in which the kernel works; what is in it does not matter
-    plan: Readable,  # as `PLAN` packs it
-    entries: Readable,  # for each cell the number of its response; below 0 for none
-    scales: Readable,  # m per V of one level of each response
-    good: Readable,  # for each response whether it may be used; zero if not yet
-    response: Readable,  # the responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each
+    bank: BankBuffers,
     # each (x_m, y_m, amplitude): 1 to `MAX_FOCI`; above 0 to 1, less than `LEAST_AMPLITUDE` counts as that. Points beyond the
     # outermost cells take the nearest place among the cells
     points: Sequence[Point],
@@ -93,20 +99,19 @@ def compose(
     composed. Raises ValueError if there are no points or too many, or numbers that are not finite or beyond their range, or buffers
     too short for them.
     """
-    bank = _Responses(plan, entries, scales, good, response)
-    count = len(points)
+    responses, count = _Responses(bank), len(points)
     if not 1 <= count <= MAX_FOCI:
         raise ValueError(f"{count} points to compose, not 1 to {MAX_FOCI}")
-    filled = _checked_words(bank, words, room, points)
+    filled = _checked_words(responses, words, room, points)
     patches = []
     for x_m, y_m, _ in points:
-        patch, cell = bank.patch(x_m, y_m)
+        patch, cell = responses.patch(x_m, y_m)
         if cell >= 0:
             return cell
         patches.append(patch)
-    bits = _Composition(bank, patches).bits([max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points])
+    bits = _Composition(responses, patches).bits([max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points])
     packed = np.packbits(bits, axis=1, bitorder="little").view("<u4")[:, 0]
-    np.frombuffer(filled, "<u4", bank.samples)[:] = packed ^ np.uint32(bank.idle_word)
+    np.frombuffer(filled, "<u4", responses.samples)[:] = packed ^ np.uint32(responses.idle_word)
     return -1
 
 
@@ -130,7 +135,8 @@ def _checked_words(bank: _Responses, words: Writable, room: Writable, points: Se
 class _Responses:
     """The responses of a bank, in buffers that are as long as the plan says."""
 
-    def __init__(self, plan: Readable, entries: Readable, scales: Readable, good: Readable, response: Readable) -> None:
+    def __init__(self, bank: BankBuffers) -> None:
+        plan, entries, scales, good, response = bank
         if memoryview(plan).nbytes != PLAN.size:
             raise ValueError(f"a plan has {PLAN.size} bytes, not {memoryview(plan).nbytes}")
         samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m = PLAN.unpack(plan)

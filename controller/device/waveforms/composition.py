@@ -35,8 +35,8 @@ class Composer:
         eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.GROUP_SAMPLES)
         block_samples = min(max(kernel.GROUP_SAMPLES * eights, kernel.GROUP_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
         self._bank = bank
-        entries, scales, self._good = bank.responses.tables()
-        self._plan = kernel.PLAN.pack(
+        entries, scales, good = bank.responses.tables()
+        plan = kernel.PLAN.pack(
             bank.samples,
             bank.sections["response"].stride,
             grid.nx,
@@ -48,11 +48,11 @@ class Composer:
             grid.x0_m,
             grid.y0_m,
         )
-        self._entries, self._scales = memoryview(array("i", entries)), memoryview(array("f", scales))
+        tables = memoryview(array("i", entries)), memoryview(array("f", scales))
+        self._buffers = kernel.BankBuffers(plan, *tables, good, b"")  # the responses follow once their section is mapped
         self._room = bytearray(kernel.room_bytes(bank.samples))
         self._words = bytearray(4 * bank.samples)
         self._view = memoryview(self._words).toreadonly()
-        self._responses = memoryview(b"")  # the section, once it is mapped
 
     def compose(self, points: Sequence[Point]) -> memoryview:
         """Drive words that make every point jump at T, up or down, whichever lets all of them jump farther.
@@ -64,11 +64,11 @@ class Composer:
         sample, as they go to the wire; valid until the next call. Raises BankError if a cell that a point needs is not in the bank,
         or damaged; ValueError if there are no points or too many, or numbers that are not finite or beyond their range.
         """
-        words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
-        if not self._responses:
-            self._responses = bank.responses.section
-        while (cell := kernel.compose(words, room, plan, entries, scales, self._good, self._responses, points)) >= 0:
-            bank.responses.check(cell)
+        responses = self._bank.responses
+        if not self._buffers.response:
+            self._buffers = self._buffers._replace(response=responses.section)
+        while (cell := kernel.compose(self._words, self._room, self._buffers, points)) >= 0:
+            responses.check(cell)
         return self._view
 
     def keep_still(self, points: Sequence[Point], nulls: Sequence[Point]) -> None:
@@ -77,9 +77,9 @@ class Composer:
         At most `MAX_NULLS` places, of any amplitude above 0; those without responses in the bank are left out. Raises BankError if
         a response is damaged; ValueError if there are too many places, or numbers that are not finite or beyond their range.
         """
-        words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
-        there = [place for place in nulls if bank.responses.has(place[0], place[1])]
+        responses = self._bank.responses
+        there = [place for place in nulls if responses.has(place[0], place[1])]
         if not there:
             return
-        while (cell := kernel.null_places(words, room, plan, entries, scales, self._good, self._responses, points, there)) >= 0:
-            bank.responses.check(cell)
+        while (cell := kernel.null_places(self._words, self._room, self._buffers, points, there)) >= 0:
+            responses.check(cell)

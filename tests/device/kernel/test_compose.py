@@ -36,12 +36,17 @@ def buffers(random, samples, nx, ny, idle_word, block, *, missing=0.0, largest=1
     return [bytearray(4 * samples), room, plan, entries.tobytes(), scales.tobytes(), bytearray(b"\1" * count), levels.tobytes()]
 
 
+def compose_with(one, given_buffers, points):
+    words, room, *rest = given_buffers
+    return one.compose(words, room, words_twin.BankBuffers(*rest), points)
+
+
 def outcome(one, given_buffers, points):
     """What an implementation answers, and the words."""
     words, room, *rest = given_buffers
     words, room = bytearray(words), bytearray(room)
     try:
-        answer = one.compose(words, room, *rest, points)
+        answer = one.compose(words, room, words_twin.BankBuffers(*rest), points)
     except ValueError:
         return ValueError
     return answer, bytes(words)
@@ -112,10 +117,10 @@ def test_it_refuses_what_its_twin_refuses(data):
 def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[5][4] = 0
-    assert one.compose(*made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == 4
+    assert compose_with(one, made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == 4
     assert not any(made[0])
     made[5][4] = 1
-    assert one.compose(*made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == -1
+    assert compose_with(one, made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == -1
     assert any(made[0])
 
 
@@ -125,7 +130,7 @@ def test_lengths_that_cannot_be_composed_are_refused(one, samples):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[2] = words_twin.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3)
     with pytest.raises(ValueError, match="samples to compose"):
-        one.compose(*made, [(5e-3, 6e-3, 1.0)])
+        compose_with(one, made, [(5e-3, 6e-3, 1.0)])
     with pytest.raises(ValueError, match="samples to compose"):
         kernel.room_bytes(samples)
 
@@ -136,7 +141,7 @@ def test_a_buffer_that_is_too_short_is_refused(one, which):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[which] = bytearray(made[which])[: 49 * 32 + 5 * 50 * 32 if which == 6 else -1]
     with pytest.raises(ValueError, match=r"fit|room|plan"):
-        one.compose(*made, [(5e-3, 6e-3, 1.0), (5e-3 + 2 * PITCH_M, 6e-3 + PITCH_M, 1.0)])
+        compose_with(one, made, [(5e-3, 6e-3, 1.0), (5e-3 + 2 * PITCH_M, 6e-3 + PITCH_M, 1.0)])
 
 
 @both
@@ -145,7 +150,7 @@ def test_a_scale_that_cannot_be_is_refused(one, scale):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[4] = np.full(6, scale, np.float32).tobytes()
     with pytest.raises(ValueError, match="scale of response 0"):
-        one.compose(*made, [(6e-3, 7e-3, 1.0)])
+        compose_with(one, made, [(6e-3, 7e-3, 1.0)])
 
 
 @both
@@ -154,4 +159,4 @@ def test_a_plan_is_read_only_and_what_is_filled_is_not(one):
     for which in (0, 1):
         wrong = [bytes(some) if index == which else some for index, some in enumerate(made)]
         with pytest.raises((BufferError, TypeError, ValueError)):
-            one.compose(*wrong, [(5e-3, 6e-3, 1.0)])
+            compose_with(one, wrong, [(5e-3, 6e-3, 1.0)])
