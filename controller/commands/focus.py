@@ -145,10 +145,7 @@ def _table(found: dict[str, Any]) -> str:
 
 
 def _period_s(period_ms: float | None, duration_s: float) -> float:
-    """Time in s from one emission to the next.
-
-    Raises ConfigError if emissions would overlap.
-    """
+    """Time in s from one emission to the next; raises ConfigError if emissions would overlap."""
     if period_ms is None:
         return duration_s
     if not duration_s <= period_ms * 1e-3 + 1e-9 < 1e3:  # NaN too
@@ -157,10 +154,7 @@ def _period_s(period_ms: float | None, duration_s: float) -> float:
 
 
 def _on_plate(position_mm: float, extent_mm: float) -> float:
-    """Position in m of a focus.
-
-    Raises ConfigError if nothing can move there.
-    """
+    """Position in m of a focus; raises ConfigError if nothing can move there."""
     if not 0 < position_mm < extent_mm:  # NaN too
         raise ConfigError(f"--at {position_mm:g}: not inside the plate (0 to {extent_mm:g} mm)")
     return position_mm * 1e-3

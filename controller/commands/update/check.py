@@ -46,10 +46,7 @@ def at_work() -> Iterator[tuple[Layout, UpdateSettings]]:
 
 @contextmanager
 def ends_within(limit_s: float, said: str) -> Iterator[None]:
-    """End what is done within by an error, whatever it waits for.
-
-    Raises UpdateError, saying this, when the time is over.
-    """
+    """End what is done within by an error, whatever it waits for; raises UpdateError, saying this, when the time is over."""
 
     def too_long(_: int, __: FrameType | None) -> None:
         raise UpdateError(said)

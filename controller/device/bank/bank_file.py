@@ -55,10 +55,7 @@ class BankFile:
         return map_bytes(self.fd, section.offset, section.size)
 
     def entry_of(self, cell: int) -> int:
-        """Entry of a cell.
-
-        Raises BankError if it has none.
-        """
+        """Entry of a cell; raises BankError if it has none."""
         entries = self.tables.entries
         entry = entries[cell] if 0 <= cell < len(entries) else -1
         if entry < 0:

@@ -169,10 +169,7 @@ def measured_at(path: Path) -> bool:
 
 
 def header_of(path: Path) -> Header:
-    """Header of the bank at `path`, whatever is behind it.
-
-    Raises OSError or BankError if it cannot be read, or is damaged.
-    """
+    """Header of the bank at `path`, whatever is behind it; raises OSError or BankError if it cannot be read, or is damaged."""
     with os.fdopen(open_regular(path, links=True), "rb") as file:
         size = os.fstat(file.fileno()).st_size
         length = header_length(file.read(16), size)

@@ -26,10 +26,7 @@ class Tables:
 
 
 def read_tables(fd: int, header: Header, sections: dict[str, Section]) -> Tables:
-    """Read and check the small sections.
-
-    Raises BankError if they are damaged.
-    """
+    """Read and check the small sections; raises BankError if they are damaged."""
     data = {}
     for name in ("index", "checksums", "scale", "points"):
         data[name] = os.pread(fd, sections[name].size, sections[name].offset)

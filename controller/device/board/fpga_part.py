@@ -102,10 +102,7 @@ def find_part(board: Path, top: str | None) -> tuple[Path, FpgaPart]:
 
 
 def check_top(board: Board, top: Path) -> None:
-    """Refuse a board whose clock or baud rate are not those of a top.v, before minutes of work.
-
-    Raises ConfigError.
-    """
+    """Refuse a board whose clock or baud rate are not those of a top.v, before minutes of work; raises ConfigError."""
     text = (top / TOP).read_text(encoding="utf-8", errors="replace")
     link = board.link
     wanted = [("clock_hz", link.clock_hz, PLL)] + ([("baud", link.baud, BAUD)] if link.kind == "serial" else [])

@@ -118,10 +118,7 @@ def status_bytes(file: Path) -> bytes | None:
 
 
 def status_in(data: bytes, file: Path) -> PanelStatus:
-    """The status that a file's content is.
-
-    Raises ControllerError if it is no status that this software knows.
-    """
+    """The status that a file's content is; raises ControllerError if it is no status that this software knows."""
     try:
         return _decoder.decode(data)
     except NO_JSON as error:
@@ -129,10 +126,7 @@ def status_in(data: bytes, file: Path) -> PanelStatus:
 
 
 def read_status(file: Path) -> PanelStatus | None:
-    """The status in a file; None if there is no file.
-
-    Raises ControllerError as `status_bytes` and `status_in`.
-    """
+    """The status in a file; None if there is no file; raises ControllerError as `status_bytes` and `status_in`."""
     data = status_bytes(file)
     return None if data is None else status_in(data, file)
 

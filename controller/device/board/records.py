@@ -59,10 +59,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
 
 
 def read_tables(file: Path) -> dict[str, Any]:
-    """Read a TOML file.
-
-    Raises ConfigError if it is absent, unreadable, or not TOML.
-    """
+    """Read a TOML file; raises ConfigError if it is absent, unreadable, or not TOML."""
     try:
         return tomllib.loads(decoded(read_regular(file, BYTES_MAX, links=True)))
     except OSError as error:

@@ -39,10 +39,7 @@ class Worker:
         return self._socket.fileno()
 
     def receive(self) -> memoryview | None:
-        """The next message, valid until the next call; None if there is none.
-
-        Raises WorkerEnded if the process has ended.
-        """
+        """The next message, valid until the next call; None if there is none; raises WorkerEnded if the process has ended."""
         try:
             size = self._socket.recv_into(self._buffer)
         except BlockingIOError:

@@ -95,10 +95,7 @@ class Recovery:
         return self._armed_s is not None
 
     def begin(self, error: ControllerError, now_s: float) -> None:
-        """Switch the outputs off and schedule the first retry.
-
-        Raises `error` itself if the rule is to fail.
-        """
+        """Switch the outputs off and schedule the first retry; raises `error` itself if the rule is to fail."""
         self._session.off()
         self._pause_s = self._safe_s
         self._fail(error, now_s)

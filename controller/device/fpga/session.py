@@ -87,10 +87,7 @@ class Session(Supervision):
         self._send(play, waveform, stop=stop)
 
     def stop(self) -> None:
-        """End a repetition after its current emission, and empty the queue.
-
-        Raises LinkError if every attempt was damaged.
-        """
+        """End a repetition after its current emission, and empty the queue; raises LinkError if every attempt was damaged."""
         status = self.exchange.control(Control.STOP)
         self.counters.emissions_lost += self.belief.stopped(status.timestamp_ticks)
 

@@ -141,10 +141,7 @@ class Supervision:
         return self.ramp_end_s
 
     def require_armed(self) -> None:
-        """Check with a heartbeat that the FPGA is armed.
-
-        Raises LinkError if it is not, with the state it reports.
-        """
+        """Check with a heartbeat that the FPGA is armed; raises LinkError if it is not, with the state it reports."""
         state = self.heartbeat().state
         if State.ARMED not in state:
             names = ", ".join(flag.name.lower().replace("_", " ") for flag in State if flag in state and flag.name)

@@ -82,10 +82,7 @@ def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Sessio
 
 
 def open_panel(board: Board) -> EventReader:
-    """Driver of a board's touch panel.
-
-    Raises TouchError if it is not there, or the board has none.
-    """
+    """Driver of a board's touch panel; raises TouchError if it is not there, or the board has none."""
     if not board.touch.has_device:
         raise TouchError(NO_PANEL.format(board.name))
     return panels.open_panel(board.touch)

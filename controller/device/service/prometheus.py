@@ -58,10 +58,7 @@ class PanelFigures:
         self._greeting: Greeting | None = None
 
     def __call__(self) -> tuple[str, str, dict[str, Any]]:
-        """Version, board and figures.
-
-        Raises ControllerError if no panel answers.
-        """
+        """Version, board and figures; raises ControllerError if no panel answers."""
         kept = self._panel is not None
         try:
             return self._ask()

@@ -34,10 +34,7 @@ class Reloaded(msgspec.Struct, frozen=True):
 
 
 class ReloadFile:
-    """File with the result of the last reload, written by the service.
-
-    Without a runtime folder nothing is written.
-    """
+    """File with the result of the last reload, written by the service. Without a runtime folder nothing is written."""
 
     def __init__(self, folder: Path | None) -> None:
         self._file = folder / NAME if folder is not None else None

@@ -32,10 +32,7 @@ class Mouse:
         return self._opened.fd
 
     def read(self) -> list[Event]:
-        """Steps since the last call, as EV_REL events.
-
-        Raises TouchError if it was unplugged.
-        """
+        """Steps since the last call, as EV_REL events; raises TouchError if it was unplugged."""
         try:
             events = list(self._opened.read())
         except BlockingIOError:

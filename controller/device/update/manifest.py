@@ -40,10 +40,7 @@ class ReleaseFile(Record, frozen=True):
     size_bytes: Count
 
     def is_whole(self, path: Path) -> bool:
-        """Whether a path leads to this file, unchanged.
-
-        Raises OSError if it is absent, or cannot be read.
-        """
+        """Whether a path leads to this file, unchanged; raises OSError if it is absent, or cannot be read."""
         with os.fdopen(open_regular(path), "rb") as file:
             if os.fstat(file.fileno()).st_size != self.size_bytes:
                 return False

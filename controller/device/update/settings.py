@@ -24,8 +24,5 @@ class UpdateSettings(Record, frozen=True):
 
 
 def load_settings(file: Path = SETTINGS) -> UpdateSettings:
-    """The settings; those of an absent file are the defaults.
-
-    Raises ConfigError if the file is invalid.
-    """
+    """The settings; those of an absent file are the defaults; raises ConfigError if the file is invalid."""
     return load_toml(file, UpdateSettings) if file.exists() else UpdateSettings()

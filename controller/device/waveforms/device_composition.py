@@ -34,10 +34,7 @@ class DeviceComposition:
         self._near_samples = round(NEAR_S / board.waveform.bit_period_s)
 
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
-        """As `DesignMethod.design`.
-
-        Raises BankError if a cell that a point needs is not in the bank, or damaged.
-        """
+        """As `DesignMethod.design`; raises BankError if a cell that a point needs is not in the bank, or damaged."""
         words = np.frombuffer(self._composer.compose(points), WORD)
         if nulls:
             self._composer.keep_still(points, [(x_m, y_m, 1.0) for x_m, y_m in nulls])

@@ -57,10 +57,7 @@ class Setting:
 
 
 def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource | None = None) -> list[Setting]:
-    """All candidates for a scene.
-
-    `margin_m` is as of `cells_needed`; responses come from the board's plate model by default.
-    """
+    """All candidates for a scene. `margin_m` is as of `cells_needed`; responses come from the board's plate model by default."""
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
     source, scale = source or ResponseModel(board), wave_scale(board)
     alone = not needs_responses(scene, scale) and board.application_socket is None

@@ -25,10 +25,7 @@ SAID_CHARACTERS = 160
 
 @contextlib.contextmanager
 def dask_errors(where: str) -> Iterator[None]:
-    """Raise what dask raises as a BankError of one line.
-
-    `where` is the option that asked for dask, with its value.
-    """
+    """Raise what dask raises as a BankError of one line. `where` is the option that asked for dask, with its value."""
     try:
         yield
     except (ControllerError, ModuleNotFoundError) as error:

@@ -34,10 +34,7 @@ class Baseline:
 
 
 class Baselines:
-    """The baselines of a machine.
-
-    `bank` has the cells of all scenes; `folder` is for compiled C.
-    """
+    """The baselines of a machine. `bank` has the cells of all scenes; `folder` is for compiled C."""
 
     def __init__(self, board: Board, bank: Bank, folder: Path) -> None:
         self._board = board

@@ -54,10 +54,7 @@ class Reference:
 
 
 class Judge:
-    """Errors of drive words.
-
-    `detunings` are ratios of modal frequencies for which scenes ask.
-    """
+    """Errors of drive words. `detunings` are ratios of modal frequencies for which scenes ask."""
 
     def __init__(self, board: Board, detunings: Iterable[float] = (1.0,)) -> None:
         self.board = board

@@ -62,10 +62,7 @@ def work_precision(
     candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,  # makes the methods
     progress: Progress = lambda _done, _total: None,  # called with what is done and all there is to do
 ) -> Figures:
-    """Measure errors and costs of all methods.
-
-    Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says.
-    """
+    """Measure errors and costs of all methods. Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says."""
     surroundings = environment()  # first: the load of the machine is still that of others
     drawn = scenes(board, seed, effort.each, effort.random_scenes)
     places = [place for scene in drawn for place in (*scene.expected, scene.null)]

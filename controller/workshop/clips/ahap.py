@@ -94,10 +94,7 @@ class _Control:
 
 
 def read_ahap(file: Path) -> DesignedClip:
-    """Read a clip.
-
-    Raises ConfigError if it is no AHAP.
-    """
+    """Read a clip; raises ConfigError if it is no AHAP."""
     items = decoded_json(file, _File).pattern
     ignored: Counter[str] = Counter()
     intensity, sharpness = _control(items, INTENSITY_CONTROL, 1.0), _control(items, SHARPNESS_CONTROL, 0.0)

@@ -71,10 +71,7 @@ class _Version(Struct, rename={"version": "m_version", "later": "version"}):
 
 
 def read_haps(file: Path) -> DesignedClip:
-    """Read a clip.
-
-    Raises ConfigError if it is no .haps of this version.
-    """
+    """Read a clip; raises ConfigError if it is no .haps of this version."""
     found = decoded_json(file, _Version)
     version = found.later if found.version is None else found.version
     if str(version) != VERSION:

@@ -80,10 +80,7 @@ class _Placed(NamedTuple):
 
 
 def read_hjif(file: Path) -> DesignedClip:
-    """Read a clip.
-
-    Raises ConfigError if it is no HJIF, or refers to an effect that it does not have.
-    """
+    """Read a clip; raises ConfigError if it is no HJIF, or refers to an effect that it does not have."""
     read = decoded_json(file, _File)
     year = re.match(r"(\d{4})(-\d+)?$", read.version)
     if year is None or int(year[1]) < FIRST_YEAR:

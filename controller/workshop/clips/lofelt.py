@@ -61,10 +61,7 @@ class _File(Struct):
 
 
 def read_haptic(file: Path) -> DesignedClip:
-    """Read a clip.
-
-    Raises ConfigError if it is no .haptic of this major version.
-    """
+    """Read a clip; raises ConfigError if it is no .haptic of this major version."""
     read = decoded_json(file, _File)
     if read.version.major != MAJOR:
         raise ConfigError(f"{file}: version.major = {read.version.major}: only {MAJOR} is known")

@@ -96,10 +96,7 @@ def _check(registers: list[Register]) -> None:
 
 
 def _with_blocks(text: str, name: str, blocks: dict[str, list[str]]) -> str:
-    """The text of a file with its generated blocks replaced.
-
-    Raises ValueError if it does not have exactly these blocks.
-    """
+    """The text of a file with its generated blocks replaced; raises ValueError if it does not have exactly these blocks."""
     found = [match[3] for match in _BLOCK.finditer(text)]
     if sorted(found) != sorted(blocks):
         raise ValueError(f"{name} has the generated blocks {found}, not {list(blocks)}")

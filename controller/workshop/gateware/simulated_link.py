@@ -107,8 +107,5 @@ class SimulatedLink:
 
 
 def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> SimulatedLink:
-    """Link to the simulated gateware of a board, just reset.
-
-    `gateware` makes it: the model, or the compiled Verilog.
-    """
+    """Link to the simulated gateware of a board, just reset. `gateware` makes it: the model, or the compiled Verilog."""
     return SimulatedLink(board.link, now_s, gateware(BuildParameters.of(board, gateware_hash())))

@@ -151,10 +151,7 @@ def read_table(text: str, ticks: dict[str, int]) -> tuple[tuple[Change, ...], tu
 
 
 def drive_words(text: str) -> tuple[int, ...]:
-    """Read the words of a waveform, such as `0x11 0x22*8`.
-
-    Raises ValueError if one of them is not a number.
-    """
+    """Read the words of a waveform, such as `0x11 0x22*8`; raises ValueError if one of them is not a number."""
     parts = [part.partition("*") for part in text.split()]
     return tuple(int(word, 0) for word, _, times in parts for _ in range(int(times or 1)))
 

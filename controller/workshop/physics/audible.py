@@ -56,8 +56,6 @@ def surface_spectrum(
 ) -> tuple[Floats, Floats, float]:
     """Density of `surface_energy` over frequency.
 
-    Parameters (`board`, `words`, `idle_word`, `low_hz`, `high_hz`, `before_word`, `modes`) as there.
-
     The arguments are as there. Returns the frequencies (n,) in Hz, evenly spaced, half a step from both limits; the density (n,) in
     (m/s)^2 s / Hz, both signs of frequency together; and the step in Hz.
     """

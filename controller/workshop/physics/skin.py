@@ -69,10 +69,7 @@ def skin_motion(
     relative_error: float = RELATIVE_ERROR,  # relative_error, longest_step_s: of the integration
     longest_step_s: float = LONGEST_STEP_S,
 ) -> SkinMotion:
-    """Move the skin from rest at time 0.
-
-    Raises RuntimeError if the skin leaves and comes back more than `MOST_PHASES` times.
-    """
+    """Move the skin from rest at time 0; raises RuntimeError if the skin leaves and comes back more than `MOST_PHASES` times."""
     phases = _Phases(velocity_m_s, impedance_kg_s, pulp)
     leaves, lands = _event(phases.push), _event(lambda _t, state: float(state[0] - state[2]))
     now_s, state, contact = 0.0, np.zeros(3), True

@@ -94,10 +94,7 @@ def owner(key: Key) -> str:
 
 
 def check_outside(key: Path, *folders: Path) -> None:
-    """Check that a key lies in no repository.
-
-    Raises UpdateError.
-    """
+    """Check that a key lies in no repository; raises UpdateError."""
     for folder in folders:
         inside = key.resolve().is_relative_to(folder.resolve())
         if inside and ((folder / "metadata").is_dir() or (folder / "draft").is_dir()):

@@ -30,10 +30,7 @@ class Target:
 
     @classmethod
     def of(cls, platform: str) -> Target:
-        """Target of a platform such as `aarch64-cp311`.
-
-        Raises UpdateError if it is not written so.
-        """
+        """Target of a platform such as `aarch64-cp311`; raises UpdateError if it is not written so."""
         found = re.fullmatch(r"([0-9a-z_]+)-cp3([0-9]{1,2})", platform)
         if not found:
             raise UpdateError(f"platform {platform!r}: must be like aarch64-cp311 or x86_64-cp311")

@@ -123,10 +123,7 @@ def draft_renewal(repository: Repository, now: datetime) -> None:
 
 
 def check_thresholds(root: Root) -> None:
-    """Check that each role has keys enough.
-
-    Raises UpdateError if one has not.
-    """
+    """Check that each role has keys enough; raises UpdateError if one has not."""
     for role, wanted in root.roles.items():
         if not 1 <= wanted.threshold <= len(wanted.keyids):
             people = f"{wanted.threshold} people are to sign, but {len(wanted.keyids)} keys are given"

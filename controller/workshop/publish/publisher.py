@@ -55,10 +55,7 @@ class Repository:
     @classmethod
     @contextmanager
     def opened(cls, folder: Path, *, new: bool = False, dated: str | None = None) -> Iterator[Repository]:
-        """Lock a repository, or a new one.
-
-        Raises UpdateError if it is none (or there is one), or another process works on it.
-        """
+        """Lock a repository, or a new one; raises UpdateError if it is none (or there is one), or another process works on it."""
         repository = cls(folder, dated)
         if new:
             folder.mkdir(parents=True, exist_ok=True)
@@ -115,10 +112,7 @@ class Repository:
         return found
 
     def must_have_no_draft(self) -> None:
-        """Check that nothing waits for signatures.
-
-        Raises UpdateError if a draft does.
-        """
+        """Check that nothing waits for signatures; raises UpdateError if a draft does."""
         if self.draft.exists():
             raise UpdateError(
                 f"{self.draft}: waits for signatures: {self.lacking() or 'sign once more'}; or give it up: remove this folder"

@@ -89,10 +89,7 @@ def check_wing(wheel: Path, *, workshop: bool) -> None:
 
 
 def must_be_here(target: Target, what: str) -> None:
-    """Check that wheels for a target can be built on this computer.
-
-    Raises UpdateError if not.
-    """
+    """Check that wheels for a target can be built on this computer; raises UpdateError if not."""
     if target != Target(platform.machine(), sys.version_info[1]):
         here = f"{platform.machine()}-cp3{sys.version_info[1]}"
         raise UpdateError(

@@ -21,10 +21,7 @@ METADATA: Final = re.compile(rb"^Version: \S+$", re.MULTILINE)
 
 
 def check_version(version: str) -> None:
-    """Check that a release's version is one of Python's, in the form that wheels have.
-
-    Raises UsageError if not.
-    """
+    """Check that a release's version is one of Python's, in the form that wheels have; raises UsageError if not."""
     try:
         canonical = str(Version(version))
     except InvalidVersion:

@@ -45,18 +45,12 @@ class Drift:
 
     @classmethod
     def constant(cls, percent: float) -> Drift:
-        """The same drift all the time.
-
-        Raises ConfigError if it is more than a plate can have.
-        """
+        """The same drift all the time; raises ConfigError if it is more than a plate can have."""
         return cls(np.zeros(1), np.array([_checked(percent, "--drift-percent") / 100]))
 
     @classmethod
     def read(cls, file: Path) -> Drift:
-        """Drift from a CSV file.
-
-        Raises ConfigError, naming file and line.
-        """
+        """Drift from a CSV file; raises ConfigError, naming file and line."""
         try:
             rows = list(csv.reader(read_text(file).splitlines()))
         except (OSError, ValueError, csv.Error) as error:
@@ -103,10 +97,7 @@ class DriftingSensor:
         self._recording_s = recording_s
 
     def read_c(self) -> float:
-        """Temperature in °C now.
-
-        Raises OSError where the drift's file says that the sensor fails.
-        """
+        """Temperature in °C now; raises OSError where the drift's file says that the sensor fails."""
         drift, settings, now_s = self._drift, self._settings, self._recording_s()
         if drift.sensor_c is None:
             coefficient = settings.coefficient_per_k

@@ -86,10 +86,7 @@ def play(
     skips: Skips = ALL,  # what of the loop's work is left out
     hardware: Hardware = MODEL,
 ) -> Run:
-    """Replay a recording through the event loop into the gateware.
-
-    Raises FaultError or LinkError from the event loop.
-    """
+    """Replay a recording through the event loop into the gateware; raises FaultError or LinkError from the event loop."""
     clock = MonotonicClock() if real_time else VirtualClock()
     link = open_simulated(board, clock.now_s, hardware.gateware)
     session = open_session(link, board, clock.now_s)

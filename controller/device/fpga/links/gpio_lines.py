@@ -63,10 +63,7 @@ class GpioLines:
         return edge_s
 
     def permit(self, *, given: bool) -> None:
-        """Give (`given`) or withdraw the run permit, if the board has a line for it.
-
-        Raises LinkError if the line fails.
-        """
+        """Give (`given`) or withdraw the run permit, if the board has a line for it; raises LinkError if the line fails."""
         if self._permit:
             try:
                 self._request.set_value(self._numbers[self._permit], Value.ACTIVE if given else Value.INACTIVE)

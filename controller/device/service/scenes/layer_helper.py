@@ -46,10 +46,7 @@ class LayerChecker:
         self._points_m, self._pitch_m = grid.points(), grid.pitch_m
 
     def answer(self, line: bytes, placement: Placement) -> bytes:
-        """The answer to a request: the layer as a message.
-
-        Raises ControllerError if the layer as a whole is refused.
-        """
+        """The answer to a request: the layer as a message; raises ControllerError if the layer as a whole is refused."""
         layer = self._with_waveforms(read_layer(line, self._board), placement)
         regions = layer.regions
         return pack_layer(regions, SpatialIndex.of(regions), off_plate(regions, placement, self._board), layer.refused)

@@ -101,7 +101,10 @@ def pack_setup(board: Board, bank: Path, checked_cells: bytes) -> bytes:
 def unpack_setup(message: bytes) -> LayerSetup:
     """The loop's first message.
 
-    Raises MessageError if it does not fit.
+    Raises
+    ------
+    MessageError
+        If it does not fit.
     """
     setup = data_of(message, _setups)
     require_own(setup.software)
@@ -116,7 +119,10 @@ def pack_request(line: bytes, placement: Placement) -> bytes:
 def unpack_request(message: bytes) -> LayerRequest:
     """The request in a message.
 
-    Raises MessageError if it does not fit.
+    Raises
+    ------
+    MessageError
+        If it does not fit.
     """
     return data_of(message, _requests)
 
@@ -124,7 +130,10 @@ def unpack_request(message: bytes) -> LayerRequest:
 def pack_layer(regions: tuple[Region, ...], index: SpatialIndex, off_plate: int, refused: tuple[RefusedRegion, ...]) -> bytes:
     """Message with a layer; of what was refused the first `REFUSED_MOST`.
 
-    Raises MessageError if it is too large.
+    Raises
+    ------
+    MessageError
+        If it is too large.
     """
     numbers: dict[tuple[int, ...], int] = {}  # of styles, by what they are made of, which regions share
     styles: list[_Style] = []
@@ -157,7 +166,10 @@ def pack_refusal(reason: str) -> bytes:
 def unpack_layer(message: bytes) -> AcceptedLayer | str:
     """The layer in a message, or why it was refused.
 
-    Raises MessageError if the message does not fit.
+    Raises
+    ------
+    MessageError
+        If the message does not fit.
     """
     reply = data_of(message, _replies)
     if reply.index is None:

@@ -58,10 +58,7 @@ def _emitters_composed(bank: Bank, scene: Scene) -> bool:
 
 
 def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:
-    """Cells that a scene can ask for; parameters as of `populate`.
-
-    Raises BankError if the bank lacks one.
-    """
+    """Cells that a scene can ask for; parameters as of `populate`; raises BankError if the bank lacks one."""
     wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m, wave_scale=bank.wave_scale)
     missing = int((wanted & ~bank.cells).sum())
     if missing:

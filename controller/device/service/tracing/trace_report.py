@@ -89,10 +89,7 @@ class Trace(msgspec.Struct, frozen=True):
 
 
 def read_trace(file: Path) -> Trace:
-    """Read a trace.
-
-    Raises ConfigError if it cannot be read, or is no trace of a panel.
-    """
+    """Read a trace; raises ConfigError if it cannot be read, or is no trace of a panel."""
     try:
         read = msgspec.json.decode(read_text(file, BYTES_MAX), type=_File)
         turns, starts = [], []

@@ -65,17 +65,11 @@ class I2cBus:
             fcntl.ioctl(self._bus.fd, I2C_TIMEOUT, TIMEOUT_10MS)
 
     def fetch(self, transfer: Transfer) -> None:
-        """Read into the buffer of a `transfer`.
-
-        Raises OSError if the last attempt fails.
-        """
+        """Read into the buffer of a `transfer`; raises OSError if the last attempt fails."""
         self._run(transfer.messages)
 
     def read(self, address: int, register: bytes, size_bytes: int) -> bytes:
-        """Read registers once.
-
-        Raises OSError if the last attempt fails.
-        """
+        """Read registers once; raises OSError if the last attempt fails."""
         transfer = Transfer(address, register, size_bytes)
         self.fetch(transfer)
         return bytes(transfer.data)
@@ -106,17 +100,11 @@ class I2cBus:
         return True
 
     def send(self, message: Any) -> None:
-        """Send a `message` made with `write_message`.
-
-        Raises OSError if the last attempt fails.
-        """
+        """Send a `message` made with `write_message`; raises OSError if the last attempt fails."""
         self._run((message,))
 
     def write(self, address: int, data: bytes) -> None:
-        """Write registers: `data` is the register's address and the values.
-
-        Raises OSError if the last attempt fails.
-        """
+        """Write registers: `data` is the register's address and the values; raises OSError if the last attempt fails."""
         self.send(write_message(address, data))
 
     def close(self) -> None:

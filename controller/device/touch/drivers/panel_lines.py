@@ -66,10 +66,7 @@ class PanelLines:
         return self._listening.fd if self._listening else None
 
     def interrupt_high(self) -> bool | None:
-        """Level of the interrupt line; None while it is not listened to.
-
-        Raises OSError if its chip fails.
-        """
+        """Level of the interrupt line; None while it is not listened to; raises OSError if its chip fails."""
         if self._listening is None:
             return None
         return bool(self._listening.get_value(self._offsets[self._interrupt]) is Value.ACTIVE)

@@ -72,10 +72,7 @@ class TouchScreen(Protocol):
 
 
 class SharedPanel:
-    """Hands the contacts of one panel on.
-
-    `open_screen` makes the touch screen, by name and sides in mm, or raises TouchError.
-    """
+    """Hands the contacts of one panel on. `open_screen` makes the touch screen, by name and sides in mm, or raises TouchError."""
 
     def __init__(
         self,

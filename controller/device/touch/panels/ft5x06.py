@@ -193,10 +193,7 @@ class Ft5x06:
 
 
 def open_panel(settings: Ft5x06Touch) -> I2cReader:
-    """Start the panel of a board with these `settings`.
-
-    Raises TouchError if bus, lines or chip are absent.
-    """
+    """Start the panel of a board with these `settings`; raises TouchError if bus, lines or chip are absent."""
     warnings: Counter[str] = Counter()
     from controller.device.touch.drivers.i2c_reader import I2cReader
 

@@ -62,10 +62,7 @@ REPORT: Final = CountedReport(STATUS, 0, 1, POINT_BYTES, _point)
 
 
 def product_of(identity: bytes, bus: str) -> str:
-    """Product number of a chip, from its registers from `PRODUCT_ID` on.
-
-    Raises TouchError if it is not one of `PRODUCTS`.
-    """
+    """Product number of a chip, from its registers from `PRODUCT_ID` on; raises TouchError if it is not one of `PRODUCTS`."""
     name = identity[:4].rstrip(b"\0")
     if name.decode("ascii", "replace") in PRODUCTS:
         return name.decode("ascii")
@@ -201,10 +198,7 @@ class Gt911:
 
 
 def open_panel(settings: Gt911Touch) -> I2cReader:
-    """Start the panel of a board with these `settings`.
-
-    Raises TouchError if bus, lines or chip are absent.
-    """
+    """Start the panel of a board with these `settings`; raises TouchError if bus, lines or chip are absent."""
     warnings: Counter[str] = Counter()
     from controller.device.touch.drivers.i2c_reader import I2cReader
 

@@ -222,8 +222,5 @@ def _open_error(settings: EloTouch, error: Exception) -> str:
 
 
 def open_panel(settings: EloTouch) -> SerialPanel:
-    """Open the panel of a board with these `settings`.
-
-    Raises TouchError if the port cannot be opened.
-    """
+    """Open the panel of a board with these `settings`; raises TouchError if the port cannot be opened."""
     return SerialPanel(settings)

@@ -41,10 +41,7 @@ UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")  # what PowerShell makes of a redirec
 
 
 def decoded(data: bytes, name: str) -> tuple[str, int]:
-    """Text of a file, and how many of its lines have bytes that are no text.
-
-    Raises ConfigError if it is compressed.
-    """
+    """Text of a file, and how many of its lines have bytes that are no text; raises ConfigError if it is compressed."""
     for sign, program in PACKED.items():
         if data.startswith(sign):
             raise ConfigError(f"{name}: is compressed ({program}): unpack it first")

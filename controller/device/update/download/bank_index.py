@@ -93,10 +93,7 @@ def write_index(file: Path, pieces: Iterable[tuple[int, int]]) -> bytes:
 
 
 def read_index(data: bytes, origin: str) -> BankIndex:
-    """An index from its bytes.
-
-    `origin` is what it is called in errors. Raises UpdateError if it is not one.
-    """
+    """An index from its bytes. `origin` is what it is called in errors. Raises UpdateError if it is not one."""
     if len(data) < HEADER.size or len(data) > INDEX_BYTES_MAX or not data.startswith(MAGIC):
         raise UpdateError(f"{origin}: is no index of a bank")
     _, size, count = HEADER.unpack_from(data)

@@ -36,10 +36,7 @@ class Source(FetcherInterface):
 
     @abstractmethod
     def look(self) -> None:
-        """Say clearly that nothing can be there, before anything is read.
-
-        Raises UpdateError.
-        """
+        """Say clearly that nothing can be there, before anything is read; raises UpdateError."""
 
     @abstractmethod
     def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:

@@ -80,20 +80,14 @@ class DeviceUpdater(Updater):
         clock.keep(file, verified.root, verified.targets, verified.timestamp, self.now)
 
     def target(self, path: str) -> TargetFile:
-        """What is signed about a file of the repository.
-
-        Raises UpdateError if it has none of that name.
-        """
+        """What is signed about a file of the repository; raises UpdateError if it has none of that name."""
         target = self.get_targetinfo(path)
         if target is None:
             raise UpdateError(f"{self._source.name}: has no {path}: was the release added to it whole?")
         return target
 
     def read(self, path: str, max_bytes: int) -> bytes:
-        """A small file of the repository, checked.
-
-        Raises UpdateError or DownloadError or RepositoryError.
-        """
+        """A small file of the repository, checked; raises UpdateError or DownloadError or RepositoryError."""
         target = self.target(path)
         if target.length > max_bytes:
             raise UpdateError(
@@ -104,10 +98,7 @@ class DeviceUpdater(Updater):
         return data
 
     def chunks(self, target: TargetFile, start: int, length: int) -> Iterator[bytes]:
-        """Bytes of a file of the repository, as they come; not checked.
-
-        Raises DownloadError.
-        """
+        """Bytes of a file of the repository, as they come; not checked; raises DownloadError."""
         folder, slash, name = target.path.rpartition("/")
         if self._trusted_set.root.consistent_snapshot:
             name = f"{next(iter(target.hashes.values()))}.{name}"
@@ -157,10 +148,7 @@ def sync_tree(folder: Path) -> None:
 
 
 def sha256_of(file: Path) -> str:
-    """SHA-256 of a file, in hexadecimal digits.
-
-    Raises OSError.
-    """
+    """SHA-256 of a file, in hexadecimal digits; raises OSError."""
     with file.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()
 

@@ -24,10 +24,7 @@ PHASE_BITS, FORM_BITS, STATE_BITS = 14, 15, 28
 
 
 class AudibleForm:
-    """Audible energy of many emissions at once, in a unit of this class.
-
-    `longest_lag` is in samples.
-    """
+    """Audible energy of many emissions at once, in a unit of this class. `longest_lag` is in samples."""
 
     def __init__(self, board: Board, model: ResponseModel, longest_lag: int) -> None:
         waveform = board.waveform

@@ -100,10 +100,7 @@ def _figures(took_ms: list[float]) -> dict[str, float]:
 
 
 class Load:
-    """Clicks all the time, and replacements in every second span.
-
-    `lines` are regions, as they are sent one after the other.
-    """
+    """Clicks all the time, and replacements in every second span. `lines` are regions, as they are sent one after the other."""
 
     def __init__(self, path: str, lines: list[bytes], replacements_hz: float) -> None:
         self._path = path

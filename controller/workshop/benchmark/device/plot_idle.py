@@ -30,10 +30,7 @@ FIRST_ORDER_MS = 50.0
 
 
 def plot_idle(path: Path, board: Board, figures: dict[str, Any]) -> None:
-    """Draw a board's `idle_figures` to a .png, .svg or .pdf file.
-
-    Raises ConfigError if the file cannot be written.
-    """
+    """Draw a board's `idle_figures` to a .png, .svg or .pdf file; raises ConfigError if the file cannot be written."""
     x_m, y_m = random_points(board, figures["seed"], 1, board.plate.width_m / 3)[0].tolist()  # away from patches and edges
     drive_order = ResponseModel(board).drive_order_responses([(x_m, y_m)], dtype=np.float64)
     figure = Figure(figsize=(11, 8.5), layout="constrained")

@@ -147,10 +147,7 @@ def _send(account: Account, number: int, line: bytes) -> None:
 
 
 def received(account: Account, path: str) -> list[bytearray]:
-    """Lines that have come whole; the rest of the last one is kept.
-
-    Raises LinkError if the panel has ended the connection.
-    """
+    """Lines that have come whole; the rest of the last one is kept; raises LinkError if the panel has ended the connection."""
     try:
         more = account.socket.recv(RECEIVE_BYTES)
     except BlockingIOError:
@@ -241,10 +238,7 @@ def run(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def wait_for_panel(path: str, panel: subprocess.Popen[bytes]) -> None:
-    """Wait until the outputs are on.
-
-    Raises ControllerError if it does not start.
-    """
+    """Wait until the outputs are on; raises ControllerError if it does not start."""
     give_up_s = time.monotonic() + START_S
     while time.monotonic() < give_up_s and panel.poll() is None:
         time.sleep(0.1)

@@ -12,10 +12,7 @@ from controller.errors import ConfigError
 
 
 def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
-    """Draw the figures of `amplitude_figures` to a .png, .svg or .pdf file.
-
-    Raises ConfigError if the file cannot be written.
-    """
+    """Draw the figures of `amplitude_figures` to a .png, .svg or .pdf file; raises ConfigError if the file cannot be written."""
     figure = Figure(figsize=(11, 4.5), layout="constrained")
     against, errors, single = figure.subplots(1, 3)
     ends = np.array([0.2, 1.05])

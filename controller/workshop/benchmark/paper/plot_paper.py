@@ -25,10 +25,7 @@ SHOWN_SKIN_MS = (-0.1, 0.6)
 
 
 def plot_paper(path: Path, figures: Figures) -> None:
-    """Draw the figures of `paper_figures` to a .png, .svg or .pdf file.
-
-    Raises ConfigError if the file cannot be written.
-    """
+    """Draw the figures of `paper_figures` to a .png, .svg or .pdf file; raises ConfigError if the file cannot be written."""
     figure = Figure(figsize=(16, 13), layout="constrained")
     parts: Any = figure.subfigures(2, 1, height_ratios=[1.25, 1])
     for part, panels, shape in zip(parts, (CURVES, LISTS), ((2, 4), (1, 2)), strict=True):

@@ -18,10 +18,7 @@ SHOWN_POINTS = 3
 
 
 def plot_check(path: Path, board: Board, learned: Learned) -> None:
-    """Draw it to a PNG, SVG or PDF file.
-
-    Raises ConfigError if the file cannot be written.
-    """
+    """Draw it to a PNG, SVG or PDF file; raises ConfigError if the file cannot be written."""
     measurement, found = learned.measurement, learned.responses
     channels = sorted(a.channel for a in board.actuators)
     coherence = np.where(np.isnan(found.coherence), found.known, found.coherence)[:, channels]

@@ -16,10 +16,7 @@ from controller.workshop.calibration.wave_fit import WaveFit
 
 
 def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, waves: WaveFit, decays: list[Decay]) -> None:
-    """Draw it to a PNG, SVG or PDF file.
-
-    Raises ConfigError if the file cannot be written.
-    """
+    """Draw it to a PNG, SVG or PDF file; raises ConfigError if the file cannot be written."""
     found = source.leave_out
     evaluated = ~np.isnan(found.kept)
     lost = 1 - found.kept[evaluated]

@@ -200,10 +200,7 @@ def _wiring(faults: Flaws) -> list[int]:
 
 
 def _claim(folder: Path, how: dict[str, Any], points_m: Floats) -> None:
-    """Mark a folder as that of this simulation.
-
-    Raises CalibrationError if it holds another one, or something else.
-    """
+    """Mark a folder as that of this simulation; raises CalibrationError if it holds another one, or something else."""
     text = json.dumps(how | {"points_mm": np.round(points_m * 1e3, 6).tolist()}, sort_keys=True) + "\n"
     stamp = folder / STAMP
     try:

@@ -174,10 +174,7 @@ def read_settings(folder: Path) -> MeasurementFile:
 
 
 def write_settings(folder: Path, settings: MeasurementFile) -> None:
-    """Write the `measurement.toml` of a folder.
-
-    Raises CalibrationError if it cannot be written.
-    """
+    """Write the `measurement.toml` of a folder; raises CalibrationError if it cannot be written."""
     tables = msgspec.to_builtins(settings)
     try:
         (folder / NAME).write_text("\n".join(_toml_lines(tables)) + "\n", encoding="utf-8")

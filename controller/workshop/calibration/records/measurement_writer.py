@@ -25,10 +25,7 @@ UFF_TYPES = {"m": 8, "m/s": 11, "m/s^2": 12, "V": 0}
 
 
 def claim(folder: Path, settings: MeasurementFile) -> None:
-    """Refuse a folder that holds another measurement.
-
-    Raises CalibrationError, naming what differs.
-    """
+    """Refuse a folder that holds another measurement; raises CalibrationError, naming what differs."""
     if not (folder / NAME).exists():
         if folder.exists() and any(folder.iterdir()):
             raise CalibrationError(f"{folder}: is not empty, and holds no measurement: give another folder")
@@ -50,10 +47,7 @@ def write_measurement(
     # point by point, by `write_records`
     records: Iterable[ArrayLike | None] = (),
 ) -> None:
-    """Write a measurement folder; what is there already is replaced.
-
-    Raises CalibrationError if a file cannot be written.
-    """
+    """Write a measurement folder; what is there already is replaced; raises CalibrationError if a file cannot be written."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if drive is not None and (name := getattr(settings.drive, "file", None)):

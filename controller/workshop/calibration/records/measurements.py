@@ -237,10 +237,7 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
 
 
 def sha256_of(file: Path) -> str:
-    """SHA-256 of a file's bytes, in hex.
-
-    Raises CalibrationError if it cannot be read.
-    """
+    """SHA-256 of a file's bytes, in hex; raises CalibrationError if it cannot be read."""
     try:
         with file.open("rb") as data:
             return hashlib.file_digest(data, "sha256").hexdigest()

@@ -63,10 +63,7 @@ def _checked(where: Path, found: list[tuple[str, float, float]], board: Board) -
 
 
 def write_points(file: Path, names: tuple[str, ...], points_m: ArrayLike) -> None:
-    """Write points as a CSV file: point, x_mm, y_mm.
-
-    Raises CalibrationError if it cannot be written.
-    """
+    """Write points as a CSV file: point, x_mm, y_mm; raises CalibrationError if it cannot be written."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(("point", "x_mm", "y_mm"))

@@ -39,10 +39,7 @@ class _Seen:
 
 
 class Core:
-    """`haptic_core.v` behind its input registers.
-
-    `events` are what happens in which tick.
-    """
+    """`haptic_core.v` behind its input registers. `events` are what happens in which tick."""
 
     def __init__(self, parameters: BuildParameters, events: Events) -> None:
         self.commands = Commands(parameters)  # the parts of the model
@@ -74,10 +71,7 @@ class Core:
         return self._sequencer.waiting_from()
 
     def status(self, port: Port = Port.SPI, tick: int | None = None) -> Status:
-        """The status with which a link is answered.
-
-        The beginning of the frame is seen in `tick`, by default the current one.
-        """
+        """The status with which a link is answered. The beginning of the frame is seen in `tick`, by default the current one."""
         gate, player, telemetry = self._gate, self._player, self._telemetry
         now = self._events.now if tick is None else tick
         link = telemetry.links[port]

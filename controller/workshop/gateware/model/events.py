@@ -56,10 +56,7 @@ class Events:
         return self._events[0].tick if self._events else None
 
     def add(self, event: GatewareEvent) -> None:
-        """Add an event.
-
-        Raises ValueError if its tick has passed.
-        """
+        """Add an event; raises ValueError if its tick has passed."""
         if event.tick < self.now:
             raise ValueError(f"{event.kind.name} for tick {event.tick} is in the past: the model is at tick {self.now}")
         insort(self._events, event, key=lambda entry: entry.tick)

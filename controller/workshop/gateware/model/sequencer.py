@@ -13,10 +13,7 @@ from controller.workshop.gateware.model.player import DECISION_TICKS, AcceptedPl
 
 
 class Sequencer:
-    """Starts plays from the queue, and passes the words of emissions to the output gate.
-
-    `events` takes the ends of emissions.
-    """
+    """Starts plays from the queue, and passes the words of emissions to the output gate. `events` takes the ends of emissions."""
 
     def __init__(self, commands: Commands, events: Events) -> None:
         self._events = events

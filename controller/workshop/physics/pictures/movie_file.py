@@ -55,10 +55,7 @@ def write_movie(
     radius_m: float,
     progress: Callable[[int, int], None],  # called with the number of frames done and of all
 ) -> None:
-    """Write the frames of a movie.
-
-    Raises ConfigError if the file cannot be written.
-    """
+    """Write the frames of a movie; raises ConfigError if the file cannot be written."""
     part = path.with_name(f".{path.name}.part")
     pictures = _pictures(movie, frames, foci, largest_m, radius_m, progress)
     held = np.where(movie.time_s == 0, HELD, 1)
@@ -114,10 +111,7 @@ def _levels(u: Frames, largest_m: float) -> NDArray[np.uint8]:
 
 
 def _encode(part: Path, pictures: Iterator[Image.Image], held: Sequence[int]) -> None:
-    """Give all frames to ffmpeg.
-
-    Raises ConfigError with the last line that it said.
-    """
+    """Give all frames to ffmpeg; raises ConfigError with the last line that it said."""
     first = next(pictures)
     size = f"{first.width}x{first.height}"
     read = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", str(RATE_HZ), "-i", "-"]

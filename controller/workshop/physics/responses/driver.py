@@ -18,10 +18,7 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False)
 class DriverResponse:
-    """Exact response of one driver.
-
-    After a unit step of the stage the piezo is at 1 + Re sum(residues * exp(poles * t)) volts.
-    """
+    """Exact response of one driver. After a unit step of the stage the piezo is at 1 + Re sum(residues * exp(poles * t)) volts."""
 
     poles: Complex  # (2,): in 1/s
     residues: Complex  # (2,): of the step response
