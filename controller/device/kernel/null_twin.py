@@ -23,19 +23,19 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.kernel.polarity_twin import SKETCH_SHIFT
-from controller.device.kernel.words_twin import (
+from controller.device.kernel.bank_twin import (
     CHANNELS,
     MAX_FOCI,
     REST_SAMPLES,
-    STRENGTH_SHIFT,
     BankBuffers,
     Patch,
     Point,
+    Responses,
     Writable,
-    _checked_words,
-    _Responses,
+    checked_words,
 )
+from controller.device.kernel.polarity_twin import SKETCH_SHIFT
+from controller.device.kernel.words_twin import STRENGTH_SHIFT
 
 Numbers = NDArray[Any]
 
@@ -65,10 +65,10 @@ def null_places(
     Raises ValueError if there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers
     too short for them.
     """
-    responses = _Responses(bank)
+    responses = Responses(bank)
     if not (1 <= len(points) <= MAX_FOCI and 1 <= len(nulls) <= MAX_NULLS):
         raise ValueError(f"{len(points)} points, not 1 to {MAX_FOCI}, and {len(nulls)} nulls, not 1 to {MAX_NULLS}")
-    filled, patches = _checked_words(responses, words, room, [*points, *nulls]), []
+    filled, patches = checked_words(responses, words, room, [*points, *nulls]), []
     for x_m, y_m, _ in (*points, *nulls):
         patch, cell = responses.patch(x_m, y_m)
         if cell >= 0:
@@ -95,7 +95,7 @@ class _Met:
 class _Nulls:
     """The bits of drive words, their margins, and the places to be kept still."""
 
-    def __init__(self, bank: _Responses, words: memoryview, patches: list[Patch], points: int) -> None:
+    def __init__(self, bank: Responses, words: memoryview, patches: list[Patch], points: int) -> None:
         self._samples, self._rows = bank.samples, -(-bank.samples // REST_SAMPLES)
         self._block, self._blocks = bank.block_samples, -(-bank.samples // bank.block_samples)
         self._step = max(bank.block_samples // STEPS_PER_BLOCK, 1)

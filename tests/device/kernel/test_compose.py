@@ -26,19 +26,19 @@ def buffers(random, samples, nx, ny, idle_word, block, *, missing=0.0, largest=1
     there = random.random(nx * ny) >= missing
     entries = np.where(there, np.cumsum(there) - 1, -1).astype(np.int32)
     count = max(int(there.sum()), 1)
-    values = (samples + -(-samples // words_twin.REST_SAMPLES)) * 32
+    values = (samples + -(-samples // kernel.REST_SAMPLES)) * 32
     stride = -(-values // 64) * 64
     levels = random.integers(-largest, largest + 1, (count, stride), endpoint=False).astype(np.int8)
     levels[random.random(levels.shape) < quiet] = 0
     scales = (10 ** random.uniform(-11 - scale_decades, -11, count)).astype(np.float32)
-    plan = words_twin.PLAN.pack(samples, stride, nx, ny, count, idle_word, block, PITCH_M, 5e-3, 6e-3)
+    plan = kernel.PLAN.pack(samples, stride, nx, ny, count, idle_word, block, PITCH_M, 5e-3, 6e-3)
     room = bytearray(random.bytes(kernel.room_bytes(samples)))
     return [bytearray(4 * samples), room, plan, entries.tobytes(), scales.tobytes(), bytearray(b"\1" * count), levels.tobytes()]
 
 
 def compose_with(one, given_buffers, points):
     words, room, *rest = given_buffers
-    return one.compose(words, room, words_twin.BankBuffers(*rest), points)
+    return one.compose(words, room, kernel.BankBuffers(*rest), points)
 
 
 def outcome(one, given_buffers, points):
@@ -46,7 +46,7 @@ def outcome(one, given_buffers, points):
     words, room, *rest = given_buffers
     words, room = bytearray(words), bytearray(room)
     try:
-        answer = one.compose(words, room, words_twin.BankBuffers(*rest), points)
+        answer = one.compose(words, room, kernel.BankBuffers(*rest), points)
     except ValueError:
         return ValueError
     return answer, bytes(words)
@@ -104,7 +104,7 @@ def test_it_refuses_what_its_twin_refuses(data):
     numbers[at] = data.draw(st.one_of(st.integers(-(1 << 63), (1 << 63) - 1), st.integers(numbers[at] - 40, numbers[at] + 40)))
     floats = [data.draw(st.sampled_from([PITCH_M, PITCH_M, PITCH_M, 0.0, -1.0, math.nan, math.inf, 1e-310])), 5e-3, 6e-3]
     made = buffers(np.random.default_rng(1), 40, 3, 3, 0, 48)
-    made[2] = words_twin.PLAN.pack(*numbers, *floats)
+    made[2] = kernel.PLAN.pack(*numbers, *floats)
     for index in (0, 1, 3, 4, 5, 6):
         if data.draw(st.integers(0, 9)) == 0:
             made[index] = bytes(made[index][: data.draw(st.integers(0, len(made[index])))])
@@ -128,7 +128,7 @@ def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
 @pytest.mark.parametrize("samples", [0, -1, 2001, 1 << 40])
 def test_lengths_that_cannot_be_composed_are_refused(one, samples):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
-    made[2] = words_twin.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3)
+    made[2] = kernel.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3)
     with pytest.raises(ValueError, match="samples to compose"):
         compose_with(one, made, [(5e-3, 6e-3, 1.0)])
     with pytest.raises(ValueError, match="samples to compose"):

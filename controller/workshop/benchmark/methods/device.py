@@ -81,7 +81,7 @@ class NearestEntry:
 
 
 def _unpacked(frames: memoryview) -> Words:
-    samples = next(count for count in range(1, words_twin.MAX_SAMPLES) if kernel.load_frames_bytes(4 * count) == len(frames))
+    samples = next(count for count in range(1, kernel.MAX_SAMPLES) if kernel.load_frames_bytes(4 * count) == len(frames))
     words = bytearray(4 * samples)
     unpack_loads(words, frames)
     return np.frombuffer(words, "<u4").astype(np.uint32)
