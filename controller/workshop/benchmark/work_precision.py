@@ -27,14 +27,13 @@ from controller.workshop.benchmark.judge import Errors, Judge
 from controller.workshop.benchmark.methods.candidate import Candidate
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.benchmark.methods.registry import all_candidates
-from controller.workshop.benchmark.pareto import pareto_front
+from controller.workshop.benchmark.pareto import AXES, front
 
 Figures = dict[str, Any]
 Progress = Callable[[int, int], None]
 SCHEMA_VERSION = 1
 PLACES_AT_ONCE = 40  # whose cells are held: 0.3 GB
 BETTER_HIGH = {"contrast", "amplitude_over_unfiltered"}  # the worst of these is the smallest
-AXES = ("time", "memory", "wire", "stage energy")
 
 
 @dataclass(frozen=True)
@@ -141,34 +140,6 @@ def _rates(board: Board, machine: Baselines, modes: int) -> Figures:
         "sgemm_response_us": machine.sgemm_us(modes),
         "multiplications_of_a_response": board.waveform.samples * CHANNELS * modes,
     }
-
-
-def cost(setting: Figures, axis: str, family: str) -> float | None:
-    """Cost of a setting on one of `AXES`, for scenes of a family; None if it was not measured."""
-    if axis == "memory":
-        return float(setting["memory_bytes"])
-    if axis == "wire":
-        return float(setting["wire_bytes"])
-    if axis == "stage energy":
-        found = setting["families"].get(family)
-        return found and float(found["stage_j"]["median"])
-    timing = setting["time_us"].get(family.partition(" ")[0])
-    return timing and float(timing["median_us"])
-
-
-def main_error(family: str) -> str:
-    """The error by which methods are compared first: of one finger in the band, of several what the worst one feels."""
-    return "bound_loss" if family.startswith("1 ") else "felt_loss"
-
-
-def front(settings: Sequence[Figures], axis: str, family: str) -> list[int]:
-    """Indices of the settings on the Pareto front of a cost and the median of the main error, by ascending cost."""
-    error = main_error(family)
-    evaluated = [index for index, setting in enumerate(settings) if family in setting["families"]]
-    costs = [(index, cost(settings[index], axis, family)) for index in evaluated]
-    costly = [(index, value) for index, value in costs if value is not None]
-    errors = [settings[index]["families"][family][error]["median"] for index, _ in costly]
-    return [costly[place][0] for place in pareto_front([value for _, value in costly], errors)]
 
 
 class _Bar:

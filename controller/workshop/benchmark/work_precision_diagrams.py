@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from controller.errors import ConfigError
-from controller.workshop.benchmark.work_precision import cost, main_error
+from controller.workshop.benchmark.pareto import cost, main_error
 from controller.workshop.benchmark.work_precision_curves import (
     FLOOR,
     draw_curves,

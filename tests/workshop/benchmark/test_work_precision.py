@@ -19,7 +19,8 @@ from controller.workshop.benchmark.device.interleaved import interleaved
 from controller.workshop.benchmark.fingers_scenes import scenes
 from controller.workshop.benchmark.methods import designs, device, modal_bank, registry
 from controller.workshop.benchmark.methods.laboratory import Laboratory
-from controller.workshop.benchmark.work_precision import Effort, cost, front, work_precision
+from controller.workshop.benchmark.pareto import cost, front
+from controller.workshop.benchmark.work_precision import Effort, work_precision
 from controller.workshop.benchmark.work_precision_diagrams import DIAGRAMS, draw_all
 
 SCHEMA = json.loads(Path(__file__).with_name("work_precision.schema.json").read_text())
