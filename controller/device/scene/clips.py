@@ -28,19 +28,9 @@ class Clip(NamedTuple):
 def read_clip(name: str, line: bytes | memoryview | msgspec.Raw, board: Board) -> Clip:
     """Read an effect of a client.
 
-    Parameters
-    ----------
-    name : str
-        Of its emissions.
-    line : bytes
-        JSON with the keys of an [effects.NAME]; without `when`, and without an `effect` that has one, it is for commands.
-    board : Board
-        Whose duty limit bounds its pulses.
-
-    Raises
-    ------
-    ConfigError
-        If it is invalid, has more than `MOST_PULSES`, is silent, or only a moving finger or a fixed emitter can have it.
+    `name` is that of its emissions; `line` is JSON with the keys of an [effects.NAME]; without `when`, and without an `effect` that
+    has one, it is for commands. The board's duty limit bounds its pulses. Raises ConfigError if it is invalid, has more than
+    `MOST_PULSES`, is silent, or only a moving finger or a fixed emitter can have it.
     """
     try:
         table = msgspec.json.decode(line, type=EffectTable)
