@@ -43,7 +43,7 @@ class CountedReport:
         return contacts_at(report, starts, self.decode, warnings)
 
     def bytes_of(self, count: int) -> int:
-        """Length of a report of so many contacts."""
+        """Length of a report of this many contacts."""
         return self.first_point + count * self.point_bytes
 
 
