@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
-from controller.workshop.calibration.deconvolution import RawBins
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.records.drives import held_spectrum
+from controller.workshop.calibration.transfers import RawBins
 from controller.workshop.physics.responses.driver import DriverResponse
 
 Floats = NDArray[np.float64]

@@ -13,13 +13,14 @@ from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.checks import Objection, raise_fatal
 from controller.workshop.calibration.checking.findings import findings_of, remarks_on
-from controller.workshop.calibration.deconvolution import Deconvolution, Transfers
+from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.point_cache import PointCache
 from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
 from controller.workshop.calibration.records.measurements import Measurement, read_measurement, sha256_of
 from controller.workshop.calibration.time_responses import responses_in_time
+from controller.workshop.calibration.transfers import Transfers
 
 Floats = NDArray[np.float64]
 CLOCK_POINTS = 4  # that the clock is found from

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from controller.workshop.calibration.deconvolution import Transfers
+from controller.workshop.calibration.transfers import Transfers
 
 FORMAT = "1"  # of the files, and of the method
 

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.workshop.calibration.checking.checks import NOISY_COHERENCE
-from controller.workshop.calibration.deconvolution import Deconvolution, Transfers
+from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.records.measurements import Measurement
+from controller.workshop.calibration.transfers import Transfers
 from controller.workshop.physics.responses.response_source import Provenance, SourceFile
 
 Floats = NDArray[np.float64]

@@ -21,8 +21,9 @@ from controller.workshop.physics.audible import surface_energy
 from controller.workshop.physics.field import Field
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.plate import mode_cut_hz, wave_scale
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import capture_of_words
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
