@@ -24,7 +24,7 @@ class ClockEstimate:
 
     def __init__(self, clock_hz: float) -> None:
         self.clock_hz = clock_hz
-        self.known = False  # false until the first exchange; `offset_s` is 0 until then
+        self.known = False  # False until the first exchange; `offset_s` is 0 until then
         # FPGA time minus host time: the middle of the interval. Hot code adds it to host time, or subtracts it from FPGA
         # time, itself
         self.offset_s = ClockOffset(0.0)

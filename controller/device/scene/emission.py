@@ -16,7 +16,7 @@ class Emission(NamedTuple):
     time_s: FpgaTime  # when it is due, in FPGA time
     x_m: float  # x_m, y_m: place on the plate
     y_m: float
-    finger: int | None  # none: for no finger
+    finger: int | None  # None: for no finger
     region: str  # name of the region whose effect it is; for a command, name of the effect
     amplitude: float = 1.0  # `MIN_AMPLITUDE` to 1
     # finger, region of the fixed emitter, or command. A newer emission of the same owner replaces one that waits

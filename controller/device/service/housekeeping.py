@@ -41,7 +41,7 @@ class Housekeeping:
         # wait for a cable to be plugged in, and show the state themselves
         notifier: Notifier,
         watchdog: Watchdog,
-        thermometer: TemperatureSource | None,  # none: the bit clock is not scaled
+        thermometer: TemperatureSource | None,  # None: the bit clock is not scaled
         reload_file: ReloadFile | None = None,  # where the result of each reload is written
     ) -> None:
         self.condition = Condition()  # state of the panel, as last reported
@@ -76,7 +76,7 @@ class Housekeeping:
     def watch(
         self,
         loop: Watched,
-        panel: Panel | None,  # none: a recording is replayed
+        panel: Panel | None,  # None: a recording is replayed
         reported: Sequence[Callable[[Condition], None]] = (),  # each is called with each new condition, the first included
         counts: Counts | None = None,  # of the touch panel: said once if most positions lie off the plate
     ) -> None:

@@ -27,7 +27,7 @@ class TouchSample(NamedTuple):
     x_m: float  # x_m, y_m: position on the plate
     y_m: float
     time_s: float  # on the loop's clock
-    contact: bool  # false: released
+    contact: bool  # False: released
     # Major axis of the contact; 0 if the panel reports none, inf if it is released because it has become a palm
     size_m: float = 0.0
 

@@ -18,7 +18,7 @@ class InstalledRelease(msgspec.Struct, frozen=True, kw_only=True):
     """A folder of `releases/`."""
 
     version: str
-    counter: int | None  # none: its manifest cannot be read, or it was installed by hand and has none
+    counter: int | None  # None: its manifest cannot be read, or it was installed by hand and has none
     complete: bool  # whether it may be started
     failed: bool  # whether it was tried and did not serve
     size_bytes: int | None  # of its files before they were installed; what it shares with other releases counts for each

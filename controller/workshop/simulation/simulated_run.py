@@ -81,7 +81,7 @@ def play(
     bank: Bank,  # holds the cells of the scene
     recording: Recording,  # touches; without any, nothing is played
     *,
-    real_time: bool,  # false: virtual time, as fast as the machine can and deterministic
+    real_time: bool,  # False: virtual time, as fast as the machine can and deterministic
     ready: Callable[[], None] = lambda: None,  # called once the outputs are on
     skips: Skips = ALL,  # what of the loop's work is left out
     hardware: Hardware = MODEL,

@@ -98,10 +98,7 @@ def _work(request: bytes, limit_s: float) -> bytes:
 def limit_memory(bank: Path, file_bytes: int = 0) -> None:
     """Limit memory and files of this process to what it needs; when memory runs out, the kernel ends this process first.
 
-    Parameters
-    ----------
-    file_bytes : int
-        Of the largest file that it may write.
+    `file_bytes` are those of the largest file that it may write.
     """
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")

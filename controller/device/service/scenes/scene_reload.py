@@ -70,13 +70,7 @@ class SceneChanger:
         self._ask(self._name if name is None else name, ticket, None)
 
     def save(self, name: str, toml: str, ticket: int) -> None:
-        """Save a scene for this board, to be found by `begin`.
-
-        Raises
-        ------
-        ConfigError
-            If a scene is being prepared or saved.
-        """
+        """Save a scene for this board, to be found by `begin`; raises ConfigError if a scene is being prepared or saved."""
         self._ask(name, ticket, toml)
 
     def _ask(self, name: str, ticket: int, toml: str | None) -> None:

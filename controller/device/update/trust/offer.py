@@ -31,7 +31,7 @@ class Offer:
 
     channel: str
     platform: str
-    manifest: Manifest | None  # none if there is nothing for this platform
+    manifest: Manifest | None  # None if there is nothing for this platform
     data: bytes  # the manifest as it was signed
     installed: Manifest | None  # the release in use
     refused: str  # why it is not taken; empty if it may be
