@@ -18,6 +18,7 @@ from controller.clocks import MonotonicClock, VirtualClock
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
+from controller.device.fpga.session import Session
 from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.playing.records import Played
 from controller.device.loop.skips import ALL, Skips
@@ -99,10 +100,7 @@ def play(
     source = RecordingSource(recording, axes, start_s)
     contacts = {finger: [track] for finger, track in tracks.items()}
     tracker = tracked(source, board, lambda finger, contact: contacts[finger].append(tracks[contact]))
-    bit_clock = None
-    if hardware.drift is not None and board.temperature is not None:
-        sensor = hardware.drift.sensor(board.temperature, lambda: clock.now_s() - start_s)
-        bit_clock = BitClock(session, Thermometer(board.temperature, sensor), board.temperature.period_s)
+    bit_clock = _bit_clock(board, session, hardware.drift, lambda: clock.now_s() - start_s)
     assembly: Assembly
 
     def progress(now_s: float) -> None:  # what the service's housekeeping does about the temperature
@@ -132,6 +130,13 @@ def play(
         drift=hardware.drift,
         bit_clock=bit_clock,
     )
+
+
+def _bit_clock(board: Board, session: Session, drift: Drift | None, time_s: Callable[[], float]) -> BitClock | None:
+    """What follows the plate's temperature as it drifts, on a board with a sensor of it."""
+    if drift is None or board.temperature is None:
+        return None
+    return BitClock(session, Thermometer(board.temperature, drift.sensor(board.temperature, time_s)), board.temperature.period_s)
 
 
 def copy_and_checksum(size: int) -> LatencyHistogram:
