@@ -117,7 +117,7 @@ class PlayRequests:
             self._keep(client, request.name, clip)
         return clip
 
-    def _keep(self, client: Connection, name: str, clip: clips.Clip) -> None:
+    def _keep(self, client: Connection, name: str, clip: clips.ClientEffect) -> None:
         others = [kept for other, kept in client.clips.items() if other != name]
         if len(others) >= MOST_KEPT:
             raise ConfigError(f"{MOST_KEPT} clips are kept for this client already: use one of their names again")

@@ -16,7 +16,7 @@ from controller.device.loop.fixed_emitters import FixedEmitters
 from controller.device.loop.playing.batching import select_batch
 from controller.device.loop.skips import ALL, Skips
 from controller.device.loop.train_phases import moved_s
-from controller.device.scene.clips import Clip
+from controller.device.scene.clips import ClientEffect
 from controller.device.scene.emission import Emission
 from controller.device.scene.fingers import ActiveEffects
 from controller.device.scene.region_lookup import OUTSIDE
@@ -87,7 +87,7 @@ class Scheduler:
             self._counters.skipped.between_emissions += 1
 
     def play(
-        self, ticket: int, effect: str | Clip, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime
+        self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime
     ) -> None:
         """Start an effect for a command, at a point or at a finger.
 

@@ -20,7 +20,7 @@ import math
 from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
-from controller.device.scene.clips import Clip
+from controller.device.scene.clips import ClientEffect
 from controller.device.scene.emission import Emission, new_emission
 from controller.device.scene.progress import DistanceProgress, GridProgress
 from controller.device.scene.region_lookup import OUTSIDE
@@ -113,7 +113,7 @@ class ActiveEffects:
         trains = self._scene.regions[self.region].release
         return _at_most_one(self._begin(trains, self.region, time_s, ends_on_leave=True)) if trains else ()
 
-    def start(self, effect: str | Clip, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
+    def start(self, effect: str | ClientEffect, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
         """A command plays an effect of the scene, by its name, or one that a client has sent; returns what is due now.
 
         `amplitude` is `MIN_AMPLITUDE` to 1, times the effect's own; a product below `MIN_AMPLITUDE` is played at that. `ticket` is
