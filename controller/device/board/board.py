@@ -211,10 +211,7 @@ def as_board(before: str, tables: dict[str, Any]) -> Board:
 def _completed(before: str, board: Board) -> Board:
     """The board with the keys of [driver] and [patches] that were left out, as they follow from its parts.
 
-    Raises
-    ------
-    ConfigError
-        If there are no parts either, or they give a value that no board may have.
+    Raises ConfigError if there are no parts either, or they give a value that no board may have.
     """
     tables = {name: msgspec.structs.asdict(table) for name in ("driver", "patches") if (table := getattr(board, name)) is not None}
     missing = [f"{name}.{key}" for name, table in tables.items() for key, value in table.items() if value != value]  # noqa: PLR0124

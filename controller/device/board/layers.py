@@ -46,28 +46,16 @@ class PlateLayer(Record, frozen=True):
 
 
 class Laminate(NamedTuple):
-    """What layers are together.
-
-    Attributes
-    ----------
-    thickness_m, young_modulus_pa, poisson_ratio, density_kg_m3 : float
-        Of the homogeneous plate that bends and weighs the same.
-    rotation_kg : float
-        Rotary inertia per area about the neutral axis.
-    axis_m : float
-        Height of the neutral axis above the bottom.
-    shear_flexibility : float
-        Over that of a solid plate of the same thickness and bending stiffness; 1 for one layer.
-    """
+    """What layers are together."""
 
     # thickness_m, young_modulus_pa, poisson_ratio, density_kg_m3: of the homogeneous plate that bends and weighs the same
     thickness_m: float
     young_modulus_pa: float
     poisson_ratio: float
     density_kg_m3: float
-    rotation_kg: float
-    axis_m: float
-    shear_flexibility: float
+    rotation_kg: float  # rotary inertia per area about the neutral axis
+    axis_m: float  # height of the neutral axis above the bottom
+    shear_flexibility: float  # over that of a solid plate of the same thickness and bending stiffness; 1 for one layer
 
 
 def laminate(layers: Sequence[PlateLayer]) -> Laminate:

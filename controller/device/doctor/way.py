@@ -16,21 +16,11 @@ MARKS: Final = {True: "[x]", False: "[ ]", None: "[?]"}
 
 
 class Step(NamedTuple):
-    """A step of the way.
+    """A step of the way."""
 
-    Attributes
-    ----------
-    name : str
-        What is done when it is done.
-    command : str
-        How.
-    done : bool or None
-        None: this device does not show it now.
-    """
-
-    name: str
-    command: str
-    done: bool | None
+    name: str  # what is done when it is done
+    command: str  # how
+    done: bool | None  # None: this device does not show it now
 
 
 def way(board: Board, findings: Iterable[Finding] = ()) -> list[Step]:

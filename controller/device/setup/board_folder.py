@@ -37,17 +37,8 @@ NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
 def write_board(folder: Path, answers: Answers, touch: Mapping[str, Any]) -> Board:
     """Write the folder of a board, and read it back.
 
-    Parameters
-    ----------
-    folder : Path
-        Does not exist yet; its name becomes the board's.
-    touch : mapping
-        Keys of [touch] besides kind and axes.
-
-    Raises
-    ------
-    ConfigError
-        If the folder exists, cannot be written or has no name for a board, or if the board would be refused.
+    `folder` does not exist yet; its name becomes the board's. `touch` has the keys of [touch] besides kind and axes. Raises
+    ConfigError if the folder exists, cannot be written or has no name for a board, or if the board would be refused.
     """
     if not NAME.fullmatch(folder.name):
         raise ConfigError(f"{folder}: a board's folder has a name of lower case letters, digits, - and _")
@@ -72,13 +63,7 @@ def write_board(folder: Path, answers: Answers, touch: Mapping[str, Any]) -> Boa
 
 
 def board_text(name: str, answers: Answers, touch: Mapping[str, Any]) -> str:
-    """Text of board.toml.
-
-    Raises
-    ------
-    ConfigError
-        If keys of [touch] are invalid, or the discs do not fit on the glass.
-    """
+    """Text of board.toml; raises ConfigError if keys of [touch] are invalid, or the discs do not fit on the glass."""
     shipped = data_folder("boards") / answers.fpga / "board.toml"
     tables, sections = read_tables(shipped), _sections(shipped.read_text(encoding="utf-8"))
     waveform = as_record(f"{shipped}: waveform.", tables["waveform"], Waveform)

@@ -16,7 +16,7 @@ from controller.device.board.board import Board
 from controller.device.fpga.frames import FRAME_BYTES, PLAY, UPLOAD_BYTES
 from controller.device.fpga.registers import Control, FrameType
 from controller.device.scene.scene import Scene
-from controller.device.touch.axes import PanelAxes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.drivers.event_device import INPUT_EVENT
 from controller.device.touch.event_codes import POSITIONS
 from controller.device.touch.event_reader import DeviceDescription
@@ -42,7 +42,7 @@ class Config(ctypes.Structure):
     )
 
 
-class PanelAxes(ctypes.Structure):
+class CAxes(ctypes.Structure):
     _fields_ = (
         ("origin", ctypes.c_double * 6),
         ("size_m", ctypes.c_double),
@@ -146,7 +146,7 @@ class Twin:
             x, y = (AxisRange(*self._descriptions[which].axes[code][:2]) for code in POSITIONS)
             axes = PanelAxes(self._board, x, y)
             from_axes = (ctypes.c_double * 6)(*axes.from_axes)
-            panel = PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum)
+            panel = CAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum)
             self._call("twin_panel", ctypes.byref(panel))
         at = 0
         if count:
