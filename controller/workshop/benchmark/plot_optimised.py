@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from controller.device.board.board import Board
-from controller.errors import ConfigError
 from controller.workshop.physics.field import Field
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 SHOWN_DB = 60.0
 
@@ -35,7 +35,4 @@ def plot_optimised(path: Path, board: Board, point_m: tuple[float, float], field
         axes.set(xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm))
     places[0].set(ylabel="y (mm)")
     figure.colorbar(picture, ax=places, label="|displacement| at T (dB of the focus)", shrink=0.9)
-    try:
-        figure.savefig(path, dpi=90)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 90)

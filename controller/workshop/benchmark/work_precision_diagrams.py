@@ -8,7 +8,6 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from controller.errors import ConfigError
 from controller.workshop.benchmark.pareto import cost, main_error
 from controller.workshop.benchmark.work_precision_curves import (
     FLOOR,
@@ -19,6 +18,7 @@ from controller.workshop.benchmark.work_precision_curves import (
     reported,
     style,
 )
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 Figures = dict[str, Any]
 SUFFIXES = (".png", ".svg")
@@ -57,10 +57,7 @@ def draw_all(folder: Path, figures: Figures) -> list[Path]:
         figure = draw(figures)
         for suffix in SUFFIXES:
             path = folder / f"{name}{suffix}"
-            try:
-                figure.savefig(path, dpi=110)
-            except OSError as error:
-                raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+            save_figure(figure, path, 110)
             written.append(path)
     return written
 

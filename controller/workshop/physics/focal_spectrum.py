@@ -27,7 +27,7 @@ FREQUENCIES = 401
 DIRECTIONS = 91
 SAMPLED = 401  # radii of a spot, and times of a pulse
 MEMORY = 12.0  # of a signal's bits, over one over its bandwidth
-HEARD_CLOCKS, HEARD_FREQUENCIES = 4.0, 4001  # frequencies of bits that heat, up to so many bit clocks
+HEARD_CLOCKS, HEARD_FREQUENCIES = 4.0, 4001  # frequencies of bits that heat, up to that many bit clocks
 
 
 @dataclass(frozen=True, eq=False)

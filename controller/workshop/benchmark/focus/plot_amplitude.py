@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from controller.errors import ConfigError
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 
 def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
@@ -39,7 +39,4 @@ def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
         single.errorbar(amplitudes, rows[:, 1], reach, fmt="o-", ms=4, capsize=3, label=label)
     single.set(xlabel="amplitude", ylabel="over the median at full amplitude", ylim=(0, None), title="one finger")
     single.legend(fontsize=8)
-    try:
-        figure.savefig(path, dpi=110)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 110)

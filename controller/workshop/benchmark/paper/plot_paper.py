@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from controller.errors import ConfigError
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 Figures = dict[str, Any]
 
@@ -31,10 +31,7 @@ def plot_paper(path: Path, figures: Figures) -> None:
     for part, panels, shape in zip(parts, (CURVES, LISTS), ((2, 4), (1, 2)), strict=True):
         for ax, draw in zip(part.subplots(*shape).flat, panels, strict=True):
             draw(ax, figures)
-    try:
-        figure.savefig(path, dpi=90)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 90)
 
 
 def cross_section(ax: Axes, figures: Figures) -> None:

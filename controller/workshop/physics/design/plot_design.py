@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from controller.errors import ConfigError
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 COLUMNS = 3
 
@@ -41,7 +41,4 @@ def plot_sweep(
         panel.grid(color="0.85", lw=0.5)
     for panel in panels[len(titles) :]:
         panel.axis("off")
-    try:
-        figure.savefig(path, dpi=110)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 110)
