@@ -14,7 +14,7 @@ from controller.device.board.descriptions import described, structs_of, type_inf
 from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
 from controller.device.board.touch_panels import touch_record
-from controller.device.doctor.way import Step, in_lines, way
+from controller.device.doctor.way import WayStep, in_lines, way
 from controller.device.service.installation import NO_WORKSHOP, is_installed
 from controller.device.setup.answers import Answers, wanted_of
 from controller.device.setup.board_folder import write_board
@@ -153,5 +153,5 @@ def _default(field: Field, before: str = " (default: ", after: str = ")") -> str
 
 
 def _table(figures: dict[str, Any]) -> str:
-    lines = in_lines(Step(**step) for step in figures["way"])
+    lines = in_lines(WayStep(**step) for step in figures["way"])
     return "\n".join([f"{figures['folder']} is written, and checked. The rest of the way:", *lines])

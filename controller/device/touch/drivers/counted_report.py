@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ReportedContact
-from controller.device.touch.drivers.i2c_bus import REFUSED_ERRNOS, I2cBus, Transfer
+from controller.device.touch.drivers.i2c_bus import I2cBus, Transfer, unless_refused
 
 SHORT_POINTS: Final = 2  # read at once; the rest only when there are more contacts
 COUNT_BITS: Final = 0x0F
@@ -77,11 +77,8 @@ class CountedReads:
         if contacts is not None:
             return contacts
         longer = self._longer[(report[self._layout.count_at] & COUNT_BITS) - SHORT_POINTS - 1]
-        try:
+        with unless_refused():
             bus.fetch(longer)
-        except OSError as error:
-            if error.errno not in REFUSED_ERRNOS:
-                raise
-            self._warnings["points_refused"] += 1
-            longer = self.short
-        return self._layout.contacts(longer.data, self._warnings, in_part=True)  # a contact may have come in between
+            return self._layout.contacts(longer.data, self._warnings, in_part=True)  # a contact may have come in between
+        self._warnings["points_refused"] += 1
+        return self._layout.contacts(report, self._warnings, in_part=True)

@@ -7,6 +7,7 @@ import ctypes
 import errno
 import fcntl
 from collections import Counter
+from collections.abc import Iterator
 from typing import Any, Final
 
 from controller.errors import TouchError
@@ -26,6 +27,16 @@ def write_message(address: int, data: bytes) -> Any:
     import smbus2
 
     return smbus2.i2c_msg.write(address, data)
+
+
+@contextlib.contextmanager
+def unless_refused() -> Iterator[None]:
+    """Go on behind the block if the device does not acknowledge; raises OSError if the bus fails in another way."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno not in REFUSED_ERRNOS:
+            raise
 
 
 class Transfer:
@@ -79,25 +90,19 @@ class I2cBus:
 
         Raises OSError if the bus fails in another way.
         """
-        try:
+        with unless_refused():
             return self.read(address, register, size_bytes)
-        except OSError as error:
-            if error.errno not in REFUSED_ERRNOS:
-                raise
-            return None
+        return None
 
     def offer(self, address: int, data: bytes) -> bool:
         """Write registers that the device may lack; False if it does not acknowledge them.
 
         Raises OSError if the bus fails in another way.
         """
-        try:
+        with unless_refused():
             self.write(address, data)
-        except OSError as error:
-            if error.errno not in REFUSED_ERRNOS:
-                raise
-            return False
-        return True
+            return True
+        return False
 
     def send(self, message: Any) -> None:
         """Send a `message` made with `write_message`; raises OSError if the last attempt fails."""
