@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta
 
-from controller.device.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, Layer, laminate, softest
+from controller.device.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, PlateLayer, laminate, softest
 from controller.device.board.records import LONGEST_PLATE_MM, NotNegative, PlaceMm, Positive, Record, Share, SizeMm, left_out
 
 CHANNELS = 32

@@ -36,18 +36,9 @@ NULL_APART_M: Final = 5e-3  # a place nearer to a focus than this cannot be kept
 class Selection:
     """Keys and drive words for points on the plate.
 
-    Parameters
-    ----------
-    bank : Bank
-        The open bank.
-    snap_m : float
-        A single point of full amplitude at most this far from a cell's centre plays that cell.
-    idle_word : int
-        Level of each channel at rest: bit q is channel q.
-    band_hz : (float, float), optional
-        Of the board, for the test of a channel; None: none is tested.
-    ready : bool
-        False: what the bank has composed beforehand is composed all the same.
+    A single point of full amplitude at most `snap_m` from a cell's centre plays that cell. Bit q of `idle_word` is the level of
+    channel q at rest. `band_hz`, the board's, is for the test of a channel; None: none is tested. Unless `ready`, what the bank has
+    composed beforehand is composed all the same.
     """
 
     def __init__(
