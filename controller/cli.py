@@ -67,11 +67,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def parser(named: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:
     """The parser of the command line.
 
-    Parameters
-    ----------
-    named : collection of str
-        Commands whose modules are imported to declare their arguments; of the others only name and help text are known. Words
-        that are no commands are ignored.
+    Modules of the commands in `named` are imported to declare their arguments; of the others only name and help text are known.
+    Words that are no commands are ignored.
     """
     main_parser = Parser(
         prog="haptic-panel",

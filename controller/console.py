@@ -35,13 +35,7 @@ class ReaderGone(OutputError):
 
 
 def say(text: str, end: str = "\n") -> None:
-    """Print a result on standard output.
-
-    Raises
-    ------
-    OutputError
-        If it is full, or nobody reads it.
-    """
+    """Print a result on standard output; raises OutputError if it is full, or nobody reads it."""
     _write(text + end)
 
 
@@ -55,13 +49,7 @@ def tell(message: str, priority: Priority = Priority.INFO) -> None:
 
 
 def flush() -> None:
-    """Hand over what was said.
-
-    Raises
-    ------
-    OutputError
-        If standard output is full, or nobody reads it.
-    """
+    """Hand over what was said; raises OutputError if standard output is full, or nobody reads it."""
     _write("")
 
 

@@ -42,17 +42,11 @@ class LinkError(ControllerError):
 
 
 class FaultError(ControllerError):
-    """The FPGA has switched its outputs off because of a fault.
-
-    Attributes
-    ----------
-    faults : int
-        Its fault bits (`fpga.registers.Fault`); 0 if unknown.
-    """
+    """The FPGA has switched its outputs off because of a fault."""
 
     def __init__(self, message: str, faults: int = 0) -> None:
         super().__init__(message)
-        self.faults = faults
+        self.faults = faults  # its fault bits (`fpga.registers.Fault`); 0 if unknown
 
 
 class GatewareError(ControllerError):

@@ -80,10 +80,7 @@ GENERATORS: Final[Mapping[str, Callable[[Path], dict[Path, str]]]] = {
 def made(root: Path, names: Sequence[str] = tuple(GENERATORS)) -> dict[Path, str]:
     """The text that each generated file has to have.
 
-    Raises
-    ------
-    UsageError
-        If a record, or the file that it is written into, has a slip, or a package is missing.
+    Raises UsageError if a record, or the file that it is written into, has a slip, or a package is missing.
     """
     texts: dict[Path, str] = {}
     for name in names:

@@ -69,22 +69,12 @@ class Line(NamedTuple):
 
 
 class Log:
-    """Lines to standard error.
-
-    Attributes
-    ----------
-    lost : int
-        Lines dropped so far because standard error was full or closed.
-    count : int
-        Lines so far, those included.
-    last : deque of Line
-        The last of them, the oldest first.
-    """
+    """Lines to standard error."""
 
     def __init__(self) -> None:
-        self.lost = 0
-        self.count = 0
-        self.last: deque[Line] = deque(maxlen=LAST_LINES)
+        self.lost = 0  # lines dropped so far because standard error was full or closed
+        self.count = 0  # lines so far, those included
+        self.last: deque[Line] = deque(maxlen=LAST_LINES)  # the last of them, the oldest first
         self._unreported = 0
 
     def write(self, message: str, about: Priority | Event = Priority.INFO) -> None:
@@ -92,12 +82,8 @@ class Log:
 
         The first line accepted after a loss is preceded by one that states how many were dropped.
 
-        Parameters
-        ----------
-        message : str
-            Line breaks are replaced by spaces; what exceeds `MAX_LINE_BYTES` is cut off.
-        about : Priority or Event
-            What it tells of, which has a priority; or the priority alone.
+        Line breaks are replaced by spaces; what exceeds `MAX_LINE_BYTES` is cut off. `about` is what the line reports, which has a
+        priority, or the priority alone.
         """
         priority = about.priority if isinstance(about, Event) else about
         self.last.append(Line(time.monotonic(), priority, " ".join(message.splitlines())[:MAX_LINE_BYTES]))

@@ -17,19 +17,11 @@ P999_SAMPLES = 10_000  # with fewer records p999 is left out: it would be that o
 
 
 class LatencyHistogram:
-    """Durations in ns in logarithmic buckets; `record` allocates nothing and takes constant time.
-
-    Attributes
-    ----------
-    count : int
-        Durations recorded.
-    worst_ns : int
-        The longest of them.
-    """
+    """Durations in ns in logarithmic buckets; `record` allocates nothing and takes constant time."""
 
     def __init__(self) -> None:
-        self.count = 0
-        self.worst_ns = 0
+        self.count = 0  # durations recorded
+        self.worst_ns = 0  # the longest of them
         self._buckets = array("Q", bytes(8 * (64 << SUB_BITS)))
 
     def record(self, duration_ns: int) -> None:
@@ -42,18 +34,7 @@ class LatencyHistogram:
         self._buckets[(octave << SUB_BITS) + (duration_ns >> octave)] += 1
 
     def percentiles_ns(self, fractions: Sequence[float]) -> list[float]:
-        """Percentiles of the recorded durations.
-
-        Parameters
-        ----------
-        fractions : sequence of float
-            Each 0 to 1.
-
-        Returns
-        -------
-        list of float
-            For each fraction the duration in ns that this many of the records do not exceed, within 0.8 %; NaN without records.
-        """
+        """For each fraction, 0 to 1, the duration in ns that as many records do not exceed, within 0.8 %; NaN without any."""
         if not self.count:
             return [math.nan] * len(fractions)
         seen = np.cumsum(
@@ -116,33 +97,16 @@ STAGES = ("decide", "frame", "wire", "wait", "trigger", "host", "total")
 
 @dataclass(slots=True)
 class Stages:
-    """Latency of emissions, from the read of the touch report to the trigger, in consecutive stages.
+    """Latency of emissions, from the read of the touch report to the trigger, in consecutive stages."""
 
-    Attributes
-    ----------
-    decide : LatencyHistogram
-        Read and track touches, evaluate the scene, choose the batch.
-    frame : LatencyHistogram
-        Look up or compose the waveform, pack frames, check answers.
-    wire : LatencyHistogram
-        Bits on the wire.
-    wait : LatencyHistogram
-        Until the plate is free.
-    trigger : LatencyHistogram
-        The call that raises the trigger line.
-    host : LatencyHistogram
-        decide + frame + trigger: the host's own work.
-    total : LatencyHistogram
-        host + wire + wait.
-    """
-
+    # Read and track touches, evaluate the scene, choose the batch
     decide: LatencyHistogram = field(default_factory=LatencyHistogram)
-    frame: LatencyHistogram = field(default_factory=LatencyHistogram)
-    wire: LatencyHistogram = field(default_factory=LatencyHistogram)
-    wait: LatencyHistogram = field(default_factory=LatencyHistogram)
-    trigger: LatencyHistogram = field(default_factory=LatencyHistogram)
-    host: LatencyHistogram = field(default_factory=LatencyHistogram)
-    total: LatencyHistogram = field(default_factory=LatencyHistogram)
+    frame: LatencyHistogram = field(default_factory=LatencyHistogram)  # look up or compose the waveform, pack frames, check answers
+    wire: LatencyHistogram = field(default_factory=LatencyHistogram)  # bits on the wire
+    wait: LatencyHistogram = field(default_factory=LatencyHistogram)  # until the plate is free
+    trigger: LatencyHistogram = field(default_factory=LatencyHistogram)  # the call that raises the trigger line
+    host: LatencyHistogram = field(default_factory=LatencyHistogram)  # decide + frame + trigger: the host's own work
+    total: LatencyHistogram = field(default_factory=LatencyHistogram)  # host + wire + wait
 
     def record(self, decide_ns: int, frame_ns: int, wire_ns: int, wait_ns: int, trigger_ns: int) -> None:
         """Count one emission: the durations of its stages in ns."""

@@ -23,20 +23,12 @@ PERMANENT: Final = (FileNotFoundError, PermissionError, NotADirectoryError)  # o
 
 
 class ProgramError(ControllerError):
-    """A program failed, did not end in time, or cannot be started; the message names it and has its last line.
-
-    Attributes
-    ----------
-    code : int or None
-        Its exit code; negative: the signal that ended it; None: it did not end by itself, or was not started.
-    said : str
-        All that it wrote, its messages first.
-    """
+    """A program failed, did not end in time, or cannot be started; the message names it and has its last line."""
 
     def __init__(self, message: str, code: int | None = None, said: str = "") -> None:
         super().__init__(message)
-        self.code = code
-        self.said = said
+        self.code = code  # its exit code; negative: the signal that ended it; None: it did not end by itself, or was not started
+        self.said = said  # all that it wrote, its messages first
 
 
 class CannotStart(ProgramError):
@@ -54,38 +46,19 @@ class Output(NamedTuple):
 
 def run_program(
     command: Sequence[str | Path],
-    limit_s: float,
+    limit_s: float,  # time after which it is ended, with all that it started
     *,
+    # How often it is run at most: more than once where a bus, a network or a machine short of memory may fail for a moment
     attempts: int = 1,
-    package: str = "",
+    package: str = "",  # debian's package of it, named where it is missing
     cwd: Path | None = None,
-    environment: Mapping[str, str] | None = None,
-    good: Collection[int] = (0,),
-    shown: bool = False,
+    environment: Mapping[str, str] | None = None,  # instead of this process's
+    good: Collection[int] = (0,),  # exit codes that are no failure
+    shown: bool = False,  # repeat on standard error what it writes, while it writes it
 ) -> Output:
     """Run a program of others, without standard input, until it succeeds.
 
-    Parameters
-    ----------
-    limit_s : float
-        Time after which it is ended, with all that it started.
-    attempts : int
-        How often it is run at most: more than once where a bus, a network or a machine short of memory may fail for a moment.
-    package : str
-        Debian's package of it, named where it is missing.
-    environment : mapping, optional
-        Instead of this process's.
-    good : collection of int
-        Exit codes that are no failure.
-    shown : bool
-        Repeat on standard error what it writes, while it writes it.
-
-    Raises
-    ------
-    CannotStart
-        If it is missing or may not be run.
-    ProgramError
-        If the last attempt fails: how it ended, and its last line.
+    Raises CannotStart if it is missing or may not be run; ProgramError if the last attempt fails: how it ended, and its last line.
     """
     words = [os.fspath(word) for word in command]
     for left in reversed(range(attempts)):
@@ -111,12 +84,7 @@ def start(
 ) -> subprocess.Popen[bytes]:
     """Start a program in a session of its own, which `end` ends; its output goes to two open files.
 
-    Raises
-    ------
-    CannotStart
-        If it is missing or may not be run.
-    ProgramError
-        If it cannot be started now.
+    Raises CannotStart if it is missing or may not be run; ProgramError if it cannot be started now.
     """
     try:
         return subprocess.Popen(

@@ -18,24 +18,11 @@ CHUNK_BYTES: Final = 1 << 16
 
 
 def open_regular(path: Path, *, owner: int | None = None, links: bool = False) -> int:
-    """Open a regular file to read it.
+    """Open a regular file to read it; the caller closes the descriptor.
 
-    Parameters
-    ----------
-    owner : int, optional
-        User that it has to belong to.
-    links : bool
-        Whether its name may be a symbolic link: of files that people name, or that only more trusted users write.
-
-    Returns
-    -------
-    int
-        Descriptor, for the caller to close.
-
-    Raises
-    ------
-    OSError
-        If it cannot be opened, or is something else; nothing of it was read then. `strerror` says what.
+    It has to belong to `owner`, if one is given. With `links` its name may be a symbolic link: of files that people name, or that
+    only more trusted users write. Raises OSError if it cannot be opened, or is something else; nothing of it was read then.
+    `strerror` says what.
     """
     try:
         fd = os.open(path, FLAGS if links else FLAGS | os.O_NOFOLLOW)
@@ -58,19 +45,9 @@ def open_regular(path: Path, *, owner: int | None = None, links: bool = False) -
 
 
 def read_regular(path: Path, most_bytes: int, *, owner: int | None = None, links: bool = False) -> bytes:
-    """The content of a regular file.
+    """The content of a regular file of at most `most_bytes`; `owner` and `links` as in `open_regular`.
 
-    Parameters
-    ----------
-    most_bytes : int
-        A larger file is refused.
-    owner, links
-        As in `open_regular`.
-
-    Raises
-    ------
-    OSError
-        As `open_regular`; also if it is larger.
+    Raises OSError as `open_regular`; also if it is larger.
     """
     fd = open_regular(path, owner=owner, links=links)
     try:
@@ -89,20 +66,8 @@ def open_private(path: Path) -> int:
 
     Whoever can open a file, if only to read it, can lock it, and keep everybody else waiting.
 
-    Parameters
-    ----------
-    path : Path
-        In a folder that no other user may write to.
-
-    Returns
-    -------
-    int
-        Descriptor, for the caller to close.
-
-    Raises
-    ------
-    OSError
-        If it cannot be opened, or is no regular file.
+    The path is in a folder that no other user may write to; the caller closes the descriptor. Raises OSError if it cannot be
+    opened, or is no regular file.
     """
     fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC, 0o600)
     try:

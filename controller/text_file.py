@@ -21,10 +21,7 @@ class NotText(ValueError):
 def decoded(data: bytes) -> str:
     """Text of bytes, without byte order mark and with its own line ends.
 
-    Raises
-    ------
-    NotText
-        If they are neither UTF-8 nor, with a byte order mark, UTF-16.
+    Raises NotText if they are neither UTF-8 nor, with a byte order mark, UTF-16.
     """
     mark, encoding = next((found for found in MARKS if data.startswith(found[0])), (b"", "UTF-8"))
     try:
@@ -37,17 +34,7 @@ def decoded(data: bytes) -> str:
 def read_text(file: Path, max_bytes: int = MAX_BYTES) -> str:
     r"""Text of a file, without byte order mark, its lines ended by \n.
 
-    Parameters
-    ----------
-    max_bytes : int
-        Size that it may have.
-
-    Raises
-    ------
-    OSError
-        If it cannot be read.
-    ValueError
-        If its name has a NUL; as `NotText` if it is too large or no text.
+    Raises OSError if it cannot be read. Raises ValueError if its name has a NUL; as `NotText` if it is too large or no text.
     """
     with file.open("rb") as opened:
         data = opened.read(max_bytes + 1)

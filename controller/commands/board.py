@@ -55,10 +55,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def board_check(options: argparse.Namespace) -> int:
     """Check a board and its scene, and say what was found.
 
-    Raises
-    ------
-    ConfigError, TouchError
-        If board, scene or recording is invalid, or the board is refused as a whole.
+    Raises ConfigError or TouchError if board, scene or recording is invalid, or the board is refused as a whole.
     """
     folder = find_board(options.name or options.board)
     board = load_board(folder)

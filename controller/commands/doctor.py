@@ -15,7 +15,7 @@ from controller.device.board.lookup import find_board, own_board
 from controller.device.doctor.doctor import look
 from controller.device.doctor.finding import Finding
 from controller.device.doctor.link_examination import LinkExamined, examine_link
-from controller.device.doctor.way import Step, in_lines, way
+from controller.device.doctor.way import WayStep, in_lines, way
 from controller.device.service.drivers import open_session
 from controller.device.service.installation import is_installed
 from controller.errors import ControllerError
@@ -90,7 +90,11 @@ def _table(figures: dict[str, Any]) -> str:
         unknown = "; SCK could not be measured" if figures["sck_measured_hz"] is None else ""
         lines.append(f"{'':<8}{figures['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel{unknown}")
     if any(step["done"] is False for step in figures["way"]):
-        lines += ["", "the way of a new panel ([?]: not to be seen from here):", *in_lines(Step(**step) for step in figures["way"])]
+        lines += [
+            "",
+            "the way of a new panel ([?]: not to be seen from here):",
+            *in_lines(WayStep(**step) for step in figures["way"]),
+        ]
     return "\n".join(lines)
 
 

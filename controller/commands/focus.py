@@ -65,7 +65,6 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def focus(options: argparse.Namespace) -> int:
     """Focus on points of the plate and print figures of merit; or measure the figures of the README."""
-    from controller.workshop.benchmark.focus.focus_emission import emission_at, emission_figures, evaluated_foci
     from controller.workshop.benchmark.focus.focus_figures import figures
 
     picture, movie = picture_path(options), movie_path(options)
@@ -76,36 +75,53 @@ def focus(options: argparse.Namespace) -> int:
         return _write_field(options, board)
     if options.figures:
         show(options, figures(board, options.seed), plain_table)
-        return 0
-    if options.idle_figures:
-        from controller.workshop.benchmark.device.idle import idle_figures
-
-        found = idle_figures(board, options.seed)
-        if picture:
-            from controller.workshop.benchmark.device.plot_idle import plot_idle
-
-            plot_idle(picture, board, found)
-        show(options, found, plain_table)
-        return 0
-    if options.amplitude_figures:
-        from controller.workshop.benchmark.focus.amplitude import amplitude_figures
-
-        pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
-        found = amplitude_figures(board, options.seed, pitch_m=pitch_mm * 1e-3)
-        if picture:
-            from controller.workshop.benchmark.focus.plot_amplitude import plot_amplitude
-
-            plot_amplitude(picture, found)
-        show(options, found, amplitude_table)
-        return 0
-    if not options.at:
+    elif options.idle_figures:
+        _idle(options, board, picture)
+    elif options.amplitude_figures:
+        _amplitudes(options, board, picture)
+    elif options.at:
+        _points(options, board, picture, movie)
+    else:
         raise ConfigError(
             "focus where? give --at X_MM Y_MM once for each point, or --figures, --idle-figures, --amplitude-figures, --field-out"
         )
+    return 0
+
+
+def _idle(options: argparse.Namespace, board: Board, picture: Path | None) -> None:
+    from controller.workshop.benchmark.device.idle import idle_figures
+
+    found = idle_figures(board, options.seed)
+    if picture:
+        from controller.workshop.benchmark.device.plot_idle import plot_idle
+
+        plot_idle(picture, board, found)
+    show(options, found, plain_table)
+
+
+def _amplitudes(options: argparse.Namespace, board: Board, picture: Path | None) -> None:
+    from controller.workshop.benchmark.focus.amplitude import amplitude_figures
+
+    pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
+    found = amplitude_figures(board, options.seed, pitch_m=pitch_mm * 1e-3)
+    if picture:
+        from controller.workshop.benchmark.focus.plot_amplitude import plot_amplitude
+
+        plot_amplitude(picture, found)
+    show(options, found, amplitude_table)
+
+
+def _points(options: argparse.Namespace, board: Board, picture: Path | None, movie: Path | None) -> None:
+    from controller.workshop.benchmark.focus.focus_emission import emission_at, emission_figures, evaluated_foci
+
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     period_s = _period_s(options.period_ms, board.waveform.duration_s)
     emission = emission_at(board, points_m, options.memory_mb)
-    found = {"board": board.name, "foci": evaluated_foci(emission, period_s), "emission": emission_figures(emission, period_s)}
+    found: dict[str, Any] = {
+        "board": board.name,
+        "foci": evaluated_foci(emission, period_s),
+        "emission": emission_figures(emission, period_s),
+    }
     if options.finger_load:
         from controller.workshop.benchmark.focus.focus_fingers import finger_figures
         from controller.workshop.physics.finger import Finger
@@ -125,7 +141,6 @@ def focus(options: argparse.Namespace) -> int:
     if movie:
         film(options, movie, emission, points_m)
     show(options, found, _table)
-    return 0
 
 
 def _write_field(options: argparse.Namespace, board: Board) -> int:
@@ -145,13 +160,7 @@ def _table(found: dict[str, Any]) -> str:
 
 
 def _period_s(period_ms: float | None, duration_s: float) -> float:
-    """Time in s from one emission to the next.
-
-    Raises
-    ------
-    ConfigError
-        If emissions would overlap.
-    """
+    """Time in s from one emission to the next; raises ConfigError if emissions would overlap."""
     if period_ms is None:
         return duration_s
     if not duration_s <= period_ms * 1e-3 + 1e-9 < 1e3:  # NaN too
@@ -160,13 +169,7 @@ def _period_s(period_ms: float | None, duration_s: float) -> float:
 
 
 def _on_plate(position_mm: float, extent_mm: float) -> float:
-    """Position in m of a focus.
-
-    Raises
-    ------
-    ConfigError
-        If nothing can move there.
-    """
+    """Position in m of a focus; raises ConfigError if nothing can move there."""
     if not 0 < position_mm < extent_mm:  # NaN too
         raise ConfigError(f"--at {position_mm:g}: not inside the plate (0 to {extent_mm:g} mm)")
     return position_mm * 1e-3

@@ -31,10 +31,7 @@ def add_movie(command: argparse.ArgumentParser) -> None:
 def movie_path(options: argparse.Namespace) -> Path | None:
     """File given with --movie; checked before any work.
 
-    Raises
-    ------
-    ConfigError
-        If it could not be written, or both step and number of frames are given.
+    Raises ConfigError if it could not be written, or both step and number of frames are given.
     """
     if options.movie is None:
         return None

@@ -14,9 +14,9 @@ from controller.device.board.descriptions import described, structs_of, type_inf
 from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
 from controller.device.board.touch_panels import touch_record
-from controller.device.doctor.way import Step, in_lines, way
+from controller.device.doctor.way import WayStep, in_lines, way
 from controller.device.service.installation import NO_WORKSHOP, is_installed
-from controller.device.setup.answers import Answers, wanted_of
+from controller.device.setup.answers import SetupAnswers, wanted_of
 from controller.device.setup.board_folder import write_board
 from controller.errors import ConfigError
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from controller.commands.common.output import Declare
     from controller.device.board.board import Board
 
-FIELDS = {field.encode_name: field for field in structs_of(type_info(Answers))[0].fields}
+FIELDS = {field.encode_name: field for field in structs_of(type_info(SetupAnswers))[0].fields}
 POSSIBLE_MM = 20.0  # of every length that is still to be asked
 
 
@@ -39,7 +39,7 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
         "what is done.",
     )
     command.add_argument("folder", type=Path, help="folder to make; its name is the board's")
-    texts = attributes(Answers)
+    texts = attributes(SetupAnswers)
     for name, field in FIELDS.items():
         option = f"--{name.replace('_', '-')}"
         command.add_argument(option, metavar=unit_of(name) or name.upper(), help=f"{texts[name].rstrip('.')}{_default(field)}")
@@ -62,7 +62,7 @@ def setup(options: argparse.Namespace) -> int:
     missing = [f"--{name.replace('_', '-')}" for name, field in FIELDS.items() if field.required and name not in given]
     if missing and not asks:
         raise ConfigError(f"give {', '.join(missing)}: nothing is asked for where stdin is no terminal, or with --json")
-    answers = _asked(given) if asks else as_record("", given, Answers)
+    answers = _asked(given) if asks else as_record("", given, SetupAnswers)
     touch = _touch_keys(answers.touch, options.touch_key, asks=asks)
     board = write_board(options.folder, answers, touch)
     built = _build(board) if options.build else []
@@ -74,9 +74,9 @@ def setup(options: argparse.Namespace) -> int:
     return 0
 
 
-def _asked(given: dict[str, Any]) -> Answers:
+def _asked(given: dict[str, Any]) -> SetupAnswers:
     """All answers, those that were not given asked for one by one; each as soon as it is there is checked."""
-    found, texts = dict(given), attributes(Answers)
+    found, texts = dict(given), attributes(SetupAnswers)
     for name, field in FIELDS.items():
         while name not in found:
             kind = described(field.type, unit_of(name))
@@ -88,14 +88,14 @@ def _asked(given: dict[str, Any]) -> Answers:
                 tell(problem)
             else:
                 found[name] = _number(answer)
-    return as_record("", found, Answers)
+    return as_record("", found, SetupAnswers)
 
 
 def _problem(name: str, value: Any, found: dict[str, Any]) -> str:
     """Why an answer is none, beside those that were given so far; empty: it is one."""
     later = {other: POSSIBLE_MM for other, field in FIELDS.items() if field.required and other not in found}
     try:
-        as_record("", {**later, **found, name: value}, Answers)
+        as_record("", {**later, **found, name: value}, SetupAnswers)
     except ConfigError as error:
         return str(error)
     return ""
@@ -153,5 +153,5 @@ def _default(field: Field, before: str = " (default: ", after: str = ")") -> str
 
 
 def _table(figures: dict[str, Any]) -> str:
-    lines = in_lines(Step(**step) for step in figures["way"])
+    lines = in_lines(WayStep(**step) for step in figures["way"])
     return "\n".join([f"{figures['folder']} is written, and checked. The rest of the way:", *lines])

@@ -36,13 +36,7 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Show the state of the panel; 1 if it does not serve.
-
-    Raises
-    ------
-    LinkError
-        If no service runs.
-    """
+    """Show the state of the panel; 1 if it does not serve; raises LinkError if no service runs."""
     status, old = read_now(options.file)
     updates = _updates()
     if status is None:

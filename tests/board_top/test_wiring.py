@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from compiled_top import BOARD, channel_pins, pin, signal_pins, wires
 
 from controller.device.board.board import load_board
-from controller.workshop.benchmark.stage.power_stage import parameters
+from controller.workshop.benchmark.stage.stage_circuit import parameters
 
 OF_README = {"SCK": "SCK", "chip select": "CS", "MOSI": "MOSI", "MISO": "MISO"}
 # Of the 40-pin header of every Raspberry Pi

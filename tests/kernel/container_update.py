@@ -185,7 +185,7 @@ def goes_well(version, what, install=update):
 
 
 def falls_back(kind):
-    """A release that fails in this way is taken back, remembered, and not tried again, while panel and FPGA are what they were."""
+    """A release that fails in this way is rolled back, remembered, and not tried again, while panel and FPGA are what they were."""
     version = f"3.{list(FAILS).index(kind)}.0"
     before = word("current")
     owner().offers(version, FAILS[kind])

@@ -8,7 +8,8 @@ from tables import each_row
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.fpga.capture import Capture
 from controller.workshop.physics.field import AROUND_S, CREST_M, LINE_M, MAP_STEP_M, OUTSIDE_M, FocusScale
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
+from controller.workshop.physics.word_capture import capture_of_words
 
 POINT = (0.08, 0.06)
 FEW_HZ = 12e3  # some 220 modes: arithmetic is the same for all

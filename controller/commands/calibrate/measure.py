@@ -184,10 +184,7 @@ def _recorder(options: argparse.Namespace) -> Recorder | None:
 def _move(options: argparse.Namespace, name: str, done: int, count: int, x_mm: float, y_mm: float, *, ask: bool) -> None:
     """Have the sensor moved; the outputs are off meanwhile.
 
-    Raises
-    ------
-    CalibrationError
-        If the program that moves the head fails, or nobody answers.
+    Raises CalibrationError if the program that moves the head fails, or nobody answers.
     """
     where = f"point {name} ({done + 1} of {count}): x = {x_mm:.2f} mm, y = {y_mm:.2f} mm"
     if options.move:

@@ -95,13 +95,7 @@ def plan(options: argparse.Namespace) -> int:
 
 
 def _write(file: Path, points_mm: Any, dwell_s: float) -> None:
-    """Positions as CSV: number, x and y in mm; or as G-code with a pause at each.
-
-    Raises
-    ------
-    ConfigError
-        If it cannot be written.
-    """
+    """Positions as CSV: number, x and y in mm; or as G-code with a pause at each; raises ConfigError if it cannot be written."""
     if file.suffix == ".gcode":
         lines = ["G21 ; mm", "G90 ; from the plate's corner"]
         for number, (x_mm, y_mm) in enumerate(points_mm.tolist()):

@@ -56,7 +56,11 @@ def simulate(options: argparse.Namespace) -> int:
     """Write the folder, and print what it holds."""
     from threadpoolctl import threadpool_limits
 
-    from controller.workshop.calibration.recording.simulated_measurement import Faults, RecordingSettings, simulate_measurement
+    from controller.workshop.calibration.recording.simulated_measurement import (
+        Flaws,
+        RecordingSettings,
+        simulate_measurement,
+    )
 
     board = load_board(find_board(options.board))
     real = on_other_plate(board, options.plate)
@@ -70,7 +74,7 @@ def simulate(options: argparse.Namespace) -> int:
         quantity=options.quantity,
         seed=options.seed,
     )
-    faults = Faults(
+    faults = Flaws(
         snr_db=options.snr_db,
         drift=options.drift_percent / 100,
         clock_ppm=options.clock_ppm,

@@ -18,34 +18,16 @@ T = TypeVar("T")
 
 
 def calibrate_value(
-    options: argparse.Namespace,
-    key: str,
-    measure: Callable[[argparse.Namespace, Board], str],
-    judge: Callable[[Recording, Board], T],
-    figures: Callable[[T], dict[str, Any]],
-    table: Callable[[dict[str, Any]], list[str]],
+    options: argparse.Namespace,  # of `calibrate-touch`: board, replay, out, write, json
+    key: str,  # of [touch], and the attribute of what `judge` returns
+    measure: Callable[[argparse.Namespace, Board], str],  # returns the measurement as the text of an evemu recording
+    judge: Callable[[Recording, Board], T],  # computes the result from a recording
+    figures: Callable[[T], dict[str, Any]],  # the result as figures for JSON
+    table: Callable[[dict[str, Any]], list[str]],  # figures as lines for people
 ) -> int:
     """Determine one value of [touch] from a measurement, or with --replay from a recording of one.
 
-    Parameters
-    ----------
-    options : argparse.Namespace
-        Of `calibrate-touch`: board, replay, out, write, json.
-    key : str
-        Of [touch], and the attribute of what `judge` returns.
-    measure : callable
-        Returns the measurement as the text of an evemu recording.
-    judge : callable
-        Computes the result from a recording.
-    figures : callable
-        The result as figures for JSON.
-    table : callable
-        Figures as lines for people.
-
-    Raises
-    ------
-    ConfigError
-        If board.toml is to be written and cannot be; this is checked before anything is measured.
+    Raises ConfigError if board.toml is to be written and cannot be; this is checked before anything is measured.
     """
     board = load_board(find_board(options.board))
     file = board.folder / "board.toml"

@@ -17,10 +17,7 @@ MAX_MATCHED: Final = 60  # characters: difflib takes time that grows with their 
 class Parser(argparse.ArgumentParser):
     """A parser that reports a mistake as a UsageError: one line, exit code 2.
 
-    Parameters
-    ----------
-    example : str
-        A command line, the first line of --help.
+    `example` is a command line, the first line of --help.
     """
 
     def __init__(self, *arguments: Any, example: str = "", **named: Any) -> None:

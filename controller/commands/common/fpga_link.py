@@ -22,10 +22,7 @@ def open_fpga_of(board: Board) -> OpenLink:
 def fpga_link(board: Board, now_s: Callable[[], float]) -> tuple[Link, Callable[[], Capture] | None]:
     """Link for bring-up, which may wait longer for answers; of a simulated FPGA also what its pins did.
 
-    Raises
-    ------
-    LinkError
-        If its device cannot be opened.
+    Raises LinkError if its device cannot be opened.
     """
     if board.link.kind != "simulated":
         return open_link(board, now_s, unhurried=True), None

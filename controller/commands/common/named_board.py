@@ -12,15 +12,7 @@ from controller.log import Priority
 def named_board(name: str) -> Board:
     """Read and check a board, and say on stderr what of it is odd.
 
-    Parameters
-    ----------
-    name : str
-        As for --board.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such board, or it is refused.
+    Raises ConfigError if there is no such board, or it is refused.
     """
     board = load_board(find_board(name))
     for odd in judge(board).odd:

@@ -39,17 +39,9 @@ def fitted(text: str) -> str:
 
 
 def progress_bar(what: str) -> Callable[[int, int], None]:
-    """A progress bar on stderr for work that takes more than 2 s; none if stderr is not a terminal, or without tqdm.
+    """A function to call with the amount done and the total: a bar on stderr for work that takes more than 2 s.
 
-    Parameters
-    ----------
-    what : str
-        Label of the bar.
-
-    Returns
-    -------
-    callable
-        To be called with the amount done and the total.
+    It does nothing if stderr is not a terminal, or without tqdm.
     """
     try:
         from tqdm import tqdm

@@ -22,7 +22,7 @@ from controller.device.fpga.bitstream import Figures, figures_path
 from controller.errors import ConfigError, GatewareError, UsageError
 
 if TYPE_CHECKING:
-    from controller.workshop.gateware.bitstream_build import FpgaDesign, Placement
+    from controller.workshop.gateware.bitstream_build import FpgaDesign, PlacedDesign
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -74,11 +74,11 @@ def gateware_build(options: argparse.Namespace) -> int:
     return 0
 
 
-def _fastest_placement(design: FpgaDesign, work: Path, seeds: Sequence[int]) -> tuple[Placement, dict[str, float | None]]:
+def _fastest_placement(design: FpgaDesign, work: Path, seeds: Sequence[int]) -> tuple[PlacedDesign, dict[str, float | None]]:
     """The fastest of all seeds, and how fast each is; None for one that misses its clock."""
     from controller.workshop.gateware.bitstream_build import place
 
-    fastest: Placement | None = None
+    fastest: PlacedDesign | None = None
     failed: GatewareError | None = None
     tried: dict[str, float | None] = {}
     for seed in seeds:

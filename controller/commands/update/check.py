@@ -35,9 +35,7 @@ def declare_source(step: argparse.ArgumentParser) -> None:
 def at_work() -> Iterator[tuple[Layout, UpdateSettings]]:
     """Layout and settings of this device; what is done within is not done by root, and ends in time.
 
-    Raises
-    ------
-    UpdateError, ConfigError
+    Raises UpdateError or ConfigError.
     """
     layout, settings = Layout.from_environment(), load_settings()
     refuse_root(layout)
@@ -48,13 +46,7 @@ def at_work() -> Iterator[tuple[Layout, UpdateSettings]]:
 
 @contextmanager
 def ends_within(limit_s: float, said: str) -> Iterator[None]:
-    """End what is done within by an error, whatever it waits for.
-
-    Raises
-    ------
-    UpdateError
-        Saying this, when the time is over.
-    """
+    """End what is done within by an error, whatever it waits for; raises UpdateError, saying this, when the time is over."""
 
     def too_long(_: int, __: FrameType | None) -> None:
         raise UpdateError(said)

@@ -15,16 +15,10 @@ REASON_CHARACTERS = 250
 
 
 class Answers:
-    """Answers to clients, and the tickets of those that are not known yet.
-
-    Attributes
-    ----------
-    counters : SocketCounters
-        Of every line by its outcome.
-    """
+    """Answers to clients, and the tickets of those that are not known yet."""
 
     def __init__(self, clients: Clients, pending: PendingCommands, counters: SocketCounters) -> None:
-        self.counters = counters
+        self.counters = counters  # of every line by its outcome
         self._clients = clients
         self._pending = pending
 
@@ -68,12 +62,7 @@ class Answers:
     def outcome(self, ticket: int, outcome: messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
         """Answer the command that took a ticket, and send the answer.
 
-        Parameters
-        ----------
-        age_ms : float, optional
-            From the command to its outcome.
-        reason : str
-            Of a refusal.
+        `age_ms` is from the command to its outcome; `reason` is that of a refusal.
         """
         found = self._take_back(ticket, outcome)
         if found is not None:

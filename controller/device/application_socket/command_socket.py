@@ -37,27 +37,15 @@ LINES_A_CLIENT = 8  # of these, of one client
 class CommandSocket:
     """The application socket of a board.
 
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        Path and access rights of the socket, and what each client may ask.
-    peer_of : callable, optional
-        Identifies the process at the other end of an accepted socket.
-    clock_s : callable, optional
-        Host time, of faults.
-
-    Raises
-    ------
-    ConfigError, ControllerError
-        If the socket cannot be created, or belongs to a running service.
+    Raises ConfigError or ControllerError if the socket cannot be created, or belongs to a running service.
     """
 
     def __init__(
         self,
         board: Board,
-        settings: ApplicationSocket,
-        peer_of: Callable[[socket.socket], Peer] = peer_of,
-        clock_s: Callable[[], float] = time.monotonic,
+        settings: ApplicationSocket,  # path and access rights of the socket, and what each client may ask
+        peer_of: Callable[[socket.socket], Peer] = peer_of,  # identifies the process at the other end of an accepted socket
+        clock_s: Callable[[], float] = time.monotonic,  # host time, of faults
     ) -> None:
         self.counters = SocketCounters()
         self._clients = Clients(settings, self.counters, peer_of)

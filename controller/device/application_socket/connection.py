@@ -10,7 +10,7 @@ import msgspec
 from controller.device.application_socket.messages import LINE_BYTES, AnyMessage, Farewell, Right
 from controller.device.application_socket.peers import Peer
 from controller.device.application_socket.token_bucket import TokenBucket
-from controller.device.scene.clips import Clip
+from controller.device.scene.clips import ClientEffect
 
 QUEUE_BYTES = 65536  # messages that the client has not read yet
 LAYER_BURST = 5  # times that a client may replace its regions at once
@@ -66,7 +66,7 @@ class Connection:
         self.resume_s = -math.inf  # when it is read again, after exceeding its rate
         self.waiting = 0  # commands without an outcome yet
         self.layered = False  # has sent regions
-        self.clips: dict[str, Clip] = {}  # that it has sent under a name
+        self.clips: dict[str, ClientEffect] = {}  # that it has sent under a name
         self.rate = TokenBucket(rate_hz, burst)
         self.layer_rate = TokenBucket(layers_hz, LAYER_BURST)
         self._socket: socket.socket | None = None

@@ -64,17 +64,9 @@ class Rights:
 
     Root and the service's own user have all. User names are read once, at the start.
 
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        Its groups; without `play_group` whoever may connect may play, without `operate_group` no other user may operate,
-        without `regions_group` no other user may lay regions. Who is in
-        `look_group` may not play, whatever else he is in: to connect at all, he has to be in the group of the socket.
-
-    Raises
-    ------
-    ConfigError
-        If a group does not exist.
+    Without `play_group` whoever may connect may play, without `operate_group` no other user may operate, without `regions_group` no
+    other user may lay regions. Who is in `look_group` may not play, whatever else he is in: to connect at all, he has to be in the
+    group of the socket. Raises ConfigError if a group does not exist.
     """
 
     def __init__(self, settings: ApplicationSocket) -> None:

@@ -15,21 +15,10 @@ WAITING_PER_CLIENT = 64
 
 
 class PendingCommands:
-    """Tickets of commands without an outcome, with a limit for each client and each user.
-
-    Parameters
-    ----------
-    max_clients : int
-        Places for clients.
-
-    Attributes
-    ----------
-    of_user : Counter
-        Pending commands by uid; only users with any.
-    """
+    """Tickets of commands without an outcome, with a limit for each of `max_clients` clients and for each user."""
 
     def __init__(self, clients: Clients, max_clients: int) -> None:
-        self.of_user: Counter[int] = Counter()
+        self.of_user: Counter[int] = Counter()  # pending commands by uid; only users with any
         self._clients = clients
         self._tickets = Tickets(WAITING_PER_CLIENT * max_clients)
 

@@ -11,7 +11,7 @@ from controller.device.application_socket.peers import Peer, Rights
 from controller.device.board.devices import ApplicationSocket
 
 
-class Offer(NamedTuple):
+class PlaceOffer(NamedTuple):
     """A place, if there is one; if it is taken, its client has to give way. Else the reason why there is none."""
 
     place: Connection | None
@@ -20,7 +20,7 @@ class Offer(NamedTuple):
 
 def offered(
     places: Sequence[Connection], peer: Peer, rights: tuple[Right, ...], names: Rights, settings: ApplicationSocket, now_s: float
-) -> Offer:
+) -> PlaceOffer:
     """The place for a new client.
 
     A user without the right to operate has at most `clients_per_user` places. If no place is free, the client that has been silent
@@ -35,10 +35,10 @@ def offered(
     elif len(there) == len(places):
         reason = f"{len(there)} clients are connected already"
     else:
-        return Offer(next(client for client in places if not client.open))
+        return PlaceOffer(next(client for client in places if not client.open))
     idle = [client for client in there if client.silent and now_s - client.heard_s >= settings.idle_s]
     if operator and not idle:
         idle = [client for client in there if "operate" not in client.rights]
     if not idle:
-        return Offer(None, reason)
-    return Offer(min(idle, key=lambda client: (not client.silent, client.heard_s)))
+        return PlaceOffer(None, reason)
+    return PlaceOffer(min(idle, key=lambda client: (not client.silent, client.heard_s)))

@@ -33,12 +33,7 @@ class Aim(NamedTuple):
 class PlayRequests:
     """Hands what one panel's clients want to feel to the loop.
 
-    Parameters
-    ----------
-    board : Board
-        Its plate limits where effects can be played, its duty limit how fast.
-    settings : ApplicationSocket
-        Its `max_amplitude`.
+    The board's plate limits where effects can be played, its duty limit how fast.
     """
 
     def __init__(self, board: Board, settings: ApplicationSocket, answers: Answers) -> None:
@@ -65,7 +60,7 @@ class PlayRequests:
             self._start(client, request.id, effect, aim, now_s, control)
 
     def _start(
-        self, client: Connection, number: Id, effect: str | clips.Clip, aim: Aim, now_s: float, control: PanelControl
+        self, client: Connection, number: Id, effect: str | clips.ClientEffect, aim: Aim, now_s: float, control: PanelControl
     ) -> None:
         """Play at a point or at fingers; the outcome is that at the first of them."""
         ticket = self._answers.ticket(client, number)
@@ -82,10 +77,7 @@ class PlayRequests:
     def _aim(self, client: Connection, request: PlayRequest | Clip, control: PanelControl) -> Aim | None:
         """Where it is to be played; None: a clip that is only kept.
 
-        Raises
-        ------
-        ConfigError
-            If that is no place on the plate, or the amplitude is not allowed.
+        Raises ConfigError if that is no place on the plate, or the amplitude is not allowed.
         """
         places = (request.x_mm is not None or request.y_mm is not None, request.finger is not None, request.region is not None)
         if isinstance(request, Clip) and request.name is not None and not any(places):
@@ -102,13 +94,10 @@ class PlayRequests:
             return Aim(0.0, 0.0, control.fingers_in(client.serial, request.region), amplitude)
         return Aim(*self._point_m(request), None, amplitude)
 
-    def _effect(self, client: Connection, request: PlayRequest | Clip) -> str | clips.Clip:
+    def _effect(self, client: Connection, request: PlayRequest | Clip) -> str | clips.ClientEffect:
         """What is to be played: a name of the scene's, or a clip, which is kept if it has a name.
 
-        Raises
-        ------
-        ConfigError
-            If the clip is invalid, or one too many.
+        Raises ConfigError if the clip is invalid, or one too many.
         """
         if isinstance(request, PlayRequest):
             return client.clips.get(request.effect, request.effect)
@@ -117,7 +106,7 @@ class PlayRequests:
             self._keep(client, request.name, clip)
         return clip
 
-    def _keep(self, client: Connection, name: str, clip: clips.Clip) -> None:
+    def _keep(self, client: Connection, name: str, clip: clips.ClientEffect) -> None:
         others = [kept for other, kept in client.clips.items() if other != name]
         if len(others) >= MOST_KEPT:
             raise ConfigError(f"{MOST_KEPT} clips are kept for this client already: use one of their names again")

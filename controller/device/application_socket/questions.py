@@ -1,4 +1,4 @@
-"""What clients ask to be told: what the panel is, its state and figures, now or at each change."""
+"""What clients ask for: what the panel is, its state and figures, now or at each change."""
 
 from __future__ import annotations
 

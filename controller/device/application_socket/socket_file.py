@@ -29,28 +29,15 @@ class SocketFile:
     can open, because a folder can be locked by whoever can read it. The file of a service that died (nobody listens) is
     replaced.
 
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        Path, owner, group and mode.
-
-    Attributes
-    ----------
-    listener : socket.socket
-        Listening and non-blocking.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such folder, user or group, or this user may not create the file.
-    ControllerError
-        If another service listens there, or the system lacks space, memory or files at the moment.
+    Raises ConfigError if there is no such folder, user or group, or this user may not create the file; ControllerError if another
+    service listens there, or the system lacks space, memory or files at the moment.
     """
 
     def __init__(self, settings: ApplicationSocket) -> None:
         self._path = Path(settings.path)
         owner, group = _number_of_user(settings.owner), _number_of_group(settings.group)
         own = self._path.with_name(f".{self._path.name}.{os.getpid()}")
+        # Listening and non-blocking
         self.listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM | socket.SOCK_NONBLOCK | socket.SOCK_CLOEXEC)
         try:
             with _only_one(self._path.with_name(f".{self._path.name}.lock")):

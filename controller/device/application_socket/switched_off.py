@@ -17,30 +17,19 @@ CHARACTERS = 200
 class SwitchedOff:
     """Who has switched the panel off, if no client has armed it since.
 
-    Parameters
-    ----------
-    socket_path : str
-        Path of the socket; the file is `<socket_path>.disarmed`. It is read once, here.
-
-    Attributes
-    ----------
-    by : str
-        Who it was; empty: nobody.
+    The file is `<socket_path>.disarmed`; it is read once, here.
     """
 
     def __init__(self, socket_path: str) -> None:
         self._file = Path(f"{socket_path}.disarmed")
-        self.by = self._read()
+        self.by = self._read()  # who it was; empty: nobody
 
     def remember(self, by: str) -> bool:
         """Keep who has switched the panel off, or that it was armed (empty).
 
         The first who did stays. A failure is logged; then only a restart of the service forgets it.
 
-        Returns
-        -------
-        bool
-            Whether that changes anything: of a client that asks again and again only the first request touches the file.
+        Returns whether that changes anything: of a client that asks again and again only the first request touches the file.
         """
         if by and self.by:
             return False

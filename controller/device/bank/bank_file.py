@@ -27,12 +27,7 @@ class ReadCounters:
 class BankFile:
     """An open bank's file; it may be replaced by a new one meanwhile.
 
-    Parameters
-    ----------
-    fd : int
-        Closed by `close`.
-    rebuild : str
-        What to do about a damaged bank.
+    `close` closes `fd`; `rebuild` says what to do about a damaged bank.
     """
 
     def __init__(self, path: Path, fd: int, header: Header, sections: dict[str, Section], tables: Tables, rebuild: str) -> None:
@@ -60,13 +55,7 @@ class BankFile:
         return map_bytes(self.fd, section.offset, section.size)
 
     def entry_of(self, cell: int) -> int:
-        """Entry of a cell.
-
-        Raises
-        ------
-        BankError
-            If it has none.
-        """
+        """Entry of a cell; raises BankError if it has none."""
         entries = self.tables.entries
         entry = entries[cell] if 0 <= cell < len(entries) else -1
         if entry < 0:
@@ -81,10 +70,7 @@ class BankFile:
     def require_unchanged(self) -> None:
         """Refuse a file that was written to since it was opened, since responses are checked only when they are first used.
 
-        Raises
-        ------
-        BankError
-            If its size or its time of modification has changed.
+        Raises BankError if its size or its time of modification has changed.
         """
         now = os.fstat(self.fd)
         if now.st_mtime_ns != self._written_ns or now.st_size != self.size:
@@ -104,12 +90,8 @@ class BankFile:
 def map_bytes(fd: int, offset: int, size: int, granularity: int = mmap.ALLOCATIONGRANULARITY) -> memoryview:
     """Map a part of a file, read only.
 
-    Parameters
-    ----------
-    offset, size : int
-        In bytes; any.
-    granularity : int
-        Of mappings on this machine: it may be larger than the 4 kB to which sections are aligned (16 kB on a Pi 5).
+    Any `offset` and `size` will do: mappings have a `granularity`, which may be larger than the 4 kB to which sections are aligned
+    (16 kB on a Pi 5).
     """
     if size == 0:
         return memoryview(b"")

@@ -11,15 +11,11 @@ from controller.device.kernel import unpack_loads
 
 
 class DriveEntries:
-    """Waveforms of one bank; each is checked when it is first used.
-
-    Attributes
-    ----------
-    compositions : dict
-        By its points the row and the CRC-32 of each waveform that was composed beforehand. One that is found damaged is taken out.
-    """
+    """Waveforms of one bank; each is checked when it is first used."""
 
     def __init__(self, file: BankFile) -> None:
+        # By its points the row and the CRC-32 of each waveform that was composed beforehand. One that is found damaged is
+        # taken out
         self.compositions = file.tables.compositions
         self._file = file
         self._entries, self._crcs = file.tables.entries, file.tables.crcs
@@ -37,10 +33,7 @@ class DriveEntries:
 
         The CRC-32 is that of the bank's table, whatever the file holds by now: with it the FPGA finds what changed.
 
-        Raises
-        ------
-        BankError
-            If the cell has no entry, or a damaged one.
+        Raises BankError if the cell has no entry, or a damaged one.
         """
         self._file.counters.lookups += 1
         entry = self._file.entry_of(cell)
@@ -57,10 +50,7 @@ class DriveEntries:
     def composed(self, points: LatticePoints) -> tuple[memoryview, int]:
         """A waveform of `compositions`, as `frames` gives those of cells.
 
-        Raises
-        ------
-        BankError
-            If it is damaged; it is not in `compositions` any more.
+        Raises BankError if it is damaged; it is not in `compositions` any more.
         """
         self._file.counters.lookups += 1
         row, crc = self.compositions[points]
@@ -79,10 +69,7 @@ class DriveEntries:
     def recheck_composed(self, points: LatticePoints) -> None:
         """Check a composition again, if there is one of these points, after the FPGA has refused it or one of its frames.
 
-        Raises
-        ------
-        BankError
-            As `composed`.
+        Raises BankError as `composed`.
         """
         if points in self.compositions:
             self._composed_good.discard(points)
@@ -93,10 +80,7 @@ class DriveEntries:
 
         They are read, not mapped: then they are in the page cache, but no memory of this process, which may be locked.
 
-        Raises
-        ------
-        BankError
-            If one is damaged, or cannot be read.
+        Raises BankError if one is damaged, or cannot be read.
         """
         self._file.require_open()
         row = memoryview(bytearray(self._row_bytes))
@@ -116,10 +100,7 @@ class DriveEntries:
     def words(self, cell: int) -> memoryview:
         """Drive words of a cell, 4 bytes a sample: a copy, taken out of its frames.
 
-        Raises
-        ------
-        BankError
-            If the cell has no entry, or a damaged one.
+        Raises BankError if the cell has no entry, or a damaged one.
         """
         view, _ = self.frames(cell)
         words = bytearray(4 * self._samples)
@@ -129,10 +110,7 @@ class DriveEntries:
     def recheck(self, cell: int) -> None:
         """Check the drive words of a cell that has an entry again, after the FPGA has refused them or one of their frames.
 
-        Raises
-        ------
-        BankError
-            If they are not as they were built, as in a file that was written over in place.
+        Raises BankError if they are not as they were built, as in a file that was written over in place.
         """
         self._good[self._entries[cell]] = 0
         self.frames(cell)

@@ -59,32 +59,16 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """Header of a bank: what it was built for and by, its grid, and how many entries it has.
+    """Header of a bank: what it was built for and by, its grid, and how many entries it has."""
 
-    Attributes
-    ----------
-    creator : str
-        Program, its version and that of the model; at most 64 bytes in UTF-8.
-    board_digest : bytes
-        `Board.digest`, 32 bytes.
-    samples : int
-        Of an emission: 1 to 1000.
-    entries : int
-        Cells that were built.
-    parameters : dict
-        Build parameters, for JSON.
-    compositions : int
-        Waveforms of several points that were composed beforehand.
-    """
-
-    creator: str
-    board_digest: bytes
+    creator: str  # program, its version and that of the model; at most 64 bytes in UTF-8
+    board_digest: bytes  # `Board.digest`, 32 bytes
     grid: Grid
     bit_clock_hz: float
-    samples: int
-    entries: int
-    parameters: dict[str, Any] = field(default_factory=dict)
-    compositions: int = 0
+    samples: int  # of an emission: 1 to 1000
+    entries: int  # cells that were built
+    parameters: dict[str, Any] = field(default_factory=dict)  # build parameters, for JSON
+    compositions: int = 0  # waveforms of several points that were composed beforehand
 
     @property
     def header_bytes(self) -> int:
@@ -153,10 +137,7 @@ class Header:
     def pack(self, sections: tuple[Section, ...]) -> bytes:
         """Bytes of the header, with the sections' checksums in its table.
 
-        Raises
-        ------
-        ValueError
-            If the creator or the build parameters are too long.
+        Raises ValueError if the creator or the build parameters are too long.
         """
         maker, parameters = self.creator.encode(), self._json()
         if len(maker) > 64:
@@ -199,19 +180,9 @@ def round_up(value: int, step: int) -> int:
 
 
 def header_length(start: bytes, file_bytes: int) -> int:
-    """Length of the header in bytes.
+    """Length of the header in bytes, by the first 16 bytes of the file, or as many as it has.
 
-    Parameters
-    ----------
-    start : bytes
-        First 16 bytes of the file, or as many as it has.
-    file_bytes : int
-        Size of the file.
-
-    Raises
-    ------
-    BankError
-        For what is empty, no bank, of another version, or cut off within the header.
+    Raises BankError for what is empty, no bank, of another version, or cut off within the header.
     """
     if file_bytes == 0:
         raise BankError("is empty")
@@ -230,20 +201,10 @@ def header_length(start: bytes, file_bytes: int) -> int:
 
 
 def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
-    """Read a header; the reverse of `Header.pack`.
+    """Read a header of `header_length` bytes; the reverse of `Header.pack`.
 
-    Parameters
-    ----------
-    data : bytes
-        As many bytes as `header_length` said.
-    file_bytes : int
-        Size of the file in which it was found.
-
-    Raises
-    ------
-    BankError
-        If the checksum is wrong, the file is cut short or has grown, or a table or section is not
-        where this version of the format puts it.
+    Raises BankError if the checksum is wrong, the file is cut short or has grown, or a table or section is not where this version
+    of the format puts it.
     """
     body = data[: -CRC.size]
     if not intact(data):

@@ -33,15 +33,7 @@ class Grid:
     def of(cls, plate: Plate, pitch_m: float) -> Grid:
         """Grid of the most cells that are at least one pitch from every side of the plate, centred.
 
-        Parameters
-        ----------
-        pitch_m : float
-            Distance of neighbouring cells.
-
-        Raises
-        ------
-        ConfigError
-            If the pitch leaves no cell, or is not above zero.
+        Raises ConfigError if the pitch leaves no cell, or is not above zero.
         """
         extents = (plate.length_m, plate.width_m)
         if not (math.isfinite(pitch_m) and 0 < pitch_m <= min(extents) / 2):

@@ -27,10 +27,7 @@ from controller.regular_file import open_regular, read_regular
 def bank_info(path: Path) -> dict[str, Any]:
     """Header and section table of the bank at `path`, as a dict for JSON.
 
-    Raises
-    ------
-    BankError
-        If it is no bank, or its header or a table is damaged.
+    Raises BankError if it is no bank, or its header or a table is damaged.
     """
     with Bank.open(path) as bank:
         header, grid = bank.header, bank.grid
@@ -62,17 +59,8 @@ def bank_info(path: Path) -> dict[str, Any]:
 def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
     """Read every byte of a bank and check it; a flip of any bit is found.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    progress : callable, optional
-        Called with bytes read and bytes in all.
-
-    Raises
-    ------
-    BankError
-        Naming the place of the first damage.
+    `progress` is called with bytes read and bytes in all. The BankError that is raised names the place of the first damage. Raises
+    BankError: naming the place of the first damage.
     """
     with Bank.open(path) as bank:  # checks the header, its padding and the tables
         end = bank.sections["index"].offset
@@ -127,36 +115,17 @@ def _damage(bank: Bank, start: int, size: int, what: str) -> BankError:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """Whether a bank suits a board and a scene.
+    """Whether a bank suits a board and a scene."""
 
-    Attributes
-    ----------
-    reason : str
-        Why it does not; empty: it does.
-    cells : (cells of the grid,) bool array
-        Cells of a bank that does.
-    """
-
-    reason: str
-    cells: NDArray[np.bool_]
+    reason: str  # why it does not; empty: it does
+    cells: NDArray[np.bool_]  # (cells of the grid,): cells of a bank that does
 
 
 def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     """Whether a bank is whole, built by this version for this board and its pitch, and has the cells that are needed.
 
-    Parameters
-    ----------
-    path : Path
-        The bank; it need not exist.
-    board : Board
-        What it must have been built for.
-    cells : (cells of the board's grid,) bool array
-        Cells that it must have; further cells are kept when it is built again because cells are missing.
-
-    Raises
-    ------
-    BankError
-        If this user may not read it.
+    `cells`, of the board's grid, are those that it must have; further cells are kept when it is built again because cells are
+    missing. Raises BankError if this user may not read it.
     """
     if not is_there(path):
         return Fit("there is none yet", cells)
@@ -200,13 +169,7 @@ def measured_at(path: Path) -> bool:
 
 
 def header_of(path: Path) -> Header:
-    """Header of the bank at `path`, whatever is behind it.
-
-    Raises
-    ------
-    OSError, BankError
-        If it cannot be read, or is damaged.
-    """
+    """Header of the bank at `path`, whatever is behind it; raises OSError or BankError if it cannot be read, or is damaged."""
     with os.fdopen(open_regular(path, links=True), "rb") as file:
         size = os.fstat(file.fileno()).st_size
         length = header_length(file.read(16), size)

@@ -18,21 +18,11 @@ from controller.regular_file import open_regular
 
 @dataclass(frozen=True, slots=True)
 class FoundBank:
-    """A board's bank.
+    """A board's bank."""
 
-    Attributes
-    ----------
-    path : Path
-        It need not exist.
-    why : str
-        Why it and no other, for people.
-    of_release : bool
-        Whether it belongs to the running release, hence is never written.
-    """
-
-    path: Path
-    why: str
-    of_release: bool = False
+    path: Path  # it need not exist
+    why: str  # why it and no other, for people
+    of_release: bool = False  # whether it belongs to the running release, hence is never written
 
 
 def find_bank(board: Board) -> FoundBank:
@@ -59,17 +49,8 @@ def find_bank(board: Board) -> FoundBank:
 def bank_as_it_is(board: Board, given: str | None, *, keep: bool) -> Bank | None:
     """The bank that is played whatever the scene needs; None: it is the device's own, which is built for the scene.
 
-    Parameters
-    ----------
-    given : str or None
-        File that is played instead of the board's own.
-    keep : bool
-        Whether the device's own is played as it is, if it is there: the service of a panel never replaces a bank.
-
-    Raises
-    ------
-    BankError
-        If it does not fit the board.
+    `given` is a file that is played instead of the board's own. With `keep` the device's own is played as it is, if it is there:
+    the service of a panel never replaces a bank. Raises BankError if it does not fit the board.
     """
     if given:
         return Bank.open(Path(given), board)

@@ -26,24 +26,9 @@ def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDA
     Among all waveforms of two levels this one gives the response its largest value at the
     end of the emission: every sample adds `|response|` (paper, section III-A).
 
-    Parameters
-    ----------
-    drive_order : (sample, channel) array
-        Response of each channel at the focal point, the sample played first first, any unit.
-        Above zero plays high, below zero low; exactly zero gains nothing, so the channel stays at its
-        idle bit: no edge, no energy.
-    idle_word : int
-        Drive word of the idle levels.
-
-    Returns
-    -------
-    (sample,) uint32 array
-        Drive words, first played first.
-
-    Raises
-    ------
-    ValueError
-        If `drive_order` is not finite or not (sample, 32), or `idle_word` is not 32 bits.
+    `drive_order` (sample, channel), in any unit, has the sample played first first. Above zero plays high, below zero low; exactly
+    zero gains nothing, so the channel stays at its idle bit: no edge, no energy. Returns the words (sample,), first played first.
+    Raises ValueError if `drive_order` is not finite or not (sample, 32), or `idle_word` is not 32 bits.
     """
     _check(drive_order)
     if not 0 <= idle_word < 1 << CHANNELS:
@@ -82,25 +67,11 @@ def edges(words: NDArray[np.uint32]) -> NDArray[np.intp]:
 
 
 def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], float]:
-    """Round a response to 8 bits: `drive_order` is about `levels * scale`, to half a scale.
+    """Round a response in m per V to 8 bits: `drive_order` is about `levels * scale`, to half a scale.
 
-    Parameters
-    ----------
-    drive_order : (sample, channel) float array
-        Response in drive order, in m per V.
-
-    Returns
-    -------
-    levels : (sample, channel) int8 array
-        -127 to 127.
-    scale_m_per_v : float
-        `max|drive_order| / 127`, rounded up to `SCALE_BITS` significant bits: the last bits of `drive_order` depend on
-        the machine's linear algebra, and hardly ever show in it; 0 for a response that is zero throughout.
-
-    Raises
-    ------
-    ValueError
-        If `drive_order` is not finite or not (sample, 32).
+    Returns the levels (sample, channel), -127 to 127, and the scale: `max|drive_order| / 127`, rounded up to `SCALE_BITS`
+    significant bits: the last bits of `drive_order` depend on the machine's linear algebra, and hardly ever show in it; 0 for a
+    response that is zero throughout. Raises ValueError if `drive_order` is not finite or not (sample, 32).
     """
     _check(drive_order)
     mantissa, exponent = math.frexp(max(drive_order.max(initial=0.0), -drive_order.min(initial=0.0)) / 127)

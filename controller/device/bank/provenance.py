@@ -24,33 +24,17 @@ class SourceFile(msgspec.Struct, frozen=True):
 
 
 class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
-    """Origin of responses, kept in a bank's header.
+    """Origin of responses, kept in a bank's header."""
 
-    Attributes
-    ----------
-    kind
-        `modelled`, `measured`, or `completed`: measured, with gaps filled by a model.
-    model
-        Plate model in words: theory, edges, damping; of measured responses, what interpolates between points.
-    files
-        Measurements.
-    date
-        Of the measurements, ISO 8601.
-    temperature_c
-        Of the plate while it was measured.
-    points
-        Number of points that were measured.
-    kept
-        Expected share of the amplitude that drive words from these responses keep on the plate they come from: (median, least)
-        over points left out. Absent for models, which say nothing about a plate.
-    """
-
+    # `modelled`, `measured`, or `completed`: measured, with gaps filled by a model
     kind: Literal["modelled", "measured", "completed"]
-    model: str
-    files: tuple[SourceFile, ...] = ()
-    date: str | None = None
-    temperature_c: float | None = None
-    points: int | None = None
+    model: str  # plate model in words: theory, edges, damping; of measured responses, what interpolates between points
+    files: tuple[SourceFile, ...] = ()  # measurements
+    date: str | None = None  # of the measurements, ISO 8601
+    temperature_c: float | None = None  # of the plate while it was measured
+    points: int | None = None  # number of points that were measured
+    # Expected share of the amplitude that drive words from these responses keep on the plate they come from: (median, least)
+    # over points left out. Absent for models, which say nothing about a plate
     kept: tuple[float, float] | None = None
 
     @property

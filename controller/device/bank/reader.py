@@ -27,13 +27,6 @@ class Bank:
     """An open bank; the file may be replaced by a new one while it is open.
 
     Use `Bank.open`. Memoryviews and arrays handed out stay valid as long as they are held.
-
-    Attributes
-    ----------
-    drive : DriveEntries
-        Its waveforms.
-    responses : ResponseEntries
-        What others are composed from.
     """
 
     def __init__(self, file: BankFile) -> None:
@@ -47,24 +40,14 @@ class Bank:
         self.counters = file.counters
         self.rebuild = file.rebuild
         self.close = file.close
-        self.drive = DriveEntries(file)
-        self.responses = ResponseEntries(file)
+        self.drive = DriveEntries(file)  # its waveforms
+        self.responses = ResponseEntries(file)  # what others are composed from
 
     @classmethod
     def open(cls, path: Path, board: Board | None = None) -> Bank:
         """Open a bank and check its header and tables.
 
-        Parameters
-        ----------
-        path : Path
-            The file.
-        board : Board, optional
-            Refuse a bank that was not built for this board.
-
-        Raises
-        ------
-        BankError
-            With the reason and how to rebuild.
+        A bank that was not built for `board` is refused. Raises BankError with the reason and how to rebuild.
         """
         rebuild = build_line(path, board)
         try:

@@ -29,19 +29,9 @@ class ResponseEntries:
         self._row_bytes = file.sections["response"].row_bytes
 
     def response(self, cell: int) -> tuple[NDArray[np.int8], float]:
-        """Response of a cell.
+        """Response of a cell: levels (samples, 32) in drive order, a read-only view of the file; and m per V of one level.
 
-        Returns
-        -------
-        levels : (samples, 32) int8 array
-            In drive order; a read-only view of the file.
-        scale_m_per_v : float
-            m per V of one level.
-
-        Raises
-        ------
-        BankError
-            If the cell has no entry, or a damaged one.
+        Raises BankError if the cell has no entry, or a damaged one.
         """
         entry = self._checked(cell)
         start = entry * self._stride
@@ -58,14 +48,8 @@ class ResponseEntries:
     def tables(self) -> tuple[list[int], list[float], memoryview]:
         """What is needed to find responses in their section.
 
-        Returns
-        -------
-        entries : list of int
-            Entry of each cell, -1 for none.
-        scales : list of float
-            m per V of one level of each entry's response.
-        good : memoryview
-            For each entry, one byte: whether its response was found good. The bank's own, which changes with `check`.
+        The entry of each cell, -1 for none; m per V of one level of each entry's response; and for each entry one byte, whether its
+        response was found good: the bank's own, which changes with `check`.
         """
         return self._entries, self._scales, self._good
 
@@ -77,10 +61,7 @@ class ResponseEntries:
     def check(self, cell: int) -> None:
         """Map the responses and check a cell's, if that was not done.
 
-        Raises
-        ------
-        BankError
-            If the cell has no entry, or a damaged one.
+        Raises BankError if the cell has no entry, or a damaged one.
         """
         self._checked(cell)
 
@@ -89,10 +70,7 @@ class ResponseEntries:
 
         A process forked from one that has the bank open does this beside it: what it finds good, the other one uses unchecked.
 
-        Raises
-        ------
-        BankError
-            If it is damaged.
+        Raises BankError if it is damaged.
         """
         entry = self._entries[cell]
         offset = self._file.sections["response"].offset + entry * self._stride

@@ -17,34 +17,16 @@ Composed = dict[LatticePoints, tuple[int, int]]  # row and CRC-32 of the words o
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """As lists, whose elements are read five times faster than an array's.
+    """As lists, whose elements are read five times faster than an array's."""
 
-    Attributes
-    ----------
-    entries : list of int
-        Entry of each cell, -1 for none.
-    crcs : list of list of int
-        CRC-32 of the drive words and of the response of each entry.
-    scales : list of float
-        m per V of one level of each entry's response.
-    compositions : dict
-        Row and CRC-32 of the words of each waveform that was composed beforehand, by its points.
-    """
-
-    entries: list[int]
-    crcs: list[list[int]]
-    scales: list[float]
-    compositions: Composed
+    entries: list[int]  # entry of each cell, -1 for none
+    crcs: list[list[int]]  # CRC-32 of the drive words and of the response of each entry
+    scales: list[float]  # m per V of one level of each entry's response
+    compositions: Composed  # row and CRC-32 of the words of each waveform that was composed beforehand, by its points
 
 
 def read_tables(fd: int, header: Header, sections: dict[str, Section]) -> Tables:
-    """Read and check the small sections.
-
-    Raises
-    ------
-    BankError
-        If they are damaged.
-    """
+    """Read and check the small sections; raises BankError if they are damaged."""
     data = {}
     for name in ("index", "checksums", "scale", "points"):
         data[name] = os.pread(fd, sections[name].size, sections[name].offset)

@@ -33,21 +33,10 @@ class BankWriter:
 
     Leaving the block commits the bank if every cell has its entry; an exception discards it.
 
-    Parameters
-    ----------
-    path : Path
-        Where the bank is to be; its folder must exist.
-    header : Header
-        `header.entries` is the number of cells in `cells`, `header.compositions` that of calls of `add_composition`.
-    cells : (grid.cells,) bool array
-        Which cells have an entry. Entries lie in the order of their cells.
-    overwrite : bool
-        Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
-
-    Raises
-    ------
-    BankError
-        If the folder or the disk does not take the file, or a file is there that is no bank; it is untouched.
+    Its folder must exist. `header.entries` is the number of `cells` (grid.cells,), which lie in their order, `header.compositions`
+    that of calls of `add_composition`. With `overwrite` a file at `path` is replaced even if it is no bank: for paths that this
+    software chooses itself. Raises BankError if the folder or the disk does not take the file, or a file is there that is no bank;
+    it is untouched.
     """
 
     def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_], *, overwrite: bool = False) -> None:
@@ -89,19 +78,10 @@ class BankWriter:
         return self
 
     def add(self, cell: int, words: NDArray[np.uint32], response: NDArray[np.int8], scale_m_per_v: float) -> None:
-        """Write the entry of one cell.
+        """Write the entry of one of `cells` that has none yet: its drive words (samples,), and its response.
 
-        Parameters
-        ----------
-        cell : int
-            A cell of `cells` that has no entry yet.
-        words : (samples,) uint32 array
-            Drive words.
-        response : (samples + rest_rows, 32) int8 array
-            Response in drive order, then its rest outside the band, in steps of `scale_m_per_v`. Not written where the header says
-            that there are none.
-        scale_m_per_v : float
-            m per V of one step.
+        `response` (samples + rest_rows, 32) is in drive order, then its rest outside the band, in steps of `scale_m_per_v`. It is
+        not written where the header says that there are none.
         """
         samples = self._header.samples
         rows = samples + self._header.rest_rows
@@ -125,13 +105,9 @@ class BankWriter:
         self._written[entry] = True
 
     def add_composition(self, points: Sequence[tuple[int, int, int]], words: NDArray[np.uint32]) -> None:
-        """Write a waveform of several points.
+        """Write the drive words (samples,) of 1 to 10 points, in ascending order.
 
-        Parameters
-        ----------
-        points : sequence of (int, int, int)
-            1 to 10: x and y in lattice steps, steps of amplitude (`device/waveforms/selection.py`), in ascending order.
-        words : (samples,) uint32 array
+        Each is x and y in lattice steps, and steps of amplitude (`device/waveforms/selection.py`).
         """
         number = len(self._points)
         if number >= self._header.compositions or not 1 <= len(points) <= FOCI or words.shape != (self._header.samples,):

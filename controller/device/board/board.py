@@ -186,17 +186,9 @@ def sha256(data: bytes) -> bytes:
 def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
     """Read and check a board.toml.
 
-    Parameters
-    ----------
-    path : Path
-        The file, or the folder that holds it.
-    without : collection of Relation
-        Relations between keys that it need not keep: a command that mends these keys has to read them first.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value; all keys that are missing or unknown, and all relations that refuse (`relations`).
+    `path` is the file, or the folder that holds it. A board may break the relations between keys in `without`: a command that mends
+    these keys has to read them first. Raises ConfigError, naming file, key and value; all keys that are missing or unknown, and all
+    relations that refuse (`relations`).
     """
     file = path / "board.toml" if path.is_dir() else path
     board = as_board(f"{file}: ", read_tables(file))
@@ -208,15 +200,7 @@ def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
 def as_board(before: str, tables: dict[str, Any]) -> Board:
     """Convert the tables of a board.toml to a board, by the record of its kind of touch panel.
 
-    Parameters
-    ----------
-    before : str
-        Start of an error message.
-
-    Raises
-    ------
-    ConfigError
-        As of `as_record`.
+    `before` is the start of an error message. Raises ConfigError as of `as_record`.
     """
     touch = tables.get("touch")
     record = touch_record(touch.get("kind")) if isinstance(touch, dict) else None
@@ -227,10 +211,7 @@ def as_board(before: str, tables: dict[str, Any]) -> Board:
 def _completed(before: str, board: Board) -> Board:
     """The board with the keys of [driver] and [patches] that were left out, as they follow from its parts.
 
-    Raises
-    ------
-    ConfigError
-        If there are no parts either, or they give a value that no board may have.
+    Raises ConfigError if there are no parts either, or they give a value that no board may have.
     """
     tables = {name: msgspec.structs.asdict(table) for name in ("driver", "patches") if (table := getattr(board, name)) is not None}
     missing = [f"{name}.{key}" for name, table in tables.items() for key, value in table.items() if value != value]  # noqa: PLR0124
@@ -268,15 +249,8 @@ def board_file(panels: tuple[type[TouchPanel], ...]) -> type[Board]:
 def on_other_plate(board: Board, given: Sequence[str]) -> Board:
     """The board on the plate that a command line asks for.
 
-    Parameters
-    ----------
-    given : sequence of str
-        A board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such board, key or value, or the patches do not fit on that plate.
+    `given` is a board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free. Raises
+    ConfigError if there is no such board, key or value, or the patches do not fit on that plate.
     """
     keys: dict[str, Any] = {}
     for text in given:
@@ -299,10 +273,7 @@ def on_other_plate(board: Board, given: Sequence[str]) -> Board:
 def on_plate_of(board: Board, real: Board) -> Board:
     """The board on another one's plate: with its plate, patches and driver, but with what the host plays and the idle levels.
 
-    Raises
-    ------
-    ConfigError
-        If the other one's patches are of other channels.
+    Raises ConfigError if the other one's patches are of other channels.
     """
     idle = {actuator.channel: actuator.idle for actuator in board.actuators}
     if set(idle) != {actuator.channel for actuator in real.actuators}:

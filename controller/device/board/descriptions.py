@@ -63,12 +63,7 @@ def unit_of(key: str | int) -> str:
 def described(kind: Type | None, unit: str = "") -> str:
     """What a value may be, such as "a number from 0 to 200 ms"; empty for a type that allows anything.
 
-    Parameters
-    ----------
-    kind : msgspec.inspect.Type or None
-        None: unknown.
-    unit : str
-        Of its numbers.
+    `unit` is that of its numbers; `kind` None: unknown.
     """
     match kind:
         case FloatType():

@@ -33,17 +33,7 @@ def divided_hz(source_hz: int, asked_hz: int) -> float:
 
     Linux: spi-bcm2835.c (Pi 1 to 4), spi-dw-core.c (Pi 5).
 
-    Parameters
-    ----------
-    source_hz : int
-        The controller's clock.
-    asked_hz : int
-        SCK asked for.
-
-    Returns
-    -------
-    float
-        In Hz; at most `asked_hz`, unless the largest divider is too small.
+    At most `asked_hz`, unless the largest divider is too small.
     """
     if asked_hz >= source_hz / 2:
         return source_hz / 2

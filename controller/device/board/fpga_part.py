@@ -20,22 +20,12 @@ Name = Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]+\Z")]
 
 
 class Family(NamedTuple):
-    """What goes with a family of FPGAs.
+    """What goes with a family of FPGAs."""
 
-    Attributes
-    ----------
-    devices, example : str
-        Pattern of its sizes, and one.
-    pins : str
-        Ending of the files of pins.
-    speeds : bool
-        Whether it has speed grades beside its sizes.
-    """
-
-    devices: str
+    devices: str  # devices, example: pattern of its sizes, and one
     example: str
-    pins: str
-    speeds: bool
+    pins: str  # ending of the files of pins
+    speeds: bool  # whether it has speed grades beside its sizes
 
 
 FAMILIES = {
@@ -88,15 +78,7 @@ class FpgaPart(Record, frozen=True, kw_only=True):
 def load_part(folder: Path) -> FpgaPart:
     """Read the fpga.toml of a board.
 
-    Parameters
-    ----------
-    folder : Path
-        Of the board.
-
-    Raises
-    ------
-    ConfigError
-        If it has none, or an invalid one; the message lists boards that have one.
+    Raises ConfigError if it has none, or an invalid one; the message lists boards that have one.
     """
     if not (folder / FILE).is_file():
         known = sorted({file.parent.name for place in board_places() for file in place.glob(f"*/{FILE}")})
@@ -107,14 +89,9 @@ def load_part(folder: Path) -> FpgaPart:
 
 
 def find_part(board: Path, top: str | None) -> tuple[Path, FpgaPart]:
-    """Folder of top.v and pins for a board, and what they are for.
+    """Folder of top.v and pins for the board in a folder, and what they are for.
 
-    Parameters
-    ----------
-    board : Path
-        Folder of the board.
-    top : str, optional
-        Name or folder of the board whose top.v is built in its place.
+    `top` is the name or folder of the board whose top.v is built in its place.
     """
     folder = find_board(top) if top else board
     part = load_part(folder)
@@ -125,17 +102,7 @@ def find_part(board: Path, top: str | None) -> tuple[Path, FpgaPart]:
 
 
 def check_top(board: Board, top: Path) -> None:
-    """Refuse a board whose clock or baud rate are not those of a top.v, before minutes of work.
-
-    Parameters
-    ----------
-    top : Path
-        Folder of the top.v.
-
-    Raises
-    ------
-    ConfigError
-    """
+    """Refuse a board whose clock or baud rate are not those of a top.v, before minutes of work; raises ConfigError."""
     text = (top / TOP).read_text(encoding="utf-8", errors="replace")
     link = board.link
     wanted = [("clock_hz", link.clock_hz, PLL)] + ([("baud", link.baud, BAUD)] if link.kind == "serial" else [])

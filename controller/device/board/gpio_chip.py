@@ -22,17 +22,9 @@ NEAR_NAMES = 4  # similar names listed in an error message
 def find_chip(label: str, failure: type[ControllerError]) -> Path:
     """Path of the GPIO chip with this label.
 
-    Parameters
-    ----------
-    label : str
-        As `gpiodetect` lists it; a path is taken as it is: a link of udev tells apart several chips with one label.
-    failure : type of ControllerError
-        What to raise: LinkError, TouchError.
-
-    Raises
-    ------
-    ControllerError
-        If there is none, or several, or this user may not open it; the message lists the chips that exist.
+    `label` is as `gpiodetect` lists it; a path is taken as it is: a link of udev tells apart several chips with one label.
+    `failure` is what to raise: LinkError, TouchError. Raises ControllerError if there is none, or several, or this user may not
+    open it; the message lists the chips that exist.
     """
     if label.startswith("/"):
         return Path(label)
@@ -61,30 +53,10 @@ def find_chip(label: str, failure: type[ControllerError]) -> Path:
 
 
 def find_lines(chip: gpiod.Chip, label: str, lines: Iterable[str], failure: type[ControllerError]) -> dict[str, int]:
-    """Numbers of lines on their chip.
+    """Number on its chip of each line, by what was given: a name, or a number in decimal digits where no line has this name.
 
-    Parameters
-    ----------
-    chip : gpiod.Chip
-        Open.
-    label : str
-        Of the chip, for messages.
-    lines : iterable of str
-        A name each, or a number in decimal digits where no line has this name.
-    failure : type of ControllerError
-        What to raise.
-
-    Returns
-    -------
-    dict of str to int
-        Number by what was given.
-
-    Raises
-    ------
-    ControllerError
-        If there is no such line, if several have the name, or if two of `lines` are the same line.
-    OSError
-        If the chip fails.
+    Raises ControllerError if there is no such line, if several have the name, or if two of `lines` are the same line; OSError if
+    the chip fails.
     """
     names = [chip.get_line_info(number).name or "" for number in range(chip.get_info().num_lines)]
     found: dict[str, int] = {}
@@ -102,26 +74,9 @@ def request_lines(
 ) -> tuple[gpiod.LineRequest, dict[str, int]]:
     """Request lines of one chip for exclusive use.
 
-    Parameters
-    ----------
-    label : str
-        Label of the chip.
-    lines : dict
-        Settings by line: a name or a number, see `find_lines`.
-    consumer : str
-        Name of the user of the lines, as gpioinfo shows it.
-    failure : type of ControllerError
-        What to raise.
-
-    Returns
-    -------
-    (gpiod.LineRequest, dict of str to int)
-        The request, and the number of each line, by which the request knows it.
-
-    Raises
-    ------
-    ControllerError
-        If the chip or a line does not exist, or a line is in use.
+    `lines` are settings by name or number, see `find_lines`; `consumer` is what gpioinfo shows as the user of the lines. Returns
+    the request, and the number of each line, by which the request knows it. Raises ControllerError if the chip or a line does not
+    exist, or a line is in use.
     """
     path = find_chip(label, failure)
     try:

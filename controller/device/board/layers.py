@@ -24,7 +24,7 @@ MOST_SHEAR = 8.0
 MOST_SHEAR_LEFT_OUT = 2.0
 
 
-class Layer(Record, frozen=True):
+class PlateLayer(Record, frozen=True):
     """A layer of the plate, from the bottom up; the layers stick to each other.
 
     Attributes
@@ -46,32 +46,21 @@ class Layer(Record, frozen=True):
 
 
 class Laminate(NamedTuple):
-    """What layers are together.
+    """What layers are together."""
 
-    Attributes
-    ----------
-    thickness_m, young_modulus_pa, poisson_ratio, density_kg_m3 : float
-        Of the homogeneous plate that bends and weighs the same.
-    rotation_kg : float
-        Rotary inertia per area about the neutral axis.
-    axis_m : float
-        Height of the neutral axis above the bottom.
-    shear_flexibility : float
-        Over that of a solid plate of the same thickness and bending stiffness; 1 for one layer.
-    """
-
+    # thickness_m, young_modulus_pa, poisson_ratio, density_kg_m3: of the homogeneous plate that bends and weighs the same
     thickness_m: float
     young_modulus_pa: float
     poisson_ratio: float
     density_kg_m3: float
-    rotation_kg: float
-    axis_m: float
-    shear_flexibility: float
+    rotation_kg: float  # rotary inertia per area about the neutral axis
+    axis_m: float  # height of the neutral axis above the bottom
+    shear_flexibility: float  # over that of a solid plate of the same thickness and bending stiffness; 1 for one layer
 
 
-def laminate(layers: Sequence[Layer]) -> Laminate:
+def laminate(layers: Sequence[PlateLayer]) -> Laminate:
     """What layers, from the bottom up, are together."""
-    sections: list[tuple[float, float, Layer]] = []  # from, to in m
+    sections: list[tuple[float, float, PlateLayer]] = []  # from, to in m
     top = 0.0
     for layer in layers:
         sections.append((top, top + layer.thickness_mm * 1e-3, layer))
@@ -96,12 +85,12 @@ def laminate(layers: Sequence[Layer]) -> Laminate:
     )
 
 
-def softest(layers: Sequence[Layer]) -> int:
+def softest(layers: Sequence[PlateLayer]) -> int:
     """Number of the layer with the smallest shear modulus."""
     return min(range(len(layers)), key=lambda index: layers[index].young_modulus_pa / (1 + layers[index].poisson_ratio))
 
 
-def _shear(sections: Sequence[tuple[float, float, Layer]], moduli: Sequence[float], axis: float, stiffness: float) -> float:
+def _shear(sections: Sequence[tuple[float, float, PlateLayer]], moduli: Sequence[float], axis: float, stiffness: float) -> float:
     """Integral of tau^2 / G for a unit shear force per length, in m / N: tau(z) is the moment of the moduli below z, over D."""
     below = found = 0.0
     for q, (a, b, layer) in zip(moduli, sections, strict=True):

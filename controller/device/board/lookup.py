@@ -21,16 +21,8 @@ def running_release() -> Path | None:
 def find_board(name_or_path: str) -> Path:
     """Folder of a board.
 
-    Parameters
-    ----------
-    name_or_path : str
-        Path of a folder or of its board.toml; else a name, looked up in /etc, the running release, the source tree and the
-        installed data.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such board; the message lists those that exist.
+    `name_or_path` is the path of a folder or of its board.toml; else a name, looked up in /etc, the running release, the source
+    tree and the installed data. Raises ConfigError if there is no such board; the message lists those that exist.
     """
     given = Path(name_or_path)
     if given.is_file() and given.suffix == ".toml":

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta
 
-from controller.device.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, Layer, laminate, softest
+from controller.device.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, PlateLayer, laminate, softest
 from controller.device.board.records import LONGEST_PLATE_MM, NotNegative, PlaceMm, Positive, Record, Share, SizeMm, left_out
 
 CHANNELS = 32
@@ -143,7 +143,7 @@ class Plate(Record, frozen=True, kw_only=True):
     decay_time_ms: Annotated[float, Meta(ge=0.1, le=10e3)]
     theory: Literal["kirchhoff", "mindlin"] = "kirchhoff"
     foam: Foam | None = None
-    layers: tuple[Layer, ...] = ()
+    layers: tuple[PlateLayer, ...] = ()
     damping: Damping | None = None
 
     @classmethod
@@ -168,10 +168,7 @@ class Plate(Record, frozen=True, kw_only=True):
     def _take_layers(self) -> None:
         """Set thickness and material to those of the layers together; or see that they are given.
 
-        Raises
-        ------
-        ValueError
-            If one of both is missing, if they contradict each other, or if the layers would slide on each other.
+        Raises ValueError if one of both is missing, if they contradict each other, or if the layers would slide on each other.
         """
         left_out = [key for key in OF_LAYERS if not getattr(self, key) >= 0 or (key != "poisson_ratio" and not getattr(self, key))]
         if not self.layers:

@@ -25,24 +25,13 @@ PLAYS = frozenset({PanelState.WAITING_FOR_PANEL, PanelState.PLAYING, PanelState.
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """State of the panel, with its cause and what clients show beside it.
-
-    Attributes
-    ----------
-    cause : str
-        Why not everything works; empty if everything does.
-    outputs_on : bool
-        Whether there may be voltage at the actuators. False only once a status of the FPGA has said that its outputs are off, or
-        it has certainly switched them off by its heartbeat timeout. Plays are accepted in the states ARMED, PLAYING and IDLE, and
-        in WAITING_FOR_PANEL where this is true.
-    panel_present : bool
-        Whether the touch panel is connected.
-    temperature_c : float or None
-        Temperature of the plate; None if unknown.
-    """
+    """State of the panel, with its cause and what clients show beside it."""
 
     state: PanelState = PanelState.WAITING_FOR_FPGA
-    cause: str = ""
+    cause: str = ""  # why not everything works; empty if everything does
+    # Whether there may be voltage at the actuators. False only once a status of the FPGA has said that its outputs are off, or
+    # it has certainly switched them off by its heartbeat timeout. Plays are accepted in the states ARMED, PLAYING and IDLE, and
+    # in WAITING_FOR_PANEL where this is true
     outputs_on: bool = False
-    panel_present: bool = True
-    temperature_c: float | None = None
+    panel_present: bool = True  # whether the touch panel is connected
+    temperature_c: float | None = None  # temperature of the plate; None if unknown

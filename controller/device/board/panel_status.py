@@ -32,68 +32,30 @@ Microseconds = Annotated[float, Meta(ge=0)]
 
 
 class LatencyStatus(msgspec.Struct, frozen=True):
-    """The host's own work for emissions of one kind, since the start.
-
-    Attributes
-    ----------
-    p50_us, p99_us, worst_us : float
-        0 without records.
-    """
+    """The host's own work for emissions of one kind, since the start."""
 
     count: Count = 0
-    p50_us: Microseconds = 0.0
+    p50_us: Microseconds = 0.0  # p50_us, p99_us, worst_us: 0 without records
     p99_us: Microseconds = 0.0
     worst_us: Microseconds = 0.0
 
 
 class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
-    """State of a running panel.
+    """State of a running panel."""
 
-    Attributes
-    ----------
-    release : str
-        Version of the release that runs; "checkout" outside of a release.
-    pid : int
-        Process of the service.
-    boot : str
-        Boot id of the kernel: times are of this boot. Empty: unknown.
-    started_s, written_s : float
-        CLOCK_MONOTONIC.
-    ended : bool
-        The service has ended; state and counters are its last.
-    state, cause, outputs_on, panel_present, temperature_c
-        As `Condition` has them.
-    heartbeats, due, foci, emissions, uploads, late, idled, host_silent, stall_pauses, outages : int
-        As `Counters` has them, since the start.
-    outage_causes : dict
-        How often the FPGA named each fault; LINK: it was lost or reset.
-    skipped : int
-        Emissions that were due and not played.
-    waiting : int
-        Emissions that are due now.
-    touch_points, touch_points_refused : int
-        Positions that the touch panel has reported, and those of them that were no finger's (`device/touch/plausibility.py`).
-    log_lines_lost, statuses_lost : int
-        Lines that the log, and statuses that this file did not take.
-    upload, resident : LatencyStatus
-        Of emissions with an upload, and of those whose waveform was resident.
-    touch_warnings : dict
-        Anomalies of the touch panel since the start, by kind.
-    touch_remark : str
-        What its device lacks and works without; empty: nothing.
-    """
-
-    release: str
+    release: str  # version of the release that runs; "checkout" outside of a release
     board: str
-    pid: Annotated[int, Meta(gt=0)]
-    boot: str
-    started_s: float
+    pid: Annotated[int, Meta(gt=0)]  # process of the service
+    boot: str  # boot id of the kernel: times are of this boot. Empty: unknown
+    started_s: float  # started_s, written_s: CLOCK_MONOTONIC
     written_s: float
-    state: PanelState
+    state: PanelState  # state, cause, outputs_on, panel_present, temperature_c: as `Condition` has them
     cause: str
     outputs_on: bool
     panel_present: bool
     temperature_c: float | None
+    # heartbeats, due, foci, emissions, uploads, late, idled, host_silent, stall_pauses, outages: as `Counters` has them, since
+    # the start
     heartbeats: Count
     due: Count
     foci: Count
@@ -103,19 +65,21 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
     idled: Count
     host_silent: Count
     outages: Count
-    skipped: Count
-    waiting: Count
-    log_lines_lost: Count
+    skipped: Count  # emissions that were due and not played
+    waiting: Count  # emissions that are due now
+    log_lines_lost: Count  # log_lines_lost, statuses_lost: lines that the log, and statuses that this file did not take
     statuses_lost: Count
-    upload: LatencyStatus
+    upload: LatencyStatus  # upload, resident: of emissions with an upload, and of those whose waveform was resident
     resident: LatencyStatus
+    # touch_points, touch_points_refused: positions that the touch panel has reported, and those of them that were no finger's
+    # (`device/touch/plausibility.py`)
     touch_points: Count = 0
     touch_points_refused: Count = 0
-    outage_causes: dict[str, Count] = {}
+    outage_causes: dict[str, Count] = {}  # how often the FPGA named each fault; LINK: it was lost or reset
     stall_pauses: Count = 0
-    touch_warnings: dict[str, Count] = {}
-    touch_remark: str = ""
-    ended: bool = False
+    touch_warnings: dict[str, Count] = {}  # anomalies of the touch panel since the start, by kind
+    touch_remark: str = ""  # what its device lacks and works without; empty: nothing
+    ended: bool = False  # the service has ended; state and counters are its last
     format: Annotated[int, Meta(ge=FORMAT, le=FORMAT)] = FORMAT
 
     @property
@@ -142,10 +106,7 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
 def status_bytes(file: Path) -> bytes | None:
     """Content of a status file, its first `BYTES_MAX`; it belongs to who owns its folder. None if there is no file.
 
-    Raises
-    ------
-    ControllerError
-        If it cannot be read: it is no regular file, or another user's.
+    Raises ControllerError if it cannot be read: it is no regular file, or another user's.
     """
     try:
         with os.fdopen(open_regular(file, owner=file.parent.stat().st_uid), "rb") as opened:
@@ -157,13 +118,7 @@ def status_bytes(file: Path) -> bytes | None:
 
 
 def status_in(data: bytes, file: Path) -> PanelStatus:
-    """The status that a file's content is.
-
-    Raises
-    ------
-    ControllerError
-        If it is no status that this software knows.
-    """
+    """The status that a file's content is; raises ControllerError if it is no status that this software knows."""
     try:
         return _decoder.decode(data)
     except NO_JSON as error:
@@ -171,13 +126,7 @@ def status_in(data: bytes, file: Path) -> PanelStatus:
 
 
 def read_status(file: Path) -> PanelStatus | None:
-    """The status in a file; None if there is no file.
-
-    Raises
-    ------
-    ControllerError
-        As `status_bytes` and `status_in`.
-    """
+    """The status in a file; None if there is no file; raises ControllerError as `status_bytes` and `status_in`."""
     data = status_bytes(file)
     return None if data is None else status_in(data, file)
 
@@ -204,10 +153,7 @@ def is_running(pid: int) -> bool:
 def read_now(file: Path) -> tuple[PanelStatus | None, str]:
     """The status in a file, and why it does not tell the panel's present state; empty if it does.
 
-    Raises
-    ------
-    ControllerError
-        As `read_status`.
+    Raises ControllerError as `read_status`.
     """
     status = read_status(file)
     if status is None:

@@ -16,7 +16,7 @@ from typing import Annotated, Any, Final
 
 from msgspec import Meta
 
-from controller.device.board.layers import Laminate, Layer, laminate
+from controller.device.board.layers import Laminate, PlateLayer, laminate
 from controller.device.board.panel import Plate, Waveform
 from controller.device.board.records import Record, as_record, read_tables
 from controller.device.board.relations.bending_waves import bending_stiffness
@@ -135,19 +135,7 @@ class Parts(Record, frozen=True):
 
 
 class OnPlate:
-    """A disc glued to a plate.
-
-    Attributes
-    ----------
-    mass_kg_m2 : float
-        What it adds to the plate, per area.
-    stiffness_ratio : float
-        Bending stiffness of plate and disc together, over the plate's.
-    disc_moment_n_per_v : float
-        Bending moment per length of edge and volt on plate and disc together.
-    moment_n_per_v : float
-        The same as the bare plate feels it.
-    """
+    """A disc glued to a plate."""
 
     def __init__(self, parts: Parts, plate: Plate, whole: Laminate, mass_kg_m2: float) -> None:
         disc, stiffness = parts.data, bending_stiffness(plate)
@@ -155,10 +143,11 @@ class OnPlate:
         lever_m = whole.thickness_m - disc.ceramic_thickness_mm * 1e-3 / 2 - whole.axis_m
         pull = disc.piezo_constant_m_per_v * disc.ceramic_modulus_pa / (1 - disc.ceramic_poisson_ratio)
         passed = 2 * stiffness / ((1 + plate.poisson_ratio) * together + (1 - plate.poisson_ratio) * stiffness)
-        self.mass_kg_m2 = mass_kg_m2
-        self.stiffness_ratio = together / stiffness
+        self.mass_kg_m2 = mass_kg_m2  # what it adds to the plate, per area
+        self.stiffness_ratio = together / stiffness  # bending stiffness of plate and disc together, over the plate's
+        # Bending moment per length of edge and volt on plate and disc together
         self.disc_moment_n_per_v = parts.bond * pull * lever_m
-        self.moment_n_per_v = self.disc_moment_n_per_v * passed
+        self.moment_n_per_v = self.disc_moment_n_per_v * passed  # the same as the bare plate feels it
 
 
 def inductance_h(of_f: float, middle_hz: float) -> float:
@@ -216,5 +205,5 @@ def _material(plate: Plate) -> dict[str, float]:
     return {name: getattr(plate, name) for name in GLUE}
 
 
-def _layer(thickness_mm: float, material: Mapping[str, Any]) -> Layer:
-    return Layer(thickness_mm=thickness_mm, **material)
+def _layer(thickness_mm: float, material: Mapping[str, Any]) -> PlateLayer:
+    return PlateLayer(thickness_mm=thickness_mm, **material)

@@ -49,13 +49,7 @@ class Patches(Record, frozen=True):
     centres_mm: Annotated[tuple[tuple[PlaceMm, PlaceMm], ...], Meta(max_length=256)] = ()
 
     def on(self, plate: Plate, actuators: Sequence[Actuator]) -> tuple[Patch, ...]:
-        """The patches of a board.
-
-        Raises
-        ------
-        ValueError
-            If one is off the plate or on another, or if their size is not known.
-        """
+        """The patches of a board; raises ValueError if one is off the plate or on another, or if their size is not known."""
         sizes = {actuator.size_mm for actuator in actuators}
         if self.size_mm is None and len(sizes) > 1:
             raise ValueError("patches.size_mm is missing: the actuators are not all of one size")

@@ -26,10 +26,7 @@ def state_folder(board: Board | None = None) -> Path:
 
     It need not exist.
 
-    Raises
-    ------
-    ConfigError
-        If there is none of these.
+    Raises ConfigError if there is none of these.
     """
     state = os.environ.get("STATE_DIRECTORY")  # set by systemd's StateDirectory=
     if state:
@@ -42,10 +39,7 @@ def state_folder(board: Board | None = None) -> Path:
 def user_cache() -> Path:
     """Folder of the user's cache for this program; it need not exist.
 
-    Raises
-    ------
-    ConfigError
-        If the user has none: a number without an entry of passwd, as containers have it, and no HOME.
+    Raises ConfigError if the user has none: a number without an entry of passwd, as containers have it, and no HOME.
     """
     import platformdirs  # noqa: PLC0415 - what a service needs not
 
@@ -61,10 +55,7 @@ def user_cache() -> Path:
 def bank_path(board: Board, pitch_m: float | None = None) -> Path:
     """Path of a board's bank on this device, of the format of this program. It serves every scene whose cells it has.
 
-    Parameters
-    ----------
-    pitch_m : float, optional
-        Pitch of the grid in m. A bank with another pitch than the board's has a file of its own, played only with --bank.
+    A bank with another pitch than the board's (`pitch_m`) has a file of its own, played only with --bank.
     """
     own_m = board.bank.pitch_mm * 1e-3
     name = board.key if pitch_m is None or pitch_m == own_m else f"{board.key}-{pitch_m * 1e3:g}mm"
@@ -97,10 +88,7 @@ def build_line(path: Path, board: Board | str | None) -> str:
 def make_folder(folder: Path) -> None:
     """Create the folder of a bank; if root creates that of the service, its owner is the service's user.
 
-    Raises
-    ------
-    BankError
-        If it cannot be created.
+    Raises BankError if it cannot be created.
     """
     try:
         owner = service_user() if os.geteuid() == 0 else None

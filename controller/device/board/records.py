@@ -53,27 +53,13 @@ class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tr
 def load_toml(file: Path, kind: type[T]) -> T:
     """Read a TOML file into a Record.
 
-    Parameters
-    ----------
-    kind : type of Record
-        The whole file.
-
-    Raises
-    ------
-    ConfigError
-        If the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
+    Raises ConfigError if the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
     """
     return as_record(f"{file}: ", read_tables(file), kind)
 
 
 def read_tables(file: Path) -> dict[str, Any]:
-    """Read a TOML file.
-
-    Raises
-    ------
-    ConfigError
-        If it is absent, unreadable, or not TOML.
-    """
+    """Read a TOML file; raises ConfigError if it is absent, unreadable, or not TOML."""
     try:
         return tomllib.loads(decoded(read_regular(file, BYTES_MAX, links=True)))
     except OSError as error:
@@ -87,18 +73,8 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
 
     Convert tables with names of the user's choice one by one: msgspec does not report which of them is invalid.
 
-    Parameters
-    ----------
-    before : str
-        Start of an error message: the file, and the place of the table in it.
-    tables : dict
-        The table as read from TOML.
-
-    Raises
-    ------
-    ConfigError
-        Naming key and value; what is nested too deep; all keys that are missing or unknown, and of values the first that is
-        wrong or not finite.
+    `before` is the start of an error message: the file, and the place of the table in it. Raises ConfigError, naming key and value;
+    what is nested too deep; all keys that are missing or unknown, and of values the first that is wrong or not finite.
     """
     renamed = False
     for path, value in _leaves(tables, ()):

@@ -31,26 +31,10 @@ class _Section:
 
 
 def reference(title: str, kind: type, named: Mapping[str, type] | None = None) -> str:
-    """Describe every key that a file may give.
+    """Describe every key that a file may give, in Markdown: one table of keys for each table of the file.
 
-    Parameters
-    ----------
-    title : str
-        Name of the file.
-    kind : type of Record
-        The whole file.
-    named : dict, optional
-        Tables by names of the user's choice: the record of each such table, by the key that holds them.
-
-    Returns
-    -------
-    str
-        Markdown: one table of keys for each table of the file.
-
-    Raises
-    ------
-    ValueError
-        If a record's docstring does not describe one of its keys.
+    `kind` is the record of the whole file; `named` has the records of tables by names of the user's choice, by the key that holds
+    them. Raises ValueError if a record's docstring does not describe one of its keys.
     """
     root = type_info(kind)
     assert isinstance(root, StructType)
@@ -88,13 +72,7 @@ def relations_reference(relations: Iterable[Relation]) -> str:
 
 
 def schema(kind: type, named: Mapping[str, type] | None = None) -> dict[str, Any]:
-    """JSON schema of a file, for editors that check TOML by one.
-
-    Parameters
-    ----------
-    kind, named
-        As for `reference`.
-    """
+    """JSON schema of a file, for editors that check TOML by one; arguments as for `reference`."""
     found = msgspec.json.schema(kind, schema_hook=lambda _: {"type": "string"})
     definitions = found["$defs"]
     for cls in _records(type_info(kind)):

@@ -15,15 +15,7 @@ WANTED = "also_required"  # method of a record: keys that others of the table ma
 
 
 def wrong_keys(tables: Any, kind: Any) -> list[str]:
-    """What is said of every key that is missing or unknown.
-
-    Parameters
-    ----------
-    tables : dict
-        As read from TOML.
-    kind : type of Record
-        What they are to be.
-    """
+    """What is said of every key that is missing or unknown."""
     found = list(_of(tables, type_info(kind), (), tables))
     return [*found[:MOST], f"and {len(found) - MOST} more"] if len(found) > MOST else found
 

@@ -91,10 +91,7 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     def check_no_finger(self, length_mm: float, width_mm: float) -> None:
         """Check that each rectangle without fingers lies on a plate of these sides, and leaves some of it.
 
-        Raises
-        ------
-        ValueError
-            Naming the rectangle.
+        Raises ValueError, naming the rectangle.
         """
         for index, (x_mm, y_mm, along_mm, across_mm) in enumerate(self.no_finger_mm):
             where = f"touch.no_finger_mm[{index}] = {[x_mm, y_mm, along_mm, across_mm]}"

@@ -36,21 +36,9 @@ _PARTS = re.compile(r"(.*?)(?: - at (`key` in )?`\$(.*)`)?", re.DOTALL)  # of a 
 
 
 def explain(message: str, value: Any, kind: Any) -> str:
-    """Translate a message of msgspec.
+    """Translate a message of msgspec into a line such as "link.slots = 17: must be a whole number from 1 to 16".
 
-    Parameters
-    ----------
-    message : str
-        Of a `msgspec.ValidationError`.
-    value : object
-        What was refused, as decoded without a type: dicts, lists, numbers, texts.
-    kind : type
-        What it was to be.
-
-    Returns
-    -------
-    str
-        One line, such as "link.slots = 17: must be a whole number from 1 to 16".
+    `value` is what was refused, as decoded without a type, and `kind` what it was to be.
     """
     parts = _PARTS.fullmatch(message)
     assert parts is not None  # it matches anything

@@ -24,10 +24,7 @@ class Worker:
     Create it before the loop gets real-time priority: the process starts with ordinary priority and sets its own. Its standard
     input is the other end of the socket; it ends when that is closed.
 
-    Parameters
-    ----------
-    arguments : sequence of str
-        Of the Python interpreter, which does not import modules from the working directory (-P).
+    `arguments` are the Python interpreter's, which does not import modules from the working directory (-P).
     """
 
     def __init__(self, arguments: Sequence[str]) -> None:
@@ -42,13 +39,7 @@ class Worker:
         return self._socket.fileno()
 
     def receive(self) -> memoryview | None:
-        """The next message, valid until the next call; None if there is none.
-
-        Raises
-        ------
-        WorkerEnded
-            If the process has ended.
-        """
+        """The next message, valid until the next call; None if there is none; raises WorkerEnded if the process has ended."""
         try:
             size = self._socket.recv_into(self._buffer)
         except BlockingIOError:

@@ -34,12 +34,7 @@ def bit_errors(
 
     A UART has no echo: only refused frames and damaged answers are counted.
 
-    Parameters
-    ----------
-    bits : float
-        Least number of bits to send.
-    progress : callable
-        Called with the number of messages sent, and of all.
+    At least `bits` are sent; `progress` is called with the number of messages sent, and of all.
     """
     exchange = session.exchange
     lengths = [LOAD_FRAME_BYTES] * TEST_FRAMES

@@ -50,31 +50,15 @@ def check(
     session: Session,
     board: Board,
     clock: Clock,
-    bits: float,
-    channels: Sequence[int],
-    pause_s: float = 0.0,
-    progress: Callable[[int, int], None] = lambda *_: None,
-    take_capture: Callable[[], Capture] | None = None,
+    bits: float,  # least number of random bits to send
+    channels: Sequence[int],  # channels to chirp on
+    pause_s: float = 0.0,  # silence after the chirps of each channel, for a listener
+    progress: Callable[[int, int], None] = lambda *_: None,  # called with the number of messages of random bits sent, and of all
+    take_capture: Callable[[], Capture] | None = None,  # returns what the pins did since its last call, if they can be observed
 ) -> BringUpReport:
     """Run all tests of bring-up; the outputs are off at the end.
 
-    Parameters
-    ----------
-    bits : float
-        Least number of random bits to send.
-    channels : sequence of int
-        Channels to chirp on.
-    pause_s : float
-        Silence after the chirps of each channel, for a listener.
-    progress : callable
-        Called with the number of messages of random bits sent, and of all.
-    take_capture : callable or None
-        Returns what the pins did since its last call, if they can be observed.
-
-    Raises
-    ------
-    LinkError
-        If the link fails, or a channel does not play all its chirps.
+    Raises LinkError if the link fails, or a channel does not play all its chirps.
     """
     rng = np.random.default_rng(SEED)
     registers = identify(session)
@@ -111,28 +95,14 @@ def identify(session: Session) -> dict[str, int]:
 def read_slot(session: Session, slot: int, length_words: int) -> bytes:
     """Read the first words of a slot from the FPGA's memory.
 
-    Returns
-    -------
-    bytes
-        4 for each word.
-
-    Raises
-    ------
-    Refused
-        If the slot holds fewer words.
+    Returns 4 bytes for each word. Raises Refused if the slot holds fewer words.
     """
     words = [session.exchange.read_address(READ_MEMORY + 1024 * slot + word) for word in range(length_words)]
     return np.array(words, "<u4").tobytes()
 
 
 def memory_errors(session: Session, board: Board, rng: np.random.Generator) -> int:
-    """Fill every slot with random words, read them and their CRC back, and count the slots that differ.
-
-    Returns
-    -------
-    int
-        Slots that did not keep their words.
-    """
+    """Fill every slot with random words, read them and their CRC back, and count the slots that differ."""
     wrong = 0
     for slot in range(board.link.slots):
         words = rng.bytes(4 * board.waveform.samples)
@@ -156,29 +126,14 @@ def channel_self_test(
     board: Board,
     clock: Clock,
     channels: Sequence[int],
-    pause_s: float = 0.0,
-    armed: Callable[[], object] = lambda: None,
+    pause_s: float = 0.0,  # silence after the chirps of each channel
+    armed: Callable[[], object] = lambda: None,  # called once the outputs are armed
 ) -> Iterator[int]:
     """Play chirps on one channel after another, all others idle, so that a listener finds dead and swapped wires.
 
     The outputs are off at the end. Without channels nothing is armed.
 
-    Parameters
-    ----------
-    pause_s : float
-        Silence after the chirps of each channel.
-    armed : callable
-        Called once the outputs are armed.
-
-    Yields
-    ------
-    int
-        Each channel, after its chirps.
-
-    Raises
-    ------
-    LinkError
-        If a channel does not play all its chirps.
+    Yields each channel after its chirps. Raises LinkError if a channel does not play all its chirps.
     """
     if not channels:
         return

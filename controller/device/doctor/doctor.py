@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import os
 import pwd
-import resource
 import stat
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import msgspec
 
@@ -16,12 +13,13 @@ from controller.device.bank.inspection import wrong_pitch
 from controller.device.bank.lookup import find_bank
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.board.devices import LinkSettings, Realtime
+from controller.device.board.devices import LinkSettings
 from controller.device.board.panel_status import FOLDER, NAME, read_now
 from controller.device.board.paths import SERVICE, service_user
 from controller.device.board.relations.checked import judge
 from controller.device.board.touch_panels import DrivenPanel, I2cTouch, SerialTouch, TouchPanel
 from controller.device.doctor.finding import Finding
+from controller.device.doctor.process_limits import memory_in_words, priority_in_words, this_process_may, unit_allows
 from controller.device.doctor.raspberry_pi import look_at_pi
 from controller.device.fpga.frames import UPLOAD_BYTES
 from controller.device.fpga.links.link import Link
@@ -34,32 +32,14 @@ from controller.device.touch.panels.linux_input import LinuxInputTouch
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.reports import FAULTS, describe_warnings
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
-from controller.programs import ProgramError, run_program
 
-MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and the waveforms of a scene
-
-ASK_S = 10.0  # for an answer of systemd
 NOT_SHARED = "no other program on this machine gets its touches; [touch] share = true hands them on"
-
-
-@dataclass(frozen=True, slots=True)
-class _Allowed:
-    """Limits of a user: highest real-time priority, and memory that may be locked, in bytes."""
-
-    whose: str
-    priority: float
-    memory_bytes: float
 
 
 def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
     """Check everything that a board needs, without outputs and without disturbing a running service.
 
     For the service's board, its user checks with the limits of the unit; what root calls runs as that user (systemd/haptic-panel).
-
-    Parameters
-    ----------
-    now_s : callable
-        The host's clock.
     """
     link = board.link
     service = service_user() if board.is_the_systems else None
@@ -78,10 +58,10 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         checks.append(("temperature", lambda: _temperature(board)))
     if link.kind != "simulated":
         checks.append(("responses", lambda: _responses(board)))
-        allowed = _unit_allows if as_the_service else _this_process_may
+        allowed = unit_allows if as_the_service else this_process_may
         checks += [
-            ("priority", lambda: _priority(board.realtime, allowed())),
-            ("locked memory", lambda: _memory(board.realtime, allowed())),
+            ("priority", lambda: priority_in_words(board.realtime, allowed())),
+            ("locked memory", lambda: memory_in_words(board.realtime, allowed())),
         ]
     findings = [Finding("board.toml", True, odd, warns=True) for odd in judge(board).odd]
     findings += [*(_tried(about, check) for about, check in checks), *look_at_pi(board)]
@@ -253,48 +233,3 @@ def _temperature(board: Board) -> str:
     if thermometer.cause:
         raise ConfigError(thermometer.cause)
     return f"{thermometer.temperature_c:g} °C"
-
-
-def _this_process_may() -> _Allowed:
-    priority, memory_bytes = (
-        math.inf if os.geteuid() == 0 or soft == resource.RLIM_INFINITY else soft
-        for soft, _ in map(resource.getrlimit, (resource.RLIMIT_RTPRIO, resource.RLIMIT_MEMLOCK))
-    )
-    return _Allowed("this user", priority, memory_bytes)
-
-
-def _unit_allows() -> _Allowed:
-    """Limits of the service's unit, which are not those of a shell."""
-    names = ("LoadState", "LimitRTPRIO", "LimitMEMLOCK")
-    asked = ["systemctl", "show", *(f"--property={name}" for name in names), f"{SERVICE}.service"]
-    try:
-        said = run_program(asked, ASK_S, attempts=2).out
-    except ProgramError as error:
-        raise ConfigError(f"systemctl does not tell the limits of {SERVICE}.service ({error})") from None
-    reported = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
-    if reported.get("LoadState") != "loaded":
-        raise ConfigError(f"{SERVICE}.service is not installed (systemd/README.md)")
-    priority, memory_bytes = (math.inf if reported[name] == "infinity" else float(reported[name]) for name in names[1:])
-    return _Allowed("the unit", priority, memory_bytes)
-
-
-def _priority(realtime: Realtime, allowed: _Allowed) -> str:
-    if allowed.priority < realtime.priority:
-        raise ConfigError(
-            f"{allowed.whose} may ask for {allowed.priority:g}, the board for {realtime.priority}:"
-            " LimitRTPRIO= in the unit, or limits.conf"
-        )
-    if realtime.cpu is not None and realtime.cpu not in os.sched_getaffinity(0):
-        raise ConfigError(f"there is no core {realtime.cpu} for this user: set realtime.cpu to one of those there are")
-    return f"SCHED_FIFO {realtime.priority} is permitted" if realtime.priority else "none is asked for"
-
-
-def _memory(realtime: Realtime, allowed: _Allowed) -> str:
-    if not realtime.lock_memory:
-        return "not asked for"
-    if allowed.memory_bytes < MEMORY_BYTES:
-        raise ConfigError(
-            f"{allowed.whose} may lock {int(allowed.memory_bytes) >> 20} MiB, the service needs {MEMORY_BYTES >> 20}:"
-            " LimitMEMLOCK= in the unit"
-        )
-    return "permitted"

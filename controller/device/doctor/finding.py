@@ -7,21 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Result of a check.
+    """Result of a check."""
 
-    Attributes
-    ----------
-    about : str
-        What was checked.
-    good : bool
-        Whether it works.
-    said : str
-        What was found, or what to do.
-    warns : bool
-        Whether it works and is still not as one would expect.
-    """
-
-    about: str
-    good: bool
-    said: str
-    warns: bool = False
+    about: str  # what was checked
+    good: bool  # whether it works
+    said: str  # what was found, or what to do
+    warns: bool = False  # whether it works and is still not as one would expect

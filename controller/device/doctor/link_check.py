@@ -26,15 +26,9 @@ TIMED_MESSAGES = 31
 
 @runtime_checkable
 class ClockedLink(Link, Protocol):
-    """A link whose SCK can be set.
+    """A link whose SCK can be set."""
 
-    Attributes
-    ----------
-    sck_hz : float
-        Actual SCK.
-    """
-
-    sck_hz: float
+    sck_hz: float  # actual SCK
 
     def set_sck_hz(self, sck_hz: int) -> float:
         """Set SCK to `sck_hz`, at most the board's; returns the actual SCK in Hz."""
@@ -42,24 +36,13 @@ class ClockedLink(Link, Protocol):
 
 @dataclass(frozen=True, slots=True)
 class SpeedResult:
-    """Result of sending random bits at one SCK.
+    """Result of sending random bits at one SCK."""
 
-    Attributes
-    ----------
-    asked_hz : int
-        SCK asked for.
-    sck_hz : float
-        Actual SCK.
-    bits, errors : int
-        Bits that were checked, and errors among them.
-    trouble : str
-        Why nothing could be measured; empty if it could.
-    """
-
-    asked_hz: int
-    sck_hz: float
-    bits: int
+    asked_hz: int  # SCK asked for
+    sck_hz: float  # actual SCK
+    bits: int  # bits, errors: bits that were checked, and errors among them
     errors: int
+    # Why nothing could be measured; empty if it could
     trouble: str  # why it could not be measured; empty if it was
 
     @property
@@ -71,17 +54,7 @@ class SpeedResult:
 def error_rate_bound(errors: int, bits: int, confidence: float = CONFIDENCE) -> float:
     """Upper bound of the bit-error rate: for no errors in N bits, 3 / N at 95 %.
 
-    Parameters
-    ----------
-    errors, bits : int
-        Errors seen in this many bits.
-    confidence : float
-        Probability with which the bound holds.
-
-    Returns
-    -------
-    float
-        Exact bound of a Poisson count: the rate at which so few errors have the probability 1 - confidence. 1 without bits.
+    Exact bound of a Poisson count: the rate at which so few `errors` have the probability 1 - `confidence`; 1 without bits.
     """
     if not bits:
         return 1.0
@@ -102,40 +75,20 @@ def error_rate_bound(errors: int, bits: int, confidence: float = CONFIDENCE) -> 
 def bit_error_count(found: BitErrors) -> tuple[int, int]:
     """Bits checked and errors among them; one damaged bit may show twice, as a refused frame and in its echo.
 
-    Returns
-    -------
-    (int, int)
-        Bits and errors. Without echo (UART) all bits sent and the frames and answers that were damaged.
+    Without echo (UART) all bits sent, and the frames and answers that were damaged.
     """
     return found.bits or 8 * LOAD_FRAME_BYTES * found.frames, max(found.wrong_bits, found.frames_refused + found.answers_damaged)
 
 
 def sweep(
-    session: Session,
+    session: Session,  # on `link`
     link: ClockedLink,
-    limit_hz: int,
-    bits: float,
+    limit_hz: int,  # highest SCK
+    bits: float,  # least number of bits to send at each rate
     rng: np.random.Generator,
-    progress: Callable[[int, int], None] = lambda *_: None,
+    progress: Callable[[int, int], None] = lambda *_: None,  # called with the number of rates done and of all
 ) -> list[SpeedResult]:
-    """Send random bits at nine SCK rates up to `limit_hz`; leaves the link at the slowest.
-
-    Parameters
-    ----------
-    session : Session
-        On `link`.
-    limit_hz : int
-        Highest SCK.
-    bits : float
-        Least number of bits to send at each rate.
-    progress : callable
-        Called with the number of rates done and of all.
-
-    Returns
-    -------
-    list of SpeedResult
-        Slowest first.
-    """
+    """Send random bits at nine SCK rates up to `limit_hz`; leaves the link at the slowest, which is the first of the results."""
     speeds = []
     for number, step in enumerate(SWEEP_STEPS):
         asked_hz = round(limit_hz * step)
@@ -153,10 +106,7 @@ def sweep(
 def proposed_sck_hz(speeds: Sequence[SpeedResult]) -> int | None:
     """Recommended SCK in Hz: the fastest without an error that is at most 0.8 times the slowest with one.
 
-    Returns
-    -------
-    int or None
-        None if every rate is too near to one with errors, or has some.
+    None if every rate is too near to one with errors, or has some.
     """
     failed_hz = min((speed.asked_hz for speed in speeds if not speed.good), default=math.inf)
     return max((speed.asked_hz for speed in speeds if speed.good and speed.asked_hz <= MARGIN * failed_hz), default=None)
@@ -167,15 +117,7 @@ def measured_sck_hz(session: Session, link: Link) -> float:
 
     The median of 31 of each, since other work on the host may delay some.
 
-    Parameters
-    ----------
-    session : Session
-        On `link`.
-
-    Returns
-    -------
-    float
-        SCK in Hz; infinite if the times do not differ.
+    Infinite if the times do not differ.
     """
     exchange = session.exchange
     taken_ns: dict[int, list[int]] = {FRAME_BYTES: [], LOAD_FRAME_BYTES: []}

@@ -42,29 +42,15 @@ class LinkExamined:
 
 def examine_link(
     board: Board,
-    link: Link,
-    open_session: Callable[[], Session],
+    link: Link,  # open
+    open_session: Callable[[], Session],  # brings up the FPGA at the other end
     clock: Clock,
-    bits: float,
-    channels: Sequence[int],
+    bits: float,  # least number of random bits to send
+    channels: Sequence[int],  # channels to chirp on, with outputs on; empty: they stay off
     progress: Callable[[int, int], None] = lambda *_: None,
-    take_capture: Callable[[], Capture] | None = None,
+    take_capture: Callable[[], Capture] | None = None,  # what the pins of a simulated FPGA did since the last call
 ) -> LinkExamined:
-    """Examine the link: identity, bit errors in both directions, memory, channels, and the highest SCK without errors.
-
-    Parameters
-    ----------
-    link : Link
-        Open.
-    open_session : callable
-        Brings up the FPGA at the other end.
-    bits : float
-        Least number of random bits to send.
-    channels : sequence of int
-        Channels to chirp on, with outputs on; empty: they stay off.
-    take_capture : callable, optional
-        What the pins of a simulated FPGA did since the last call.
-    """
+    """Examine the link: identity, bit errors in both directions, memory, channels, and the highest SCK without errors."""
     findings: list[Finding] = []
     figures: dict[str, Any] = {}
     clocked = link if isinstance(link, ClockedLink) else None
@@ -136,15 +122,7 @@ def arriving_sck_hz(board: Board) -> float:
 
 
 def evaluated_sck(board: Board, measured_hz: float, counted_hz: float) -> Finding:
-    """Judge the SCK that a measurement shows.
-
-    Parameters
-    ----------
-    measured_hz : float
-        SCK by the time that frames take.
-    counted_hz : float
-        SCK that the link was set to, on which times on the wire are based.
-    """
+    """Evaluate the SCK by the time that frames take, against the one that times on the wire are based on."""
     arriving_hz = arriving_sck_hz(board)
     arriving = "" if measured_hz >= arriving_hz else f"; the FPGA plays nothing while it arrives below {arriving_hz / 1e6:.3g} MHz"
     if measured_hz < SCK_SHARE * counted_hz:

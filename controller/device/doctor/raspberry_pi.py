@@ -45,10 +45,7 @@ def look_at_pi(board: Board, root: Path = Path("/")) -> list[Finding]:
 
     What cannot be read is left out; on another machine there is nothing to find.
 
-    Parameters
-    ----------
-    root : Path
-        Of the machine's files.
+    `root` is that of the machine's files.
     """
     name = _name(root, "proc/device-tree/model")
     found = re.fullmatch(r"Raspberry Pi (.*)", name)

@@ -31,13 +31,7 @@ BOOTED: Final = Path("/run/systemd/system")  # there where systemd runs the mach
 
 
 def look_at_updates(layout: Layout, settings: Path = SETTINGS) -> list[Finding]:
-    """Check releases and updates of this device; nothing where there are no releases, such as on a computer for development.
-
-    Parameters
-    ----------
-    settings : Path
-        File of the settings.
-    """
+    """Check releases and updates of this device; nothing where there are no releases, such as on a computer for development."""
     if not layout.releases.is_dir():
         return []
     if (layout.current / COMPLETE).exists() and not (layout.current / MANIFEST).exists():

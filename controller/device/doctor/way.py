@@ -15,25 +15,15 @@ DRAWN_MM: Final = 0.1  # axes in whole tenths are drawn; measured ones have thre
 MARKS: Final = {True: "[x]", False: "[ ]", None: "[?]"}
 
 
-class Step(NamedTuple):
-    """A step of the way.
+class WayStep(NamedTuple):
+    """A step of the way."""
 
-    Attributes
-    ----------
-    name : str
-        What is done when it is done.
-    command : str
-        How.
-    done : bool or None
-        None: this device does not show it now.
-    """
-
-    name: str
-    command: str
-    done: bool | None
+    name: str  # what is done when it is done
+    command: str  # how
+    done: bool | None  # None: this device does not show it now
 
 
-def way(board: Board, findings: Iterable[Finding] = ()) -> list[Step]:
+def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
     """Steps of the page "A panel of your own", for a board and what `doctor` has found; nothing found: what the folder shows."""
     found = {finding.about: finding for finding in findings}
 
@@ -42,16 +32,16 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[Step]:
 
     command, bitstream = "haptic-panel {} --board " + board.called, board.folder / board.bitstream
     return [
-        Step("board.toml and its scene are valid", f"haptic-panel board check {board.called}", True),
-        Step("the bitstream has this board's limits", f"{command.format('gateware build')} --out {bitstream}", _built(board)),
-        Step("the FPGA is loaded with it", f"{command.format('gateware load')} --flash", good("identity and settings")),
-        Step("its link carries every bit", command.format("doctor --link"), good("bits")),
-        Step("the bank fits board and scene", command.format("bank build"), good("bank")),
-        Step("the touch panel answers", command.format("doctor"), good("touch panel")),
-        Step("its axes are measured", command.format("calibrate-touch"), _axes_measured(board)),
-        Step("each channel moves its own disc", command.format("calibrate channels"), None),
-        Step("the plate's responses are measured", command.format("calibrate measure"), good("responses", warned=False)),
-        Step("a finger feels it", command.format("run"), None),
+        WayStep("board.toml and its scene are valid", f"haptic-panel board check {board.called}", True),
+        WayStep("the bitstream has this board's limits", f"{command.format('gateware build')} --out {bitstream}", _built(board)),
+        WayStep("the FPGA is loaded with it", f"{command.format('gateware load')} --flash", good("identity and settings")),
+        WayStep("its link carries every bit", command.format("doctor --link"), good("bits")),
+        WayStep("the bank fits board and scene", command.format("bank build"), good("bank")),
+        WayStep("the touch panel answers", command.format("doctor"), good("touch panel")),
+        WayStep("its axes are measured", command.format("calibrate-touch"), _axes_measured(board)),
+        WayStep("each channel moves its own disc", command.format("calibrate channels"), None),
+        WayStep("the plate's responses are measured", command.format("calibrate measure"), good("responses", warned=False)),
+        WayStep("a finger feels it", command.format("run"), None),
     ]
 
 
@@ -68,6 +58,6 @@ def _axes_measured(board: Board) -> bool:
     return any(abs(value - round(value)) > 1e-6 for value in tenths)
 
 
-def in_lines(steps: Iterable[Step]) -> list[str]:
+def in_lines(steps: Iterable[WayStep]) -> list[str]:
     """The steps as a checklist; of what is not done, how to do it."""
     return [f"{MARKS[step.done]} {step.name}" + ("" if step.done else f": {step.command}") for step in steps]

@@ -19,15 +19,7 @@ UNSURE_TICKS: Final = 64  # around the time of a play: whether a status shows it
 
 
 class Belief:
-    """Plays that wait in the FPGA, triggers that it has seen, and emissions that it has begun.
-
-    Attributes
-    ----------
-    waiting : list of int
-        For each play that was accepted and has not begun, first in, first out, the tick at which it is to begin, or TRIGGERED.
-    just_triggered : bool
-        No heartbeat was compared since the last trigger, whose edge may be on its way still.
-    """
+    """Plays that wait in the FPGA, triggers that it has seen, and emissions that it has begun."""
 
     __slots__ = (
         "_counts",
@@ -43,8 +35,10 @@ class Belief:
     )
 
     def __init__(self) -> None:
+        # For each play that was accepted and has not begun, first in, first out, the tick at which it is to begin, or
+        # TRIGGERED
         self.waiting: list[int] = []
-        self.just_triggered = False
+        self.just_triggered = False  # no heartbeat was compared since the last trigger, whose edge may be on its way still
         self._counts: list[int] = []  # emissions of each, 0: endless
         self._last_count = 1  # of the play that began last
         self._unscheduled = False  # a play was to begin as soon as the plate is free: when that is, only the FPGA knows
@@ -117,10 +111,7 @@ class Belief:
     def compare(self, status: Status, counters: LinkCounters) -> int:
         """Compare triggers and emissions with a status, count what differs by its cause, and believe the status from now on.
 
-        Returns
-        -------
-        int
-            Emissions that were believed to have begun, and never began.
+        Returns how many emissions were believed to have begun, and never began.
         """
         if not self._known:
             self._triggers, self._ignored, self._known = status.trigger_count, status.ignored, True

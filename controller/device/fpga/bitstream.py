@@ -29,33 +29,15 @@ HASHED_BYTES: Final = 1 << 16  # at once
 
 
 class Identity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """All that determines the bytes of a bitstream.
+    """All that determines the bytes of a bitstream."""
 
-    Attributes
-    ----------
-    board : str
-        Whose board.toml gave the parameters.
-    top : str
-        Folder of top.v and of the pins.
-    device : str
-        Family, size, package and speed grade of the FPGA.
-    seed : int
-        Of the placement.
-    parameters : dict
-        Of top.v, among them BUILD_HASH.
-    sources : str
-        SHA-256 of every file that the tools read, and of their arguments.
-    tools : dict
-        Versions, by package.
-    """
-
-    board: str
-    top: str
-    device: str
-    seed: int
-    parameters: dict[str, int]
-    sources: str
-    tools: dict[str, str]
+    board: str  # whose board.toml gave the parameters
+    top: str  # folder of top.v and of the pins
+    device: str  # family, size, package and speed grade of the FPGA
+    seed: int  # of the placement
+    parameters: dict[str, int]  # of top.v, among them BUILD_HASH
+    sources: str  # SHA-256 of every file that the tools read, and of their arguments
+    tools: dict[str, str]  # versions, by package
 
     def comment(self) -> str:
         """One line of the header, in ASCII."""
@@ -63,29 +45,15 @@ class Identity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
 
 class Figures(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What became of a build: the file beside a bitstream.
-
-    Attributes
-    ----------
-    sha256 : str
-        Of the bitstream.
-    bytes : int
-        Its size.
-    clock_mhz, fmax_mhz : float
-        The core's clock that was asked for, and the fastest that nextpnr finds possible.
-    longest_path : str
-        Of that clock: time, and the cells where it begins and ends.
-    cells : dict
-        Used and available, by kind.
-    """
+    """What became of a build: the file beside a bitstream."""
 
     identity: Identity
-    sha256: str
-    bytes: int
-    clock_mhz: float
+    sha256: str  # of the bitstream
+    bytes: int  # its size
+    clock_mhz: float  # clock_mhz, fmax_mhz: the core's clock that was asked for, and the fastest that nextpnr finds possible
     fmax_mhz: float
-    longest_path: str
-    cells: dict[str, tuple[int, int]]
+    longest_path: str  # of that clock: time, and the cells where it begins and ends
+    cells: dict[str, tuple[int, int]]  # used and available, by kind
 
 
 def figures_path(bitstream: Path) -> Path:
@@ -103,10 +71,7 @@ def sealed(bitstream: bytes) -> bytes:
 def read_identity(bitstream: Path) -> Identity:
     """Identity in the header of a bitstream that is whole.
 
-    Raises
-    ------
-    GatewareError
-        If the file is no bitstream, has no identity or no seal, or was cut off or damaged since it was sealed.
+    Raises GatewareError if the file is no bitstream, has no identity or no seal, or was cut off or damaged since it was sealed.
     """
     with os.fdopen(open_regular(bitstream, links=True), "rb") as file:
         header = file.read(HEADER_BYTES)
@@ -138,10 +103,7 @@ def _identity(bitstream: Path, comments: bytes) -> Identity:
 def read_figures(bitstream: Path) -> Figures | None:
     """Figures beside a bitstream; None if there are none.
 
-    Raises
-    ------
-    GatewareError
-        If they are damaged, or those of another bitstream.
+    Raises GatewareError if they are damaged, or those of another bitstream.
     """
     path = figures_path(bitstream)
     if not path.exists():
@@ -164,10 +126,7 @@ def sha256_of(file: Path) -> str:
 def differences(identity: Identity, board: Board, build_hash: int) -> list[str]:
     """Why bring-up would refuse a bitstream on a board; empty if it would not.
 
-    Parameters
-    ----------
-    build_hash : int
-        Of the Verilog that belongs to this software.
+    `build_hash` is that of the Verilog that belongs to this software.
     """
     wanted, built = top_parameters(board, build_hash), identity.parameters
     keys = {register.name: key for register, key in LIMITS.items()} | {"CLOCK_HZ": "link.clock_hz", "SLOTS": "link.slots"}

@@ -24,12 +24,7 @@ ATTEMPTS: Final = 3  # a cable, a USB bus or a supply may fail for a moment
 class BitstreamLoader:
     """Loads a bitstream, in up to `ATTEMPTS` attempts for each time that the FPGA is found with another gateware.
 
-    Parameters
-    ----------
-    bitstream : Path
-        Looked for when it is needed.
-    now_s : callable
-        The loop's clock.
+    The file is looked for when it is needed.
     """
 
     def __init__(self, settings: GatewareLoading, bitstream: Path, now_s: Callable[[], float]) -> None:
@@ -47,10 +42,7 @@ class BitstreamLoader:
     def require_done(self) -> None:
         """Call before the FPGA is sent anything; what it answers then says whether the attempt was successful.
 
-        Raises
-        ------
-        LinkError
-            While it is being loaded.
+        Raises LinkError while it is being loaded.
         """
         process = self._process
         if process is None:
@@ -71,13 +63,9 @@ class BitstreamLoader:
     def begin(self, error: LinkError) -> None:
         """Load the FPGA, for what it answers, or does not.
 
-        Raises
-        ------
-        LinkError
-            Always, while this can still become good: try again later. `error` itself for an FPGA that does not answer and that no
-            attempt has failed to load.
-        IncompatibleFpga
-            If there is nothing to load, or it answers with another gateware after the last attempt.
+        Always raises LinkError while this can still become good: try again later; it is `error` itself for an FPGA that does not
+        answer and that no attempt has failed to load. Raises IncompatibleFpga if there is nothing to load, or it answers with
+        another gateware after the last attempt.
         """
         if not isinstance(error, IncompatibleFpga):
             self._load_silent(error)

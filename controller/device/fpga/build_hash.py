@@ -9,15 +9,7 @@ from pathlib import Path
 def build_hash(folder: Path) -> int:
     """CRC-32 over the bytes of the `.v` and `.vh` files of a folder, in the order of their names.
 
-    Returns
-    -------
-    int
-        u32.
-
-    Raises
-    ------
-    FileNotFoundError
-        If the folder holds no Verilog.
+    Raises FileNotFoundError if the folder holds no Verilog.
     """
     files = sorted((file for file in folder.iterdir() if file.suffix in (".v", ".vh")), key=lambda file: file.name)
     if not files:

@@ -37,13 +37,7 @@ class BuildParameters:
 
     @classmethod
     def of(cls, board: Board, build_hash: int) -> Self:
-        """Parameters of a board: its bitstream and its simulation are built with them, and bring-up requires them.
-
-        Parameters
-        ----------
-        build_hash : int
-            Of the Verilog.
-        """
+        """Parameters of a board: its bitstream and its simulation are built with them, and bring-up requires them."""
         limits, clock_hz = board.limits, board.link.clock_hz
         return cls(
             clock_hz=clock_hz,
@@ -70,15 +64,7 @@ class BuildParameters:
 
 
 def top_parameters(board: Board, build_hash: int) -> dict[str, int]:
-    """Parameters of a board's top.v, which has the letters of its board itself, by their names.
-
-    Parameters
-    ----------
-    board : Board
-        Whose limits are built in.
-    build_hash : int
-        Of the Verilog.
-    """
+    """Parameters of a board's top.v, which has the letters of its board itself, by their names."""
     parameters = BuildParameters.of(board, build_hash).verilog()
     del parameters["BOARD"]
     return parameters

@@ -20,40 +20,22 @@ class ClockEstimate:
     host's clock, so each exchange bounds the offset from both sides. The bound kept is the intersection with the earlier one,
     which is widened by `DRIFT_MAX` over the time since. If the two do not intersect (the FPGA was reset, or the host was
     suspended), the estimate starts again from the newest exchange.
-
-    Parameters
-    ----------
-    clock_hz : float
-        Nominal clock of the FPGA.
-
-    Attributes
-    ----------
-    known : bool
-        False until the first exchange; `offset_s` is 0 until then.
-    offset_s : ClockOffset
-        FPGA time minus host time: the middle of the interval. Hot code adds it to host time, or subtracts it from FPGA time,
-        itself.
-    error_s : float
-        Largest possible error of `offset_s` at the newest exchange: half the width of the interval.
     """
 
     def __init__(self, clock_hz: float) -> None:
         self.clock_hz = clock_hz
-        self.known = False
+        self.known = False  # False until the first exchange; `offset_s` is 0 until then
+        # FPGA time minus host time: the middle of the interval. Hot code adds it to host time, or subtracts it from FPGA
+        # time, itself
         self.offset_s = ClockOffset(0.0)
-        self.error_s = 0.0
+        self.error_s = 0.0  # largest possible error of `offset_s` at the newest exchange: half the width of the interval
         self._low_s = self._high_s = 0.0  # bounds of the offset
         self._updated_s = 0.0
 
     def add(self, before_s: float, after_s: float, ticks: int) -> None:
-        """Update the estimate with one exchange.
+        """Update the estimate with one exchange, whose status carries `ticks`, in clocks since reset.
 
-        Parameters
-        ----------
-        before_s, after_s : float
-            Host time before the exchange began and after its last bit.
-        ticks : int
-            FPGA time in its status, in clocks since reset.
+        `before_s` and `after_s` are host time before it began and after its last bit.
         """
         fpga_s = ticks / self.clock_hz
         low_s, high_s = fpga_s - after_s, fpga_s - before_s

@@ -40,19 +40,7 @@ class OtherGateware(IncompatibleFpga):
 def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> None:
     """Check that the FPGA has the gateware this host was made for, built with the limits of this board.
 
-    Parameters
-    ----------
-    read : callable
-        Reads one register.
-    build_hash : int
-        Hash of the gateware expected.
-
-    Raises
-    ------
-    OtherGateware
-        If its identity, protocol, gateware, clock, size or a limit is another.
-    LinkError
-        If it does not answer.
+    Raises OtherGateware if its identity, protocol, gateware, clock, size or a limit is another; LinkError if it does not answer.
     """
     expected = {
         Register.IDENTITY: IDENTITY_MAGIC,
@@ -104,17 +92,8 @@ def settings(board: Board) -> dict[Register, int]:
 def write_settings(exchange: Exchange, board: Board, bit_period: int) -> None:
     """Write the board's settings, and read each back.
 
-    Parameters
-    ----------
-    bit_period : int
-        In 65536ths of an FPGA clock, in place of the board's.
-
-    Raises
-    ------
-    IncompatibleFpga
-        If the FPGA refuses a value for good.
-    LinkError
-        If it refuses one for now, or reads back another each time that it is written.
+    `bit_period`, in 65536ths of an FPGA clock, takes the place of the board's. Raises IncompatibleFpga if the FPGA refuses a value
+    for good; LinkError if it refuses one for now, or reads back another each time that it is written.
     """
     for register, value in (settings(board) | {Register.BIT_PERIOD: bit_period}).items():
         if not any(_kept(exchange, register, value) for _ in range(ATTEMPTS)):

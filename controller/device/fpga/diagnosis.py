@@ -25,20 +25,7 @@ EARLY = "bits are lost at the start: an SPI mode other than 0, or ringing on SCK
 
 
 def diagnose(received: bytes, sent: bytes) -> str:
-    """Explain why an answer is no valid status.
-
-    Parameters
-    ----------
-    received : bytes
-        The answer to one frame.
-    sent : bytes
-        That frame.
-
-    Returns
-    -------
-    str
-        One line: what came back, the likely cause, what to do.
-    """
+    """Explain in one line why the answer to one frame is no valid status: what came back, the likely cause, what to do."""
     answer, frame = bytes(received[:STATUS_BYTES]), bytes(sent[:STATUS_BYTES])
     if not answer.strip(b"\0"):
         return "only zeros came back: is the FPGA powered and configured, is MISO wired, or is it held low?"

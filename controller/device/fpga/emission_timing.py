@@ -6,15 +6,10 @@ from controller.device.board.board import Board
 
 
 class EmissionTiming:
-    """Lengths of emissions and of their periods at the bit period in use.
-
-    Attributes
-    ----------
-    bit_period : int
-        Time for which one drive word is held, in 65536ths of an FPGA clock; the board's at first.
-    """
+    """Lengths of emissions and of their periods at the bit period in use."""
 
     def __init__(self, board: Board) -> None:
+        # Time for which one drive word is held, in 65536ths of an FPGA clock; the board's at first
         self.bit_period = board.bit_period
         self._board = board
         self._period_s, self._period_of, self._period = 0.0, 0, 0  # the last period asked for, its bit period, its clocks
@@ -31,10 +26,7 @@ class EmissionTiming:
     def period_ticks(self, period_s: float) -> int:
         """FPGA clocks from emission to emission.
 
-        Parameters
-        ----------
-        period_s : float
-            As long as an emission at the board's bit clock means without a pause, also at any other bit clock.
+        A period as long as an emission at the board's bit clock means without a pause, also at any other bit clock.
         """
         if period_s != self._period_s or self._period_of != self.bit_period:
             self._period_s, self._period_of, self._period = period_s, self.bit_period, self._rounded(period_s)

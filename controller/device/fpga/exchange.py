@@ -25,17 +25,11 @@ DAMAGED = frozenset({Result.BAD_SYNC, Result.BAD_LENGTH, Result.BAD_CRC, Result.
 
 
 class Refused(LinkError):
-    """The FPGA received a command and refused it; its state is unchanged.
-
-    Attributes
-    ----------
-    result : Result
-        The reason.
-    """
+    """The FPGA received a command and refused it; its state is unchanged."""
 
     def __init__(self, result: Result) -> None:
         super().__init__(f"the FPGA refused: {result.sentence}")
-        self.result = result
+        self.result = result  # the reason
 
 
 class OutOfStep(LinkError):
@@ -56,78 +50,34 @@ class FpgaReset(LinkError):
 class Exchange:
     """Sends messages of frames over a link and checks the answers.
 
-    Parameters
-    ----------
-    now_s : callable
-        The loop's clock.
-    heartbeat_interval_s : float
-        A heartbeat is due this long after the last message.
-
-    Attributes
-    ----------
-    sent : memoryview of bytes
-        Send buffer: pack the frames of a message here, back to back from 0 on.
-    received : memoryview of bytes
-        Receive buffer: the answer to each frame, at the frame's offset.
-    sequence : int
-        Sequence number for the first frame of the next message.
-    heartbeat_due_s : float
-        When the next heartbeat is due, on the loop's clock.
+    A heartbeat is due `heartbeat_interval_s` after the last message, on the loop's clock.
     """
 
     def __init__(self, link: Link, now_s: Callable[[], float], heartbeat_interval_s: float) -> None:
         size = UPLOAD_BYTES + COMMANDS * FRAME_BYTES
-        self.sent = memoryview(bytearray(size))
-        self.sequence = 0
-        self.heartbeat_due_s = now_s()
-        self.received = memoryview(bytearray(size))
+        self.sent = memoryview(bytearray(size))  # send buffer: pack the frames of a message here, back to back from 0 on
+        self.sequence = 0  # sequence number for the first frame of the next message
+        self.heartbeat_due_s = now_s()  # when the next heartbeat is due, on the loop's clock
+        self.received = memoryview(bytearray(size))  # receive buffer: the answer to each frame, at the frame's offset
         self._link = link
         self._now_s = now_s
         self._heartbeat_interval_s = heartbeat_interval_s
 
     def send(self, lengths: Sequence[int], *, raise_faults: bool = True) -> Status:
-        """Send the frames packed in `sent` and check every answer.
+        """Send the frames packed in `sent`, of these lengths in bytes, and check every answer.
 
-        Parameters
-        ----------
-        lengths : sequence of int
-            Bytes of each frame.
-        raise_faults : bool
-            Whether a latched fault is an error.
-
-        Returns
-        -------
-        Status
-            The last answer, which reports the result of the last frame but one.
-
-        Raises
-        ------
-        HostSilent, FaultError
-            If a fault is latched.
-        Refused
-            With the first result that is not OK.
-        DamagedStatus
-            If an answer is no valid status, with a diagnosis of the wires.
-        LinkError
-            If a frame or an answer was damaged or lost.
+        Returns the last one, which reports the result of the last frame but one. A latched fault is an error if `raise_faults`.
+        Raises HostSilent or FaultError if a fault is latched; Refused with the first result that is not OK; DamagedStatus if an
+        answer is no valid status, with a diagnosis of the wires; LinkError if a frame or an answer was damaged or lost.
         """
         return self._check(lengths, self._exchange(lengths), raise_faults=raise_faults)
 
     def deliver(self, lengths: Sequence[int], loads: int = 0) -> int:
         """Send the frames packed in `sent`, of whose statuses only few fields are needed; raises as `send`.
 
-        Parameters
-        ----------
-        lengths : sequence of int
-            Bytes of each frame.
-        loads : int
-            This many frames at the beginning are LOADs before their STORE, which succeeds only if everything that it stores
-            arrived intact: their answers are not checked if all after them are good. All frames after them are short.
-
-        Returns
-        -------
-        int
-            Where the last answer begins in `received`.
+        The first `loads` frames are LOADs before their STORE, which succeeds only if everything that it stores arrived intact:
+        their answers are not checked if all after them are good. All frames after them are short. Returns where the last answer
+        begins in `received`.
         """
         sequence = self._exchange(lengths)
         start, count = sum(lengths[: loads + 1]), len(lengths) - loads - 1
@@ -145,25 +95,10 @@ class Exchange:
         return self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1), raise_faults=raise_faults)
 
     def retry(self, send: Callable[[], T], *, then_stop: bool = True) -> T:
-        """Send a message up to three times, until no frame and no answer of it is damaged.
+        """Pack and send a message up to three times, until no frame and no answer of it is damaged; returns what `send` returned.
 
-        Parameters
-        ----------
-        send : callable
-            Packs and sends the message.
-        then_stop : bool
-            Send STOP after the last failure, since something of the message may be left to play.
-
-        Returns
-        -------
-        What `send` returned.
-
-        Raises
-        ------
-        Refused, FaultError
-            At once, as `send` raises it.
-        LinkError
-            After the last attempt.
+        If `then_stop`, STOP follows the last failure, since something of the message may be left to play. Raises Refused or
+        FaultError at once, as `send` raises it; LinkError after the last attempt.
         """
         for _ in range(ATTEMPTS - 1):
             try:

@@ -54,52 +54,25 @@ ReadableBuffer = bytes | bytearray | memoryview
 
 
 class Play(NamedTuple):
-    """What a PLAY asks for, in the order of its fields.
+    """What a PLAY asks for, in the order of its fields."""
 
-    Attributes
-    ----------
-    slot : int
-        Slot number; or PLAY_LANDING: the waveform that is still being uploaded, from its first word.
-    first, length : int
-        First word and number of words to play; length 0: to the end of the waveform.
-    emissions : int
-        At most 65535; 0: endless.
-    start : Start
-        At the next trigger, as soon as nothing plays, or at a time.
-    inverted : bool
-        Invert every drive bit.
-    period_ticks : int
-        FPGA clocks from the start of an emission to the start of the next.
-    mask : int
-        Bit q set: channel q plays; the others keep their idle level.
-    when_ticks : int
-        For Start.TIME: FPGA time at which the first word is on the pins; otherwise a delay after the start, in FPGA clocks.
-    """
-
-    slot: int
-    first: int = 0
+    slot: int  # slot number; or PLAY_LANDING: the waveform that is still being uploaded, from its first word
+    first: int = 0  # first, length: first word and number of words to play; length 0: to the end of the waveform
     length: int = 0
-    emissions: int = 1
-    start: Start = Start.TRIGGER
-    inverted: bool = False
-    period_ticks: int = 0
-    mask: int = ALL_CHANNELS
+    emissions: int = 1  # at most 65535; 0: endless
+    start: Start = Start.TRIGGER  # at the next trigger, as soon as nothing plays, or at a time
+    inverted: bool = False  # invert every drive bit
+    period_ticks: int = 0  # FPGA clocks from the start of an emission to the start of the next
+    mask: int = ALL_CHANNELS  # bit q set: channel q plays; the others keep their idle level
+    # For Start.TIME: FPGA time at which the first word is on the pins; otherwise a delay after the start, in FPGA clocks
     when_ticks: int = 0
 
 
 class ReadyFrames(NamedTuple):
-    """A waveform as a bank holds it.
+    """A waveform as a bank holds it."""
 
-    Attributes
-    ----------
-    frames : memoryview of bytes
-        Its LOAD frames, numbered from 0 on.
-    crc : int
-        CRC-32 that its words must have.
-    """
-
-    frames: memoryview
-    crc: int
+    frames: memoryview  # its LOAD frames, numbered from 0 on
+    crc: int  # CRC-32 that its words must have
 
 
 Waveform = memoryview | ReadyFrames
@@ -109,15 +82,7 @@ Waveform = memoryview | ReadyFrames
 def upload_slices(length_words: int) -> tuple[slice, ...]:
     """Byte ranges of the LOAD frames of a waveform that lie back to back from 0 on; each is one chip-select assertion.
 
-    Parameters
-    ----------
-    length_words : int
-        Drive words of the waveform, 1 to 1000.
-
-    Raises
-    ------
-    ValueError
-        If no waveform has this length.
+    Raises ValueError if no waveform has this length.
     """
     if not 1 <= length_words <= WAVEFORM_WORDS:
         raise ValueError(f"a waveform has 1 to {WAVEFORM_WORDS} words, not {length_words}")
@@ -131,15 +96,7 @@ def upload_slices(length_words: int) -> tuple[slice, ...]:
 
 
 def pack_short(buffer: WritableBuffer, offset: int, kind: FrameType, sequence: int, argument: int, *words: int) -> int:
-    """Pack a short frame.
-
-    Parameters
-    ----------
-    argument : int
-        u16, its meaning depends on `kind`.
-    *words : int
-        Up to 6 payload words of 32 bits; the others are 0.
-    """
+    """Pack a short frame of up to 6 payload words of 32 bits, the others 0; what `argument` (u16) means depends on `kind`."""
     SHORT.pack_into(buffer, offset, FRAME_SYNC, kind, sequence & 0xFF, SHORT_PAYLOAD_BYTES, argument, *words, *_ZEROS[len(words)])
     return seal(buffer, offset, offset + SHORT.size)
 
@@ -175,12 +132,7 @@ def pack_control(buffer: WritableBuffer, offset: int, sequence: int, command: Co
 def pack_store(buffer: WritableBuffer, offset: int, sequence: int, slot: int, length_words: int, crc: int) -> int:
     """Pack a STORE: the chunks loaded before become the waveform of a slot.
 
-    Parameters
-    ----------
-    length_words : int
-        Drive words of the waveform.
-    crc : int
-        CRC-32 of their bytes; a slot whose content has another one cannot be played.
+    `crc` is the CRC-32 of their bytes; a slot whose content has another one cannot be played.
     """
     return pack_short(buffer, offset, FrameType.STORE, sequence, slot, length_words, crc)
 
@@ -203,12 +155,7 @@ def pack_test(buffer: WritableBuffer, offset: int, sequence: int, payload: Reada
 def pack_load(buffer: WritableBuffer, offset: int, sequence: int, chunk: int, words: memoryview) -> int:
     """Pack a LOAD: one chunk of a waveform, padded with zeros to the shortest payload allowed.
 
-    Parameters
-    ----------
-    chunk : int
-        0 to 7.
-    words : memoryview of bytes
-        Drive words of 4 bytes, at most 500 bytes.
+    `chunk` is 0 to 7; `words` are at most 500 bytes.
     """
     payload = offset + HEADER.size
     end = payload + words.nbytes

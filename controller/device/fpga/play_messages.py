@@ -27,51 +27,26 @@ CHECK_TICKS: Final = 8  # beyond one for each word, until the FPGA has checked w
 
 
 class Pattern:
-    """Short frames of a message, the LOADs before them, and where what differs from message to message belongs.
-
-    Attributes
-    ----------
-    part : slice
-        Where they lie in the send buffer.
-    blank : bytes
-        The frames, without those fields, numbers and CRCs.
-    number : int
-        How many they are.
-    play_at : int
-        Where the fields of the PLAY begin in the send buffer; 0: there is none.
-    lengths : tuple of int
-        Bytes of each frame of the message.
-    """
+    """Short frames of a message, the LOADs before them, and where what differs from message to message belongs."""
 
     __slots__ = ("blank", "lengths", "number", "part", "play_at")
 
     def __init__(self, part: slice, blank: bytes, number: int, play_at: int, lengths: tuple[int, ...]) -> None:
-        self.part: Final = part
-        self.blank: Final = blank
-        self.number: Final = number
-        self.play_at: Final = play_at
-        self.lengths: Final = lengths
+        self.part: Final = part  # where they lie in the send buffer
+        self.blank: Final = blank  # the frames, without those fields, numbers and CRCs
+        self.number: Final = number  # how many they are
+        self.play_at: Final = play_at  # where the fields of the PLAY begin in the send buffer; 0: there is none
+        self.lengths: Final = lengths  # bytes of each frame of the message
 
 
 class PlayMessages:
-    """Packs the messages of uploads and plays.
-
-    Parameters
-    ----------
-    sent : memoryview of bytes
-        The send buffer, in which every message begins at 0.
-
-    Attributes
-    ----------
-    loads : int
-        LOAD frames at the beginning of a message with an upload.
-    """
+    """Packs the messages of uploads and plays into the send buffer, in which every message begins at 0."""
 
     def __init__(self, sent: memoryview, board: Board) -> None:
         self._sent = sent
         self._samples = samples = board.waveform.samples
         pieces = frames.upload_slices(samples)
-        self.loads = len(pieces)
+        self.loads = len(pieces)  # LOAD frames at the beginning of a message with an upload
         self._loads_bytes: int = pieces[-1].stop
         loads = tuple(piece.stop - piece.start for piece in pieces)
         frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
@@ -92,12 +67,7 @@ class PlayMessages:
     def play(self, sequence: int, play: Play, *, stop: bool) -> tuple[int, ...]:
         """Pack the play of a resident waveform; returns the length of each frame in bytes.
 
-        Parameters
-        ----------
-        sequence : int
-            Of the first frame.
-        stop : bool
-            Put a STOP first.
+        `sequence` is that of the first frame; with `stop` a STOP comes first.
         """
         sent, pattern = self._sent, self._plays[stop]
         sent[pattern.part] = pattern.blank
@@ -108,17 +78,8 @@ class PlayMessages:
     def upload(self, sequence: int, slot: int, waveform: Waveform) -> tuple[int, ...]:
         """Pack an upload into a slot, with NOPs until its check is done; returns the length of each frame in bytes.
 
-        Parameters
-        ----------
-        sequence : int
-            Of the first frame.
-        waveform : memoryview of bytes, or ReadyFrames
-            Drive words, 4 bytes for each sample; or the frames that carry them.
-
-        Raises
-        ------
-        ValueError
-            If the waveform is not as long as the board's.
+        `sequence` is that of the first frame; the waveform is drive words, 4 bytes for each sample, or the frames that carry them.
+        Raises ValueError if the waveform is not as long as the board's.
         """
         sent, pattern = self._sent, self._upload
         crc = self._pack_loads(sequence, waveform)
@@ -130,19 +91,7 @@ class PlayMessages:
     def upload_and_play(self, sequence: int, play: Play, waveform: Waveform, *, stop: bool) -> tuple[int, ...]:
         """Pack an upload into the slot of a play, and that play; returns the length of each frame in bytes.
 
-        Parameters
-        ----------
-        sequence : int
-            Of the first frame.
-        waveform
-            As in `upload`.
-        stop : bool
-            Put a STOP before the PLAY.
-
-        Raises
-        ------
-        ValueError
-            As `upload`.
+        With `stop` a STOP comes before the PLAY. Raises ValueError as `upload`.
         """
         sent, pattern = self._sent, self._uploads_and_plays[stop]
         crc = self._pack_loads(sequence, waveform)

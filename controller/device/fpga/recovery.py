@@ -41,13 +41,7 @@ class Action(Enum):
 
 
 def action_for(error: ControllerError) -> Action:
-    """What to do after an error of the link or the FPGA.
-
-    Returns
-    -------
-    Action
-        By the table of this module.
-    """
+    """What to do after an error of the link or the FPGA, by the table of this module."""
     if isinstance(error, FaultError):
         faults = Fault(error.faults)
         if not faults or faults & ~(PERMIT_FAULTS | Fault.HOST_SILENT):
@@ -77,35 +71,15 @@ def panel_state_after(error: ControllerError) -> PanelState:
 
 
 class Recovery:
-    """Brings the FPGA to armed: call `step` whenever `next_s` has come, until it returns True; after a failure call `begin`.
-
-    Parameters
-    ----------
-    session : Supervision
-        Need not be brought up.
-
-    Attributes
-    ----------
-    next_s : float
-        When to call `step`, on the loop's clock.
-    wanted : bool
-        Whether to arm; otherwise the steps stop before ARM and only send heartbeats.
-    unwanted_cause : str
-        Why not to arm.
-    state : PanelState
-        Newest state; while the outputs ramp up, the one before.
-    cause : str
-        Newest reason for the outputs being off, for the user; empty before the first step.
-    off_by_s : float
-        When the FPGA has switched off by itself at the latest, whatever became of what was sent: after an error.
-    """
+    """Brings the FPGA to armed: call `step` whenever `next_s` has come, until it returns True; after a failure call `begin`."""
 
     def __init__(self, session: Supervision, board: Board) -> None:
-        self.next_s = -math.inf
-        self.wanted = True
-        self.unwanted_cause = ""
-        self.state = PanelState.WAITING_FOR_FPGA
-        self.cause = ""
+        self.next_s = -math.inf  # when to call `step`, on the loop's clock
+        self.wanted = True  # whether to arm; otherwise the steps stop before ARM and only send heartbeats
+        self.unwanted_cause = ""  # why not to arm
+        self.state = PanelState.WAITING_FOR_FPGA  # newest state; while the outputs ramp up, the one before
+        self.cause = ""  # newest reason for the outputs being off, for the user; empty before the first step
+        # When the FPGA has switched off by itself at the latest, whatever became of what was sent: after an error
         self.off_by_s = math.inf
         self._session = session
         self._safe_s = (board.limits.heartbeat_timeout_ms + board.limits.ramp_ms) * 1e-3
@@ -121,20 +95,7 @@ class Recovery:
         return self._armed_s is not None
 
     def begin(self, error: ControllerError, now_s: float) -> None:
-        """Switch the outputs off and schedule the first retry.
-
-        Parameters
-        ----------
-        error : ControllerError
-            What failed.
-        now_s : float
-            Time on the loop's clock.
-
-        Raises
-        ------
-        ControllerError
-            `error` itself, if the rule is to fail.
-        """
+        """Switch the outputs off and schedule the first retry; raises `error` itself if the rule is to fail."""
         self._session.off()
         self._pause_s = self._safe_s
         self._fail(error, now_s)
@@ -157,22 +118,9 @@ class Recovery:
         self._known = False
 
     def step(self, now_s: float) -> bool:
-        """Do the next step.
+        """Do the next step; True once the outputs are at their idle levels: consider all slots empty then.
 
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock.
-
-        Returns
-        -------
-        bool
-            True once the outputs are at their idle levels; consider all slots empty then.
-
-        Raises
-        ------
-        ControllerError
-            If an error occurs for which the rule is to fail.
+        Raises ControllerError if an error occurs for which the rule is to fail.
         """
         try:
             return self._next(now_s)

@@ -81,27 +81,14 @@ _ACCESS = {Kind.COMMAND: "WO", Kind.SETTING: "RW", Kind.MASK: "RW"}
 
 @unique
 class Register(IntEnum):
-    """Addresses of the 32-bit registers, each with its record: address, kind, bits, text, reset, low, high.
+    """Addresses of the 32-bit registers, each with its record: address, kind, bits, text, reset, low, high."""
 
-    Attributes
-    ----------
-    kind : Kind
-        Where its value comes from.
-    bits : int
-        Number of bits that are used, from bit 0 on.
-    text : str
-        What it is, without a vertical bar.
-    reset : int or str
-        Value after reset; as a name: the constant, or the parameter of the Verilog, that gives it.
-    low, high : int or str
-        Smallest and largest value of a setting, or the name of a constant, a parameter, or a signal of register_file.v.
-        `high` is None where every value of that many bits is allowed.
-    """
-
-    kind: Kind
-    bits: int
-    text: str
-    reset: int | str
+    kind: Kind  # where its value comes from
+    bits: int  # number of bits that are used, from bit 0 on
+    text: str  # what it is, without a vertical bar
+    reset: int | str  # value after reset; as a name: the constant, or the parameter of the Verilog, that gives it
+    # low, high: smallest and largest value of a setting, or the name of a constant, a parameter, or a signal of
+    # register_file.v. `high` is None where every value of that many bits is allowed
     low: int | str
     high: int | str | None
 

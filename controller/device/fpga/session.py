@@ -42,66 +42,31 @@ def _nobody(*, repeats: bool) -> None:
 class Session(Supervision):
     """Uploads and plays waveforms on one FPGA.
 
-    Parameters
-    ----------
-    link, board, build_hash, now_s, bring_up
-        As in `Supervision`.
-
-    Attributes
-    ----------
-    belief : Belief
-        What waits and plays in the FPGA.
-    counters : LinkCounters
-        Counts what differs from it.
-    never_began : NeverBegan
-        Called when an emission that this host had started is found not to have begun; `repeats`: the FPGA repeats one by itself.
-
-    Raises
-    ------
-    LinkError
-        If the FPGA does not answer, or is not the one that board and gateware call for.
+    Raises LinkError if the FPGA does not answer, or is not the one that board and gateware call for.
     """
 
     def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True) -> None:
-        self.belief = Belief()
-        self.counters = LinkCounters()
+        self.belief = Belief()  # what waits and plays in the FPGA
+        self.counters = LinkCounters()  # counts what differs from it
+        # Called when an emission that this host had started is found not to have begun; `repeats`: the FPGA repeats one by
+        # itself
         self.never_began: NeverBegan = _nobody
         super().__init__(link, board, build_hash, now_s, bring_up=bring_up)
         self._messages = PlayMessages(self._sent, board)
 
     def play(self, play: Play, *, stop: bool) -> None:
-        """Queue the play of a resident waveform.
+        """Queue the play of a resident waveform; with `stop` it ends a running repetition first.
 
-        Parameters
-        ----------
-        stop : bool
-            End a running repetition first.
-
-        Raises
-        ------
-        Refused
-            If the FPGA cannot play it.
-        FpgaReset
-            If it was reset, and the waveform is lost.
-        LinkError
-            If every attempt was damaged; nothing is left to play then.
+        Raises Refused if the FPGA cannot play it. Raises FpgaReset if it was reset, and the waveform is lost. Raises LinkError if
+        every attempt was damaged; nothing is left to play then.
         """
         self._send(play, None, stop=stop)
 
     def upload(self, slot: int, waveform: Waveform) -> None:
         """Send drive words and store them as a slot's waveform, without playing it.
 
-        Parameters
-        ----------
-        waveform : memoryview of bytes, or ReadyFrames
-            Drive words, 4 bytes for each sample; or the frames that carry them.
-
-        Raises
-        ------
-        Refused
-            If the FPGA cannot store it.
-        LinkError
-            If every attempt was damaged.
+        The waveform is drive words, 4 bytes for each sample, or the frames that carry them. Raises Refused if the FPGA cannot store
+        it; LinkError if every attempt was damaged.
         """
 
         def send() -> None:
@@ -116,32 +81,13 @@ class Session(Supervision):
         The words are copied once, into the frames. If no copy of a message was taken, the next one may be too late for
         `play.when_ticks`: it is refused then, with the waveform stored.
 
-        Parameters
-        ----------
-        waveform
-            As in `upload`.
-        stop : bool
-            End a running repetition first.
-
-        Raises
-        ------
-        Refused
-            If the FPGA cannot store or play it.
-        FpgaReset
-            If it was reset.
-        LinkError
-            If every attempt was damaged; nothing is left to play then.
+        With `stop` a running repetition is ended first. Raises Refused if the FPGA cannot store or play it. Raises FpgaReset if it
+        was reset. Raises LinkError if every attempt was damaged; nothing is left to play then.
         """
         self._send(play, waveform, stop=stop)
 
     def stop(self) -> None:
-        """End a repetition after its current emission, and empty the queue.
-
-        Raises
-        ------
-        LinkError
-            If every attempt was damaged.
-        """
+        """End a repetition after its current emission, and empty the queue; raises LinkError if every attempt was damaged."""
         status = self.exchange.control(Control.STOP)
         self.counters.emissions_lost += self.belief.stopped(status.timestamp_ticks)
 
@@ -171,10 +117,7 @@ class Session(Supervision):
     def heartbeat(self) -> Status:
         """As `Supervision.heartbeat`; what the FPGA has in its queue, and has begun, is compared with what this host believes.
 
-        Raises
-        ------
-        OutOfStep
-            If plays wait that this host had not accepted, beside those that it had.
+        Raises OutOfStep if plays wait that this host had not accepted, beside those that it had.
         """
         status = super().heartbeat()
         belief, ticks = self.belief, status.timestamp_ticks
@@ -202,20 +145,8 @@ class Session(Supervision):
     def set_bit_period(self, scale: float) -> bool:
         """Scale the bit clock, for example for the plate's temperature; kept over `bring_up`.
 
-        Parameters
-        ----------
-        scale : float
-            Factor of the board's bit clock; above 1 plays faster.
-
-        Returns
-        -------
-        bool
-            False if something plays or is queued: try again later.
-
-        Raises
-        ------
-        Refused
-            If the FPGA does not allow this rate.
+        A `scale` above 1 plays faster than the board's bit clock. Returns False if something plays or is queued: try again later.
+        Raises Refused if the FPGA does not allow this rate.
         """
         period = self.timing.scaled_bit_period(scale)
         if period == self.bit_period:
@@ -296,15 +227,8 @@ class Session(Supervision):
     def _first_copy(self, play: Play, waveform: Waveform | None, *, stopped: bool) -> tuple[bool, bool]:
         """Ask what became of a message of which a frame or an answer was damaged.
 
-        Returns
-        -------
-        stored, taken : bool
-            Whether the waveform is in its slot, and whether the play was accepted; nothing of it waits in the queue if not.
-
-        Raises
-        ------
-        LinkError
-            If the FPGA cannot be asked.
+        Returns whether the waveform is in its slot, and whether the play was accepted; nothing of it waits in the queue if not.
+        Raises LinkError if the FPGA cannot be asked.
         """
         address = Register.EMISSION_TIME_LOW if waveform is None else READ_SLOT_CRC + play.slot
         try:

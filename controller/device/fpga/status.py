@@ -52,19 +52,8 @@ def pack_status(buffer: WritableBuffer, offset: int, status: Status) -> int:
 def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
     """Read the status at `offset`.
 
-    Parameters
-    ----------
-    buffer : bytes-like
-        What came back with a frame.
-    offset : int
-        Where the answer to that frame begins.
-
-    Raises
-    ------
-    DamagedStatus
-        If the sync word or the CRC is wrong.
-    LinkError
-        If its result code is unknown to this version.
+    `buffer` is what came back with frames; the answer to this one begins at `offset`. Raises DamagedStatus if the sync word or the
+    CRC is wrong; LinkError if its result code is unknown to this version.
     """
     result, sequence, state, faults, *counters = _checked(buffer, offset)
     code = _RESULTS.get(result)

@@ -31,54 +31,26 @@ class StillOn(LinkError):
 class Supervision:
     """Supervises one FPGA, from the check of its identity until its outputs are off.
 
-    Parameters
-    ----------
-    link : Link
-        Open link.
-    board : Board
-        Settings to give the FPGA: idle levels, bit clock, ramp, heartbeat timeout.
-    build_hash : int
-        Hash of the gateware that this host was made for.
-    now_s : callable
-        The loop's clock.
-    bring_up : bool
-        Call `bring_up` at once; otherwise call it before anything else.
-
-    Attributes
-    ----------
-    link : Link
-        As given.
-    exchange : Exchange
-        Messages over the link, for reading and writing registers.
-    timing : EmissionTiming
-        Lengths of emissions and periods at the bit period in use.
-    ramp_end_s : float
-        When the last ramp up or down ends, on the loop's clock.
-    may_be_on : bool
-        An ARM was sent since a status last said that the high voltage is off, or that a fault has switched it off.
-    loader : BitstreamLoader or None
-        Loads an FPGA that has another gateware; None: it is refused.
-
-    Raises
-    ------
-    LinkError
-        If the FPGA does not answer, or is not the one that board and gateware call for.
+    `build_hash` is that of the gateware that this host was made for. Without `bring_up` at once, call `bring_up` before anything
+    else. Raises LinkError if the FPGA does not answer, or is not the one that board and gateware call for.
     """
 
     def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True) -> None:
+        # Messages over the link, for reading and writing registers
         self.exchange = Exchange(link, now_s, board.limits.heartbeat_timeout_ms * 1e-3 / HEARTBEATS_PER_TIMEOUT)
         self._sent = self.exchange.sent
-        self.link = link
+        self.link = link  # as given
         self._board = board
         self._build_hash = build_hash
         self._now_s = now_s
+        # An ARM was sent since a status last said that the high voltage is off, or that a fault has switched it off
         self.may_be_on = False
         self._armed = False  # the FPGA accepted ARM, and no DISARM was sent since
         self._heartbeat_s = math.inf  # end of the last heartbeat
         self._heartbeat_ticks = 0  # FPGA time in its status
-        self.timing = EmissionTiming(board)
-        self.ramp_end_s = -math.inf
-        self.loader: BitstreamLoader | None = None
+        self.timing = EmissionTiming(board)  # lengths of emissions and periods at the bit period in use
+        self.ramp_end_s = -math.inf  # when the last ramp up or down ends, on the loop's clock
+        self.loader: BitstreamLoader | None = None  # loads an FPGA that has another gateware; None: it is refused
         if bring_up:
             self.bring_up()
 
@@ -87,14 +59,9 @@ class Supervision:
 
         Called at the start, and again whenever the FPGA may have been reset; its slots may be empty then. `arm` comes next.
 
-        Raises
-        ------
-        IncompatibleFpga
-            If its identity, gateware or limits are others and cannot be loaded, or it refuses a setting.
-        StillOn
-            If it is armed. If this host armed it, a DISARM was sent: call again after its ramp.
-        LinkError
-            If it does not answer, or is being loaded.
+        Raises IncompatibleFpga if its identity, gateware or limits are others and cannot be loaded, or it refuses a setting. Raises
+        StillOn if it is armed. If this host armed it, a DISARM was sent: call again after its ramp. Raises LinkError if it does not
+        answer, or is being loaded.
         """
         self._armed = False
         self._heartbeat_s = math.inf  # its clock may have restarted
@@ -143,19 +110,9 @@ class Supervision:
     def arm(self) -> float:
         """Arm the outputs: the high voltage settles, then all channels ramp to their idle levels.
 
-        Returns
-        -------
-        float
-            When the ramp ends, on the loop's clock.
-
-        Raises
-        ------
-        Refused
-            If the FPGA refuses, for example without its run permit.
-        FpgaReset
-            If it was reset since the last heartbeat or bring-up: it would arm with other limits than the board's.
-        LinkError
-            If every attempt was damaged.
+        Returns when the ramp ends, on the loop's clock. Raises Refused if the FPGA refuses, for example without its run permit;
+        FpgaReset if it was reset since the last heartbeat or bring-up: it would arm with other limits than the board's; LinkError
+        if every attempt was damaged.
         """
         fresh = self.fresh
         self.heartbeat()
@@ -184,13 +141,7 @@ class Supervision:
         return self.ramp_end_s
 
     def require_armed(self) -> None:
-        """Check with a heartbeat that the FPGA is armed.
-
-        Raises
-        ------
-        LinkError
-            If it is not, with the state it reports.
-        """
+        """Check with a heartbeat that the FPGA is armed; raises LinkError if it is not, with the state it reports."""
         state = self.heartbeat().state
         if State.ARMED not in state:
             names = ", ".join(flag.name.lower().replace("_", " ") for flag in State if flag in state and flag.name)
@@ -199,15 +150,7 @@ class Supervision:
     def disarm(self) -> float:
         """Ramp all outputs to 0 V. They are off when a heartbeat has said so (`may_be_on`).
 
-        Returns
-        -------
-        float
-            When the ramp ends, on the loop's clock.
-
-        Raises
-        ------
-        LinkError
-            If every attempt was damaged.
+        Returns when the ramp ends, on the loop's clock. Raises LinkError if every attempt was damaged.
         """
         self._armed = False
         self.exchange.control(Control.DISARM)
@@ -230,14 +173,8 @@ class Supervision:
     def heartbeat(self) -> Status:
         """Send a heartbeat; returns the FPGA's status.
 
-        Raises
-        ------
-        HostSilent, FaultError
-            If the FPGA has switched off.
-        FpgaReset
-            If it was reset: its outputs are off without a fault, or its clock has not advanced as the host's has.
-        LinkError
-            If every attempt was damaged.
+        Raises HostSilent or FaultError if the FPGA has switched off; FpgaReset if it was reset: its outputs are off without a
+        fault, or its clock has not advanced as the host's has; LinkError if every attempt was damaged.
         """
         before_s = self._now_s()
         try:

@@ -11,6 +11,17 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.device.kernel.bank_twin import (
+    GROUP_SAMPLES,
+    MAX_BLOCK_SAMPLES,
+    MAX_FOCI,
+    MAX_SAMPLES,
+    PLAN,
+    REST_SAMPLES,
+    BankBuffers,
+    Point,
+    room_bytes,
+)
 from controller.device.kernel.null_twin import MAX_NULLS, null_places
 from controller.device.kernel.twin import (
     SHORT_FRAME_BYTES,
@@ -21,17 +32,7 @@ from controller.device.kernel.twin import (
     statuses_good,
     unpack_loads,
 )
-from controller.device.kernel.words_twin import (
-    GROUP_SAMPLES,
-    MAX_BLOCK_SAMPLES,
-    MAX_FOCI,
-    MAX_SAMPLES,
-    PLAN,
-    REST_SAMPLES,
-    Point,
-    compose,
-    room_bytes,
-)
+from controller.device.kernel.words_twin import compose
 from controller.errors import UsageError
 
 __all__ = [
@@ -44,6 +45,7 @@ __all__ = [
     "PLAN",
     "REST_SAMPLES",
     "SHORT_FRAME_BYTES",
+    "BankBuffers",
     "Point",
     "compose",
     "load_frames_bytes",

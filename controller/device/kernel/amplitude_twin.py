@@ -44,14 +44,8 @@ class Solution:
     The ratio of the weights sets the ratio of the displacements; the Euclidean norm of the weights sets how much is
     masked, since the displacements of independent points are proportional to their weights.
 
-    Parameters
-    ----------
-    asked : list of float
-        Amplitude of each point: the first weights.
-    divisors : list of float
-        Of the points' responses: the sums of their absolute values, with the points' polarities.
-    balance : list of float
-        Weights at full amplitude.
+    `asked`, the amplitude of each point, are the first weights; `divisors` are the sums of the absolute values of the points'
+    responses, with their polarities; `balance` are the weights at full amplitude.
     """
 
     def __init__(self, points: _Composition, asked: list[float], divisors: list[float], balance: list[float]) -> None:

@@ -47,12 +47,8 @@ class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Compile the extension; a wheel with it is for every CPython from 3.11 on, on one kind of machine.
 
-        Parameters
-        ----------
-        version : str
-            What hatchling makes of the package: "standard" or "editable".
-        build_data : dict
-            Hatchling's record of the wheel: files from elsewhere, and its tag.
+        `version` is what hatchling makes of the package, "standard" or "editable"; `build_data` is its record of the wheel: files
+        from elsewhere, and its tag.
         """
         if os.environ.get("HAPTIC_PANEL_WING", "") not in ("", "device"):
             self.app.abort("HAPTIC_PANEL_WING: device, or unset for the whole package")

@@ -705,7 +705,26 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
     work->threshold_of_one = (int16_t *)(work->threshold + work->blocks * CHANNELS);
 }
 
-enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS, POINTS = BUFFERS, COMPOSE_ARGUMENTS };
+enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS };
+enum { BANK = PLAN, POINTS, NULLS }; /* arguments: words, room, the bank's buffers as a tuple, points, nulls */
+
+/* Calls `use` with the buffers of the arguments, all of which it may read, and words and room it may write. */
+static PyObject *with_buffers(const char *name, PyObject *const *arguments, Py_ssize_t given, int wanted,
+                              PyObject *(*use)(const Py_buffer *, PyObject *const *)) {
+    Py_buffer buffer[BUFFERS];
+    PyObject *answer = NULL;
+    int taken = 0;
+    if (given != wanted) return PyErr_Format(PyExc_TypeError, "%s takes %d arguments, not %zd", name, wanted, given);
+    if (!PyTuple_Check(arguments[BANK]) || PyTuple_Size(arguments[BANK]) != BUFFERS - BANK)
+        return PyErr_Format(PyExc_TypeError, "a bank is a tuple of %d buffers", BUFFERS - BANK);
+    for (; taken < BUFFERS; taken++) {
+        PyObject *from = taken < BANK ? arguments[taken] : PyTuple_GetItem(arguments[BANK], taken - BANK);
+        if (PyObject_GetBuffer(from, buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) break;
+    }
+    if (taken == BUFFERS) answer = use(buffer, arguments);
+    while (taken--) PyBuffer_Release(buffer + taken);
+    return answer;
+}
 
 /* The bank in the buffers; 0 with an exception if they do not fit each other. */
 static int take_bank(const Py_buffer *buffer, struct bank *bank) {
@@ -739,7 +758,8 @@ static int has_room(const Py_buffer *buffer, int64_t samples) {
     return 0;
 }
 
-static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
+static PyObject *compose_in(const Py_buffer *buffer, PyObject *const *arguments) {
+    PyObject *points = arguments[POINTS];
     struct bank bank;
     struct work work;
     struct patch patches[MAX_FOCI];
@@ -766,15 +786,8 @@ static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
 }
 
 static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
-    Py_buffer buffer[BUFFERS];
-    PyObject *answer = NULL;
-    int taken = 0;
     (void)module;
-    if (given != COMPOSE_ARGUMENTS) return PyErr_Format(PyExc_TypeError, "compose takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS, given);
-    while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
-    if (taken == BUFFERS) answer = compose_in(buffer, arguments[POINTS]);
-    while (taken--) PyBuffer_Release(buffer + taken);
-    return answer;
+    return with_buffers("compose", arguments, given, NULLS, compose_in);
 }
 
 /* ---- words: places that stay still, numbers of null_twin.py ---- */
@@ -965,7 +978,8 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     }
 }
 
-static PyObject *null_places_in(Py_buffer *buffer, PyObject *points, PyObject *places) {
+static PyObject *null_places_in(const Py_buffer *buffer, PyObject *const *arguments) {
+    PyObject *points = arguments[POINTS], *places = arguments[NULLS];
     struct bank bank;
     struct work work;
     struct patch patches[MAX_FOCI + MAX_NULLS];
@@ -992,16 +1006,8 @@ static PyObject *null_places_in(Py_buffer *buffer, PyObject *points, PyObject *p
 }
 
 static PyObject *null_places(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
-    Py_buffer buffer[BUFFERS];
-    PyObject *answer = NULL;
-    int taken = 0;
     (void)module;
-    if (given != COMPOSE_ARGUMENTS + 1)
-        return PyErr_Format(PyExc_TypeError, "null_places takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS + 1, given);
-    while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
-    if (taken == BUFFERS) answer = null_places_in(buffer, arguments[POINTS], arguments[POINTS + 1]);
-    while (taken--) PyBuffer_Release(buffer + taken);
-    return answer;
+    return with_buffers("null_places", arguments, given, NULLS + 1, null_places_in);
 }
 
 /* ---- frames ---- */
@@ -1342,8 +1348,8 @@ static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize
 
 static PyMethodDef methods[] = {
     {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
-    {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, plan, entries, scales, good, response, points)"},
-    {"null_places", (PyCFunction)(void (*)(void))null_places, METH_FASTCALL, "null_places(words, room, plan, entries, scales, good, response, points, nulls)"},
+    {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, bank, points)"},
+    {"null_places", (PyCFunction)(void (*)(void))null_places, METH_FASTCALL, "null_places(words, room, bank, points, nulls)"},
     {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
     {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},
     {"unpack_loads", (PyCFunction)(void (*)(void))unpack_loads, METH_FASTCALL, "unpack_loads(words, ready)"},

@@ -23,19 +23,19 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.kernel.polarity_twin import SKETCH_SHIFT
-from controller.device.kernel.words_twin import (
+from controller.device.kernel.bank_twin import (
     CHANNELS,
     MAX_FOCI,
     REST_SAMPLES,
-    STRENGTH_SHIFT,
+    BankBuffers,
     Patch,
     Point,
-    Readable,
+    Responses,
     Writable,
-    _checked_words,
-    _Responses,
+    checked_words,
 )
+from controller.device.kernel.polarity_twin import SKETCH_SHIFT
+from controller.device.kernel.words_twin import STRENGTH_SHIFT
 
 Numbers = NDArray[Any]
 
@@ -53,50 +53,28 @@ PI: Final = 3.141592653589793
 
 
 def null_places(
-    words: Writable,
-    room: Writable,
-    plan: Readable,
-    entries: Readable,
-    scales: Readable,
-    good: Readable,
-    response: Readable,
-    points: Sequence[Point],
-    nulls: Sequence[Point],
+    words: Writable,  # drive words for `points`; changed in place
+    room: Writable,  # room, bank: as `compose` takes them
+    bank: BankBuffers,
+    points: Sequence[Point],  # each (x_m, y_m, amplitude): what the words were made for; amplitudes are not used
+    nulls: Sequence[Point],  # each (x_m, y_m, amplitude): 1 to `MAX_NULLS` nulls; amplitudes are not used
 ) -> int:
     """Change drive words so that some places stay still near T.
 
-    Parameters
-    ----------
-    words : writable buffer
-        Drive words for `points`; changed in place.
-    room, plan, entries, scales, good, response
-        As `compose` takes them.
-    points : sequence of (x_m, y_m, amplitude)
-        What the words were made for; amplitudes are not used.
-    nulls : sequence of (x_m, y_m, amplitude)
-        1 to `MAX_NULLS` nulls; amplitudes are not used.
-
-    Returns
-    -------
-    int
-        -1: done. Otherwise a cell that is needed, which has no response or one that may not be used; nothing was changed.
-
-    Raises
-    ------
-    ValueError
-        If there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers too
-        short for them.
+    Returns -1 when done; otherwise a cell that is needed, which has no response or one that may not be used: nothing was changed.
+    Raises ValueError if there are no points or places or too many, or numbers that are not finite or beyond their range, or buffers
+    too short for them.
     """
-    bank = _Responses(plan, entries, scales, good, response)
+    responses = Responses(bank)
     if not (1 <= len(points) <= MAX_FOCI and 1 <= len(nulls) <= MAX_NULLS):
         raise ValueError(f"{len(points)} points, not 1 to {MAX_FOCI}, and {len(nulls)} nulls, not 1 to {MAX_NULLS}")
-    filled, patches = _checked_words(bank, words, room, [*points, *nulls]), []
+    filled, patches = checked_words(responses, words, room, [*points, *nulls]), []
     for x_m, y_m, _ in (*points, *nulls):
-        patch, cell = bank.patch(x_m, y_m)
+        patch, cell = responses.patch(x_m, y_m)
         if cell >= 0:
             return cell
         patches.append(patch)
-    _Nulls(bank, filled, patches, len(points)).keep_still()
+    _Nulls(responses, filled, patches, len(points)).keep_still()
     return -1
 
 
@@ -117,7 +95,7 @@ class _Met:
 class _Nulls:
     """The bits of drive words, their margins, and the places to be kept still."""
 
-    def __init__(self, bank: _Responses, words: memoryview, patches: list[Patch], points: int) -> None:
+    def __init__(self, bank: Responses, words: memoryview, patches: list[Patch], points: int) -> None:
         self._samples, self._rows = bank.samples, -(-bank.samples // REST_SAMPLES)
         self._block, self._blocks = bank.block_samples, -(-bank.samples // bank.block_samples)
         self._step = max(bank.block_samples // STEPS_PER_BLOCK, 1)

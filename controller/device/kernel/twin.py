@@ -36,17 +36,9 @@ STATUS_HEAD: Final = struct.Struct(f"<I{FAULTS_AT - 4}xH")  # sync word, result 
 
 
 def load_frames_bytes(words_bytes: int) -> int:
-    """Bytes of the LOAD frames of a waveform.
+    """Bytes of the LOAD frames of a waveform, whose drive words are 4 to 4,000 bytes.
 
-    Parameters
-    ----------
-    words_bytes : int
-        Of its drive words: 4 to 4,000, a multiple of 4.
-
-    Raises
-    ------
-    ValueError
-        If no waveform has this length.
+    Raises ValueError if no waveform has this length.
     """
     if not 4 <= words_bytes <= CHUNKS * CHUNK_BYTES or words_bytes % 4:
         raise ValueError(f"a waveform has 4 to {CHUNKS * CHUNK_BYTES} bytes, a multiple of 4, not {words_bytes}")
@@ -55,26 +47,10 @@ def load_frames_bytes(words_bytes: int) -> int:
 
 
 def pack_loads(out: Writable, sequence: int, words: Readable) -> int:
-    """Pack drive words into LOAD frames.
+    """Pack drive words (4 to 4,000 bytes) into LOAD frames; returns the words' CRC-32, for their STORE.
 
-    Parameters
-    ----------
-    out : writable buffer of bytes
-        Its first `load_frames_bytes` are filled.
-    sequence : int
-        Sequence number of the first frame, taken modulo 256.
-    words : buffer of bytes
-        Drive words, 4 to 4,000 bytes.
-
-    Returns
-    -------
-    int
-        CRC-32 of the words, for their STORE.
-
-    Raises
-    ------
-    ValueError
-        If no waveform has this length, or `out` is too short.
+    The first `load_frames_bytes` of `out` are filled; the first frame's sequence number is taken modulo 256. Raises ValueError if
+    no waveform has this length, or `out` is too short.
     """
     given = memoryview(words)
     layout = _layout(given.nbytes)
@@ -94,19 +70,9 @@ def renumber_loads(out: Writable, sequence: int, ready: Readable) -> None:
     Headers are written, not copied, and payloads are not read: whatever the page holds, what goes out are LOAD frames of these
     chunks, and a page that has changed gives frames with a wrong CRC-32, which the FPGA refuses.
 
-    Parameters
-    ----------
-    out : writable buffer of bytes
-        As many as `ready` has are filled, from the first on. It must not overlap `ready`.
-    sequence : int
-        Sequence number of the first frame, taken modulo 256.
-    ready : buffer of bytes
-        LOAD frames numbered from 0 on, as `pack_loads` gives them.
-
-    Raises
-    ------
-    ValueError
-        If no waveform has frames of this length, or `out` is too short.
+    `ready` are LOAD frames numbered from 0 on, as `pack_loads` gives them; as many bytes of `out`, which must not overlap it, are
+    filled. The first frame's sequence number is taken modulo 256. Raises ValueError if no waveform has frames of this length, or
+    `out` is too short.
     """
     layout = _layout_of_frames(memoryview(ready).nbytes)
     filled = _room(out, layout.total)
@@ -120,22 +86,8 @@ def renumber_loads(out: Writable, sequence: int, ready: Readable) -> None:
 def unpack_loads(words: Writable, ready: Readable) -> int:
     """Take drive words out of ready frames, every byte of which is checked: the reverse of `pack_loads` with sequence number 0.
 
-    Parameters
-    ----------
-    words : writable buffer of bytes
-        Filled: 4 to 4,000 bytes.
-    ready : buffer of bytes
-        The `load_frames_bytes` of this many words.
-
-    Returns
-    -------
-    int
-        CRC-32 of the words.
-
-    Raises
-    ------
-    ValueError
-        If a frame is not as `pack_loads` makes it, with its number; or if the lengths do not go together.
+    4 to 4,000 bytes of `words` are filled from their `load_frames_bytes`. Returns the CRC-32 of the words. Raises ValueError if a
+    frame is not as `pack_loads` makes it, with its number; or if the lengths do not go together.
     """
     filled, given = memoryview(words), memoryview(ready)
     layout = _layout(filled.nbytes)
@@ -150,22 +102,9 @@ def unpack_loads(words: Writable, ready: Readable) -> int:
 
 
 def seal_short_frames(out: Writable, start: int, count: int, sequence: int) -> None:
-    """Write sequence numbers and CRCs into frames of 36 bytes that lie back to back.
+    """Write sequence numbers and CRCs into `count` frames of 36 bytes that lie back to back from `start` on.
 
-    Parameters
-    ----------
-    out : writable buffer of bytes
-    start : int
-        Where the first frame begins.
-    count : int
-        Number of frames.
-    sequence : int
-        Sequence number of the first one, taken modulo 256.
-
-    Raises
-    ------
-    ValueError
-        If they are not all within `out`.
+    The first one's sequence number is taken modulo 256. Raises ValueError if they are not all within `out`.
     """
     filled = memoryview(out)
     if start < 0 or count < 0 or start + count * SHORT_FRAME_BYTES > filled.nbytes:
@@ -180,21 +119,8 @@ def seal_short_frames(out: Writable, start: int, count: int, sequence: int) -> N
 def statuses_good(answers: Readable, start: int, count: int, head: int, sequence: int) -> bool:
     """Whether statuses that lie back to back are intact, say the same result, name one frame after the other, and no fault.
 
-    Parameters
-    ----------
-    start : int
-        Where the first status begins.
-    count : int
-        Number of statuses.
-    head : int
-        Sync word and result, as the first three bytes of a status have them.
-    sequence : int
-        Sequence number that the first one names, taken modulo 256; each further one is the next.
-
-    Raises
-    ------
-    ValueError
-        If they are not all within `answers`.
+    `head` is sync word and result, as the first three bytes of a status have them. The first status names `sequence`, taken modulo
+    256; each further one the next. Raises ValueError if they are not all within `answers`.
     """
     given = memoryview(answers)
     if start < 0 or count < 0 or start + count * SHORT_FRAME_BYTES > given.nbytes:
@@ -279,10 +205,7 @@ def _layout_of_frames(total: int) -> UploadLayout:
 def number_changes(frame_bytes: int) -> tuple[int, ...]:
     """By what a frame's CRC changes, by exclusive or, when its sequence number does: for each value of the old number ^ the new.
 
-    Parameters
-    ----------
-    frame_bytes : int
-        Of the frame, CRC included.
+    `frame_bytes` counts the CRC too.
     """
     covered = bytearray(frame_bytes - CRC.size)
     of_zeros = zlib.crc32(covered)

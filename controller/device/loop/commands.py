@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from controller.device.board.panel_state import Condition
 from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.layer_source import LayerResult
-from controller.device.scene.clips import Clip
+from controller.device.scene.clips import ClientEffect
 from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene
 from controller.device.touch.source import Heard, TouchSample
@@ -40,7 +40,7 @@ class PanelControl(Protocol):
     skipped: Skipped
 
     def play(
-        self, ticket: int, effect: str | Clip, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
+        self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
     ) -> None:
         """Play an effect at a point, or at a finger wherever it moves; exactly one `CommandSource.outcome` follows.
 
@@ -48,7 +48,7 @@ class PanelControl(Protocol):
         ----------
         ticket : int
             The outcome is reported with it; 0: nobody waits for it.
-        effect : str or Clip
+        effect : str or ClientEffect
             One of `effects`, or one that a client has sent.
         x_m, y_m : float
             Place on the plate; unused with a finger.

@@ -18,27 +18,18 @@ from controller.metrics import Counters
 
 
 class LoopContext:
-    """The panel that a loop drives, its clocks and its counters.
-
-    Parameters
-    ----------
-    session : Session
-        Of an FPGA that may still be absent; it counts in `counters.link`.
-    silence : Silence, optional
-        Of the touch panel's source: set in each turn to whether something has come from the panel.
-    layers : LayerPreparation, optional
-        Checks clients' layers of regions; without it there are none.
-    """
+    """The panel that a loop drives, its clocks and its counters."""
 
     def __init__(
         self,
         board: Board,
         clock: Clock,
-        session: Session,
+        session: Session,  # of an FPGA that may still be absent; it counts in `counters.link`
         source: TrackedTouch,
         *,
+        # Of the touch panel's source: set in each turn to whether something has come from the panel
         silence: Silence | None = None,
-        layers: LayerPreparation | None = None,
+        layers: LayerPreparation | None = None,  # checks clients' layers of regions; without it there are none
     ) -> None:
         self.layers = layers
         self.board = board
@@ -54,44 +45,20 @@ class LoopContext:
 
 
 class SpareTime:
-    """What is done between two turns of the loop; this one does nothing.
-
-    Attributes
-    ----------
-    due_s : float
-        Host time from which `use` is called after each turn.
-    """
+    """What is done between two turns of the loop; this one does nothing."""
 
     def __init__(self) -> None:
-        self.due_s = NEVER
+        self.due_s = NEVER  # host time from which `use` is called after each turn
 
     def use(self, now_s: float, next_s: float) -> None:
-        """Do it, or not yet.
-
-        Parameters
-        ----------
-        now_s, next_s : float
-            Host time, and that of the next turn; a touch or a command may begin it before.
-        """
+        """Do it, or not yet. `now_s` is host time, `next_s` that of the next turn; a touch or a command may begin it before."""
 
 
 @dataclass(frozen=True, slots=True)
 class Watch:
-    """Who is called by a loop; None: nobody.
+    """Who is called by a loop; None: nobody."""
 
-    Attributes
-    ----------
-    progress : callable
-        In each turn, with the host time.
-    emission_started : callable
-        Whenever an emission starts, or a repetition by the FPGA.
-    scene_changed : callable
-        With each scene that was prepared, taken over or refused.
-    spare : tuple of SpareTime
-        Between turns; of those that are due, the first one.
-    """
-
-    progress: Callable[[float], None] | None = None
-    emission_started: Callable[[], None] | None = None
-    scene_changed: Callable[[PreparedScene], None] | None = None
-    spare: tuple[SpareTime, ...] = ()
+    progress: Callable[[float], None] | None = None  # in each turn, with the host time
+    emission_started: Callable[[], None] | None = None  # whenever an emission starts, or a repetition by the FPGA
+    scene_changed: Callable[[PreparedScene], None] | None = None  # with each scene that was prepared, taken over or refused
+    spare: tuple[SpareTime, ...] = ()  # between turns; of those that are due, the first one

@@ -10,7 +10,7 @@ from controller.device.loop.outputs import Outputs
 from controller.device.loop.playing.host_timing import HostTiming
 from controller.device.loop.scene_source import SceneChange
 from controller.device.loop.scheduler import Scheduler
-from controller.device.scene.clips import Clip
+from controller.device.scene.clips import ClientEffect
 from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene
 from controller.device.touch.source import Heard
@@ -50,7 +50,7 @@ class LoopControl:
         self._timing = timing
 
     def play(
-        self, ticket: int, effect: str | Clip, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
+        self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
     ) -> None:
         """Play an effect; see `PanelControl.play`.
 

@@ -22,16 +22,10 @@ RESIDENT_START_S: Final = 0.1e-3  # from a report to the start of a waveform tha
 
 
 class Dispatcher:
-    """From due emissions to plays.
-
-    Attributes
-    ----------
-    quiet_until_s : float
-        Host time before which no emission begins, for the touch panel's sake.
-    """
+    """From due emissions to plays."""
 
     def __init__(self, context: LoopContext, scheduler: Scheduler, playback: Playback) -> None:
-        self.quiet_until_s = -NEVER
+        self.quiet_until_s = -NEVER  # host time before which no emission begins, for the touch panel's sake
         self._clock = context.clock
         self._session = context.session
         self._source = context.source
@@ -48,20 +42,8 @@ class Dispatcher:
     def turn(self, turn: Turn, *, on: bool) -> bool:
         """Start, hand over or send ahead what this turn has time for.
 
-        Parameters
-        ----------
-        on : bool
-            Whether the outputs are on; otherwise what is due is discarded.
-
-        Returns
-        -------
-        bool
-            Whether an emission, or a repetition, started.
-
-        Raises
-        ------
-        LinkError, FaultError
-            As the session says.
+        Unless the outputs are `on`, what is due is discarded. Returns whether an emission, or a repetition, started. Raises
+        LinkError or FaultError as the session says.
         """
         self.quiet_until_s = -NEVER
         if turn.report_ns >= 0:

@@ -10,19 +10,11 @@ SLOTS: Final = 64  # a thirtieth of a second has at most 33 emissions of 1 ms
 
 
 class EmissionRing:
-    """Starts in memory of fixed size: a new one takes the place of the oldest.
-
-    Attributes
-    ----------
-    wanted : bool
-        Whether anybody reads; otherwise nothing is noted.
-    count : int
-        Starts noted so far.
-    """
+    """Starts in memory of fixed size: a new one takes the place of the oldest."""
 
     def __init__(self) -> None:
-        self.wanted = False
-        self.count = 0
+        self.wanted = False  # whether anybody reads; otherwise nothing is noted
+        self.count = 0  # starts noted so far
         self._starts: list[tuple[float, Plan] | None] = [None] * SLOTS
 
     def started(self, start_s: float, plan: Plan) -> None:

@@ -33,22 +33,7 @@ NOBODY = Watch()
 
 
 class EventLoop:
-    """Runs one panel until its source ends or a signal comes.
-
-    Parameters
-    ----------
-    commands : CommandSource, optional
-        Where commands come from.
-    change : SceneChange, optional
-        Prepares another scene, for SIGHUP and for commands; None: the scene cannot be changed.
-    idle_after_s : float
-        The outputs are switched off after so long without a touch or command.
-
-    Attributes
-    ----------
-    control : LoopControl
-        What commands may ask of this loop.
-    """
+    """Runs one panel until its source ends or a signal comes."""
 
     def __init__(
         self,
@@ -57,10 +42,10 @@ class EventLoop:
         playback: Playback,
         dispatcher: Dispatcher,
         *,
-        commands: CommandSource | None = None,
-        change: SceneChange | None = None,
+        commands: CommandSource | None = None,  # where commands come from
+        change: SceneChange | None = None,  # prepares another scene, for SIGHUP and for commands; None: the scene cannot be changed
         watch: Watch = NOBODY,
-        idle_after_s: float = NEVER,
+        idle_after_s: float = NEVER,  # the outputs are switched off after so long without a touch or command
     ) -> None:
         self._clock = context.clock
         self._session = context.session
@@ -82,6 +67,7 @@ class EventLoop:
         self._spare = watch.spare
         self._outputs = Outputs(context)
         self._layers = Layers(scheduler, context.layers, commands)
+        # What commands may ask of this loop
         self.control = LoopControl(context, self._outputs, scheduler, playback.timing, self._layers, change)
         self._wakeup: Wakeup | None = None
         self._reload = False
@@ -129,17 +115,8 @@ class EventLoop:
         However this returns or raises, the outputs are off then: a status of the FPGA has said so, or, where none arrives, the
         FPGA's heartbeat timeout has passed.
 
-        Parameters
-        ----------
-        ready : callable
-            Called once the outputs are on for the first time.
-
-        Raises
-        ------
-        FaultError
-            If the FPGA has switched off for a reason that the host may not clear by itself.
-        IncompatibleFpga
-            If it is another FPGA, or does not take the board's settings.
+        `ready` is called once the outputs are on for the first time. Raises FaultError if the FPGA has switched off for a reason
+        that the host may not clear by itself; IncompatibleFpga if it is another FPGA, or does not take the board's settings.
         """
         handlers = {signal.SIGINT: self.stop, signal.SIGTERM: self.stop, signal.SIGUSR1: self._explain}
         if self._change is not None:
@@ -213,10 +190,7 @@ class EventLoop:
     def _switch_off(self) -> None:
         """Disarm, and wait until the outputs are off: with heartbeats while the FPGA answers, without any if it does not.
 
-        Raises
-        ------
-        ControllerError
-            If the FPGA reports a fault that the host must not clear; the outputs are off then, too.
+        Raises ControllerError if the FPGA reports a fault that the host must not clear; the outputs are off then, too.
         """
         outputs, clock = self._outputs, self._clock
         with selectors.DefaultSelector() as nothing:  # neither touches nor signals end this

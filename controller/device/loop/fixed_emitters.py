@@ -17,24 +17,14 @@ ROUNDING_S: Final = 1e-9  # a pulse reached exactly is reached
 class FixedEmitters:
     """Fixed emitters, and the next pulse of each.
 
-    Parameters
-    ----------
-    start_s : FpgaTime
-        When their pulse begins.
-    wave_scale : float
-        Of the plate (`Bank.wave_scale`).
-    repeats : bool
-        Whether the FPGA may repeat them.
-
-    Attributes
-    ----------
-    common_period_s : float or None
-        Period in which the FPGA can repeat all of them as one waveform; None if it cannot.
+    Their pulse begins at `start_s`; the FPGA may repeat them unless `repeats` is false. `wave_scale` is that of the plate
+    (`Bank.wave_scale`).
     """
 
     def __init__(
         self, emitters: Sequence[FixedEmitter], start_s: FpgaTime, wave_scale: float = 1.0, *, repeats: bool = True
     ) -> None:
+        # Period in which the FPGA can repeat all of them as one waveform; None if it cannot
         self.common_period_s = common_period_s(emitters, wave_scale) if repeats else None
         self._start_s = start_s
         self._pulses = dict.fromkeys(emitters, 0)

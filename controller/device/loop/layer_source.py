@@ -11,57 +11,29 @@ from controller.device.scene.scene import Region
 
 
 class AcceptedLayer(NamedTuple):
-    """A layer that was checked.
-
-    Attributes
-    ----------
-    lookup : RegionLookup
-        Of these regions.
-    off_plate : int
-        How many of them lie off the plate as a whole.
-    refused : tuple of RefusedRegion
-        Regions that are not among them: the first of all `refused_count`.
-    """
+    """A layer that was checked."""
 
     regions: tuple[Region, ...]
-    lookup: RegionLookup
-    off_plate: int
-    refused: tuple[RefusedRegion, ...]
+    lookup: RegionLookup  # of these regions
+    off_plate: int  # how many of them lie off the plate as a whole
+    refused: tuple[RefusedRegion, ...]  # regions that are not among them: the first of all `refused_count`
     refused_count: int
 
 
 @dataclass(frozen=True, slots=True)
 class LayerResult:
-    """What became of a client's regions.
+    """What became of a client's regions."""
 
-    Attributes
-    ----------
-    age_s : float
-        Since they were sent.
-    accepted : AcceptedLayer or None
-        In force; None: refused as a whole, or replaced.
-    reason : str
-        Why they were refused; empty: a newer layer of the same client has replaced this one before it was prepared.
-    """
-
-    age_s: float
-    accepted: AcceptedLayer | None = None
-    reason: str = ""
+    age_s: float  # since they were sent
+    accepted: AcceptedLayer | None = None  # in force; None: refused as a whole, or replaced
+    reason: str = ""  # why they were refused; empty: a newer layer of the same client has replaced this one before it was prepared
 
 
 class LayerPreparation(Protocol):
     """Prepares one layer at a time in another process."""
 
     def begin(self, line: bytes, placement: Placement) -> None:
-        """Begin to prepare a layer.
-
-        Parameters
-        ----------
-        line : bytes
-            The client's line.
-        placement : Placement
-            Where the layer will lie.
-        """
+        """Begin to prepare a layer of a client's line, which will lie at a placement."""
 
     def fileno(self) -> int | None:
         """File that becomes readable when it is done; None while nothing is being prepared."""

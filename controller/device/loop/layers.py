@@ -38,30 +38,16 @@ class _Client:
 class Layers:
     """Layers over the scene of one loop; each is taken over between two turns.
 
-    Parameters
-    ----------
-    scheduler : Scheduler
-        Plays the scene with its layers.
-    preparation : LayerPreparation or None
-        Checks layers; None: there are none.
-    commands : CommandSource or None
-        What became of each layer is reported to it.
-
-    Attributes
-    ----------
-    scene : Scene
-        That lies below, alone.
-    pending : bool
-        A layer is being prepared.
+    What became of each layer is reported to `commands`; without `preparation` there are none.
     """
 
     def __init__(self, scheduler: Scheduler, preparation: LayerPreparation | None, commands: CommandSource | None) -> None:
         self._scheduler = scheduler
-        self.scene = scheduler.scene
+        self.scene = scheduler.scene  # that lies below, alone
         self._preparation = preparation
         self._commands = commands
         self._clients: dict[int, _Client] = {}
-        self.pending = False
+        self.pending = False  # a layer is being prepared
         self._in_turn = -1  # owner of the layer that is, or was last, prepared
 
     def fileno(self) -> int | None:

@@ -28,23 +28,13 @@ IDLE_TURN_S = 0.5  # between turns of the loop while nothing happens: watchdogs 
 
 
 class Outputs:
-    """The outputs of one FPGA, off at first; the FPGA may still be absent.
-
-    Attributes
-    ----------
-    on : bool
-        Armed, and the ramp has ended: the FPGA accepts plays.
-    idle : bool
-        Ramped down since nothing is touched; nothing is sent until `wake`.
-    waking : bool
-        The outputs are being armed for a touch or command, which waits for them.
-    ramping_down : bool
-        Disarmed, and no status has said yet that the outputs are off.
-    """
+    """The outputs of one FPGA, off at first; the FPGA may still be absent."""
 
     def __init__(self, context: LoopContext) -> None:
-        self.on = False
-        self.idle = self.waking = self.ramping_down = False
+        self.on = False  # armed, and the ramp has ended: the FPGA accepts plays
+        # The outputs are being armed for a touch or command, which waits for them
+        # disarmed, and no status has said yet that the outputs are off
+        self.idle = self.waking = self.ramping_down = False  # ramped down since nothing is touched; nothing is sent until `wake`
         self._down_s = 0.0  # end of the last ramp down
         self._woken_s = -NEVER
         self._session = context.session
@@ -121,10 +111,7 @@ class Outputs:
     def advance(self, now_s: float) -> bool:
         """Do what is due: bring up, arm, end a ramp, or send a heartbeat; True when the outputs have just come on.
 
-        Raises
-        ------
-        ControllerError
-            A fault of the FPGA or an error of the link: to be given to `failed`.
+        Raises ControllerError: a fault of the FPGA or an error of the link: to be given to `failed`.
         """
         if not self.ramped_down(now_s):
             return False
@@ -145,10 +132,7 @@ class Outputs:
     def failed(self, error: ControllerError, now_s: float) -> None:
         """Begin the recovery after an error: the outputs are off, or switch off by their heartbeat timeout.
 
-        Raises
-        ------
-        ControllerError
-            The same, if there is no recovery from it.
+        Raises ControllerError: the same, if there is no recovery from it.
         """
         steady = self.on and now_s - self._on_since_s >= STEADY_S
         if self.on:
@@ -178,10 +162,7 @@ class Outputs:
     def begin_idle(self) -> None:
         """Have the outputs ramp to 0 V, and send nothing once they are off: an FPGA whose outputs are off needs no heartbeats.
 
-        Raises
-        ------
-        LinkError, FaultError
-            As `disarm`.
+        Raises LinkError or FaultError as `disarm`.
         """
         self.disarm()
         self.idle = True
@@ -190,10 +171,7 @@ class Outputs:
     def wake(self) -> None:
         """End an idle time: the FPGA is verified and armed in the next turns.
 
-        Raises
-        ------
-        ControllerError
-            A fault of the FPGA or an error of the link: to be given to `failed`.
+        Raises ControllerError: a fault of the FPGA or an error of the link: to be given to `failed`.
         """
         self.idle, self.waking = False, True
         self._woken_s = self._clock.now_s()
@@ -203,10 +181,7 @@ class Outputs:
     def disarm(self) -> None:
         """Have the outputs ramp to 0 V, also if they are only coming on; `ramping_down` until a status says that they are off.
 
-        Raises
-        ------
-        LinkError, FaultError
-            If the FPGA does not acknowledge it; it switches off by its heartbeat timeout then.
+        Raises LinkError or FaultError if the FPGA does not acknowledge it; it switches off by its heartbeat timeout then.
         """
         if self.ramping_down or not self.may_be_on:
             return
@@ -219,12 +194,7 @@ class Outputs:
     def ramped_down(self, now_s: float) -> bool:
         """Whether no ramp down is left to wait for, as a status has said; heartbeats are sent until then.
 
-        Raises
-        ------
-        StillOn
-            If none has said so in time.
-        LinkError, FaultError
-            As the session says.
+        Raises StillOn if none has said so in time; LinkError or FaultError as the session says.
         """
         if not self.ramping_down:
             return True

@@ -13,13 +13,7 @@ FREE_TUPLES, TUPLE_LENGTHS = 2000, 20  # CPython keeps this many freed tuples of
 
 
 class Wakeup:
-    """The socket that each signal makes readable.
-
-    Parameters
-    ----------
-    woken : socket
-        Non-blocking.
-    """
+    """The socket, non-blocking, that each signal makes readable."""
 
     def __init__(self, woken: socket.socket) -> None:
         self._woken = woken
@@ -34,12 +28,7 @@ class Wakeup:
 def handled_signals(handlers: Mapping[signal.Signals, Callable[[], None]], selector: selectors.BaseSelector) -> Iterator[Wakeup]:
     """Signals call their handlers and wake the selector; on exit the handlers and the wakeup file of before are set again.
 
-    Parameters
-    ----------
-    handlers : mapping
-        Called without arguments, by signal number.
-    selector : BaseSelector
-        The wakeup socket is registered here for reading.
+    The wakeup socket is registered with the selector for reading.
     """
     woken, wakes = socket.socketpair()
     woken.setblocking(False)

@@ -11,27 +11,13 @@ from controller.device.waveforms.selection import Selection
 
 @dataclass(frozen=True, slots=True)
 class PreparedScene:
-    """A scene that was prepared, or why it was refused.
+    """A scene that was prepared, or why it was refused."""
 
-    Attributes
-    ----------
-    ticket : int
-        Of the command that asked for it; 0: SIGHUP.
-    scene : Scene or None
-        None: refused.
-    selection : Selection or None
-        Of another bank, if that was replaced.
-    reason : str
-        Why it was refused; empty if it was not.
-    saves : bool
-        It was to be saved only: the scene in force stays.
-    """
-
-    ticket: int
-    scene: Scene | None
-    selection: Selection | None = None
-    reason: str = ""
-    saves: bool = False
+    ticket: int  # of the command that asked for it; 0: SIGHUP
+    scene: Scene | None  # None: refused
+    selection: Selection | None = None  # of another bank, if that was replaced
+    reason: str = ""  # why it was refused; empty if it was not
+    saves: bool = False  # it was to be saved only: the scene in force stays
 
 
 class SceneChange(Protocol):
@@ -42,22 +28,10 @@ class SceneChange(Protocol):
         """Name of the scene in force."""
 
     def begin(self, name: str | None, ticket: int) -> None:
-        """Begin to prepare the scene of this name; None: the present one, read again.
-
-        Raises
-        ------
-        ControllerError
-            If it cannot begin.
-        """
+        """Begin to prepare the scene of this name; None: the present one, read again; raises ControllerError if it cannot begin."""
 
     def save(self, name: str, toml: str, ticket: int) -> None:
-        """Begin to save a scene under a name.
-
-        Raises
-        ------
-        ControllerError
-            If it cannot begin.
-        """
+        """Begin to save a scene under a name; raises ControllerError if it cannot begin."""
 
     def fileno(self) -> int | None:
         """File that becomes readable when it is done; None while nothing is being prepared."""

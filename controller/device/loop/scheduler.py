@@ -16,7 +16,7 @@ from controller.device.loop.fixed_emitters import FixedEmitters
 from controller.device.loop.playing.batching import select_batch
 from controller.device.loop.skips import ALL, Skips
 from controller.device.loop.train_phases import moved_s
-from controller.device.scene.clips import Clip
+from controller.device.scene.clips import ClientEffect
 from controller.device.scene.emission import Emission
 from controller.device.scene.fingers import ActiveEffects
 from controller.device.scene.region_lookup import OUTSIDE
@@ -40,37 +40,16 @@ Outcomes = Callable[[int, Outcome, float], None]
 
 
 class Scheduler:
-    """Active effects and pending emissions of all fingers, commands and fixed emitters.
-
-    Parameters
-    ----------
-    counters : Counters
-        Counts emissions that are due, and those that are skipped.
-    confirmed : callable
-        Whether the panel has confirmed the finger of this number.
-    max_unconfirmed : int
-        Emissions that a finger gets before it is confirmed.
-    outcomes : callable
-        Called with what became of each command.
-    skips : Skips
-        What of the work may be left out.
-
-    Attributes
-    ----------
-    fixed emitters : FixedEmitters
-        The pulse of the scene's fixed emitters.
-    due : dict of Emission
-        Emissions to be played, the newest of each owner, in the order in which the owners began to wait.
-    """
+    """Active effects and pending emissions of all fingers, commands and fixed emitters."""
 
     def __init__(
         self,
         scene: Scene,
-        counters: Counters,
-        confirmed: Confirmed,
-        max_unconfirmed: int,
-        outcomes: Outcomes,
-        skips: Skips = ALL,
+        counters: Counters,  # counts emissions that are due, and those that are skipped
+        confirmed: Confirmed,  # whether the panel has confirmed the finger of this number
+        max_unconfirmed: int,  # emissions that a finger gets before it is confirmed
+        outcomes: Outcomes,  # called with what became of each command
+        skips: Skips = ALL,  # what of the work may be left out
         wave_scale: float = 1.0,
     ) -> None:
         self.scene = scene
@@ -85,18 +64,11 @@ class Scheduler:
         self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
         self._unlimited: set[int] = set()  # fingers known to be confirmed
         self._emission_counts: dict[int, int] = {}  # emissions so far of each of the others
+        # Emissions to be played, the newest of each owner, in the order in which the owners began to wait
         self.due: dict[Owner, Emission] = {}
 
     def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
-        """Take a touch sample.
-
-        Parameters
-        ----------
-        sample : TouchSample
-            A finger is put down, moves, or is lifted.
-        time_s : FpgaTime
-            When: `sample.time_s` is the same moment in host time.
-        """
+        """Take a touch sample of a finger that is put down, moves, or is lifted; `sample.time_s` is `time_s` in host time."""
         finger, x_m, y_m, _, contact, _ = sample
         active = self._active.get(finger)
         if not contact:
@@ -115,25 +87,13 @@ class Scheduler:
             self._counters.skipped.between_emissions += 1
 
     def play(
-        self, ticket: int, effect: str | Clip, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime
+        self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime
     ) -> None:
         """Start an effect for a command, at a point or at a finger.
 
-        Parameters
-        ----------
-        ticket : int
-            The outcome is reported with it; 0: nobody waits for it.
-        x_m, y_m : float
-            Place on the plate; unused with a finger.
-        finger : int or None
-            The effect follows this finger.
-        amplitude : float
-            `MIN_AMPLITUDE` to 1, times the effect's own.
-
-        Raises
-        ------
-        ConfigError
-            If there is no such effect, or no such finger.
+        The outcome is reported with `ticket`; 0: nobody waits for it. The place is unused with a finger, which the effect follows.
+        `amplitude` is `MIN_AMPLITUDE` to 1, times the effect's own. Raises ConfigError if there is no such effect, or no such
+        finger.
         """
         if finger is not None:
             if finger not in self._active:
@@ -178,10 +138,7 @@ class Scheduler:
     def join_emitters(self, emissions: list[Emission], next_s: FpgaTime) -> list[Emission]:
         """Emissions with those of the fixed emitters that may be played as one waveform with them.
 
-        Parameters
-        ----------
-        next_s : FpgaTime
-            When the pulse of the fixed emitters goes on, after the one that is played now.
+        Their pulse goes on at `next_s`, after the one that is played now.
         """
         self.emitters.restart(next_s)
         played = list(select_batch([*emissions, *self.emitters.before_start()], NEVER, self._max_foci, self._wave_scale)[0])
@@ -194,10 +151,7 @@ class Scheduler:
         What has waited for `MAX_DEFERRAL_S` is played in any case: a train may be so fast that nothing fits between its pulses,
         one of which is late then.
 
-        Parameters
-        ----------
-        until_s : FpgaTime
-            When plate and wire would be free for a pulse again, if what is due were played now. Something has to be due.
+        Plate and wire would be free for a pulse again at `until_s`, if what is due, and something has to be, were played now.
         """
         if self.next_s() > until_s:
             return False
@@ -207,10 +161,7 @@ class Scheduler:
     def next_batch(self, duration_s: float, now_s: FpgaTime) -> list[Emission]:
         """Take what is played next, as one waveform; the rest stays due. A pulse of a train goes before a single emission.
 
-        Parameters
-        ----------
-        duration_s : float
-            Emissions that are due within this time of the first are played with it.
+        Emissions that are due within `duration_s` of the first are played with it.
         """
         if len(self.due) == 1:
             chosen = list(self.due.values())
@@ -253,21 +204,9 @@ class Scheduler:
         An emission follows the first report after a spacing is completed. Where that is follows from the finger's motion,
         where the focus is from when the panel reports.
 
-        Parameters
-        ----------
-        locate : callable
-            Place (x_m, y_m) of a finger at a host time; None if it is not down.
-        now_s : float
-            Host time of the finger's last report.
-        report_s : float
-            Time from report to report.
-        after_s : float
-            Time from a report to the focus.
-
-        Returns
-        -------
-        tuple of float or None
-            x_m, y_m, and amplitude.
+        `locate` gives the place (x_m, y_m) of a finger at a host time, None if it is not down. The finger's last report was at the
+        host time `now_s`; from report to report it takes `report_s`, from a report to the focus `after_s`. Returns x_m, y_m and
+        amplitude.
         """
         crossing = self._next_crossing(finger, locate, now_s, report_s)
         if crossing is None or crossing[0] % 1 > LATEST_IN_REPORT:

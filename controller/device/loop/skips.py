@@ -10,34 +10,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Skips:
-    """Which work is left out.
+    """Which work is left out."""
 
-    Attributes
-    ----------
-    idle : bool
-        After `idle_disarm_s` without a touch the outputs are off, and nothing is sent.
-    resident : bool
-        A waveform that a slot of the FPGA holds is not sent again.
-    repeated : bool
-        FixedEmitters of one period are repeated by the FPGA, without the host.
-    ahead : bool
-        A moving finger finds its next waveform resident: it was sent while nothing else was due.
-    near : bool
-        A resident waveform for a place within `REUSE_RADIUS_M` is played in place of one for the place itself.
-    cells : bool
-        A lone finger within `bank.snap_mm` of a cell plays the bank's entry, and fixed emitters play what the bank has composed
-        beforehand: nothing is composed.
-    together : bool
-        What is due within one emission is played as one waveform, not as several.
-    """
-
-    idle: bool = True
-    resident: bool = True
-    repeated: bool = True
-    ahead: bool = True
-    near: bool = True
+    idle: bool = True  # after `idle_disarm_s` without a touch the outputs are off, and nothing is sent
+    resident: bool = True  # a waveform that a slot of the FPGA holds is not sent again
+    repeated: bool = True  # fixedEmitters of one period are repeated by the FPGA, without the host
+    ahead: bool = True  # a moving finger finds its next waveform resident: it was sent while nothing else was due
+    near: bool = True  # a resident waveform for a place within `REUSE_RADIUS_M` is played in place of one for the place itself
+    # A lone finger within `bank.snap_mm` of a cell plays the bank's entry, and fixed emitters play what the bank has composed
+    # beforehand: nothing is composed
     cells: bool = True
-    together: bool = True
+    together: bool = True  # what is due within one emission is played as one waveform, not as several
 
 
 ALL = Skips()

@@ -24,56 +24,29 @@ MOST_DUE: Final = 65535
 
 
 class TurnRecord(NamedTuple):
-    """One turn; host time in s.
-
-    Attributes
-    ----------
-    report_age_s : float
-        Of the touch report that it read, from the kernel's timestamp; below 0: none.
-    due : int
-        Emissions that were due.
-    started : bool
-        Whether an emission started.
-    """
+    """One turn; host time in s."""
 
     began_s: float
     ended_s: float
-    report_age_s: float
-    due: int
-    started: bool
+    report_age_s: float  # of the touch report that it read, from the kernel's timestamp; below 0: none
+    due: int  # emissions that were due
+    started: bool  # whether an emission started
 
 
 class StartRecord(NamedTuple):
-    """One start of an emission, or of a repetition; host time in s.
+    """One start of an emission, or of a repetition; host time in s."""
 
-    Attributes
-    ----------
-    due_s : float
-        When it was due.
-    ready_s, start_s : float
-        When its command had arrived in the FPGA; when it started.
-    decide_s, frame_s, wire_s : float
-        From the beginning of the turn to the decision, for composing and packing, and on the wire.
-    foci : int
-        Emissions that it plays at once.
-    pulse : bool
-        Of a train that had begun: it has to be on time.
-    resident : bool
-        Its waveform was in the FPGA already.
-    by_clock : bool
-        Started by the FPGA's clock, not by the trigger.
-    """
-
-    due_s: float
-    ready_s: float
+    due_s: float  # when it was due
+    ready_s: float  # ready_s, start_s: when its command had arrived in the FPGA; when it started
     start_s: float
+    # decide_s, frame_s, wire_s: from the beginning of the turn to the decision, for composing and packing, and on the wire
     decide_s: float
     frame_s: float
     wire_s: float
-    foci: int
-    pulse: bool
-    resident: bool
-    by_clock: bool
+    foci: int  # emissions that it plays at once
+    pulse: bool  # of a train that had begun: it has to be on time
+    resident: bool  # its waveform was in the FPGA already
+    by_clock: bool  # started by the FPGA's clock, not by the trigger
 
     @property
     def late_s(self) -> float:
@@ -89,17 +62,12 @@ class Asked(Protocol):
 
 
 class TraceRing:
-    """Records of turns and starts.
-
-    Attributes
-    ----------
-    asked : callable
-        Called with the reason when the ring is to be written, and with `by_hand` where somebody wants it now; not more than it has
-        to be, as it is called on the hot path.
-    """
+    """Records of turns and starts."""
 
     def __init__(self, records: int = RECORDS) -> None:
         self.bytes = bytearray(records * RECORD_BYTES)
+        # Called with the reason when the ring is to be written, and with `by_hand` where somebody wants it now; not more
+        # than it has to be, as it is called on the hot path
         self.asked: Asked = _nobody
         self.at = 0  # of the next record, in bytes
 
@@ -145,13 +113,7 @@ class TraceRing:
 
 
 def records_of(data: bytes | bytearray, at: int) -> Iterator[TurnRecord | StartRecord]:
-    """Records of a copy of a ring, the oldest first.
-
-    Parameters
-    ----------
-    at : int
-        `TraceRing.at` when it was copied.
-    """
+    """Records of a copy of a ring, the oldest first. `at` is `TraceRing.at` when it was copied."""
     size = len(data)
     for begin in range(at, at + size, RECORD_BYTES):
         place = begin % size

@@ -19,23 +19,8 @@ ROUNDING_S: Final = 1e-9
 def moved_s(first_s: FpgaTime, period_s: float, others_s: Sequence[FpgaTime], apart_s: float, *, alone: bool = False) -> float:
     """How much later the pulses after the first one of a train come; below 0: earlier.
 
-    Parameters
-    ----------
-    first_s : FpgaTime
-        Start of its first pulse.
-    period_s : float
-        Of all these trains.
-    others_s : sequence of FpgaTime
-        Some pulse of each other train.
-    apart_s : float
-        Time that a pulse needs for itself before it.
-    alone : bool
-        Whether it may not be played with another train's.
-
-    Returns
-    -------
-    float
-        At most half a period; 0 if nothing is in the way, or if nothing helps.
+    `period_s` is that of all these trains, of which `others_s` have some pulse each; a pulse needs `apart_s` for itself before it.
+    `alone`: it may not be played with another train's. At most half a period; 0 if nothing is in the way, or if nothing helps.
     """
     behind_s = [(first_s - other_s) % period_s for other_s in others_s]  # of each other train's last pulse
     least_s, most_s = apart_s - ROUNDING_S, period_s - apart_s + ROUNDING_S

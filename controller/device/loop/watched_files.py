@@ -7,15 +7,10 @@ import selectors
 
 
 class NotingSelector(selectors.DefaultSelector):
-    """A selector that keeps what it found.
+    """A selector that keeps what it found."""
 
-    Attributes
-    ----------
-    ready : set of int or None
-        Files that were ready at the end of the last wait; None: nobody has waited since this was set to None. A look without a wait
-        does not count: simulated time jumps on behind it.
-    """
-
+    # Files that were ready at the end of the last wait; None: nobody has waited since this was set to None. A look without a
+    # wait does not count: simulated time jumps on behind it
     ready: set[int] | None = None
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:

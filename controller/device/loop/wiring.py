@@ -44,23 +44,13 @@ def assemble(
     scene: Scene,
     bank: Bank,
     *,
-    played: Callable[[Played], None] | None = None,
-    commands: CommandSource | None = None,
+    played: Callable[[Played], None] | None = None,  # called with every start
+    commands: CommandSource | None = None,  # commands, change, watch: as `EventLoop` takes them
     change: SceneChange | None = None,
     watch: Watch = NOBODY,
-    skips: Skips = ALL,
+    skips: Skips = ALL,  # what of the work is left out: all that can be; less to measure what it saves
 ) -> Assembly:
-    """Construct a loop.
-
-    Parameters
-    ----------
-    played : callable, optional
-        Called with every start.
-    commands, change, watch
-        As `EventLoop` takes them.
-    skips : Skips
-        What of the work is left out: all that can be; less to measure what it saves.
-    """
+    """Construct a loop."""
     board = context.board
     snap_m = bank.snap_m(board) if skips.cells else -1.0
     selection = Selection(bank, snap_m, board.idle_word, board.waveform.band_hz, ready=skips.cells)

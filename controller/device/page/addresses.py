@@ -32,10 +32,7 @@ class Origin(NamedTuple):
 def authority(text: str) -> Authority:
     """Host and port of a Host field or an origin.
 
-    Raises
-    ------
-    ValueError
-        If it is neither a name nor an address, with at most one port.
+    Raises ValueError if it is neither a name nor an address, with at most one port.
     """
     found = _AUTHORITY.fullmatch(text.strip().lower())
     if found is None:

@@ -50,14 +50,8 @@ def served(www: Path | None, target: str, field: Path | None = None) -> Served:
 
     Nothing outside the folder is served, whatever its links say, nor a name that begins with a dot.
 
-    Parameters
-    ----------
-    www : Path or None
-        Folder of the application's files.
-    target : str
-        Path of the request, percent-encoded, with its query.
-    field : Path, optional
-        What is served as `FIELD`.
+    `www` is the folder of the application's files, `target` the path of the request, percent-encoded, with its query, `field` what
+    is served as `FIELD`.
     """
     path = os.fsdecode(unquote_to_bytes(target.partition("?")[0]))
     parts = [part for part in path.split("/") if part]

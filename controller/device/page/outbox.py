@@ -28,11 +28,6 @@ class Outbox:
     """Lines in the order of their arrival; a newer touch, state or emissions take the place of the one that waits.
 
     A page that sleeps, as a phone's does, gets no old touches when it wakes.
-
-    Parameters
-    ----------
-    bytes_max : int
-        Of lines that wait.
     """
 
     def __init__(self, bytes_max: int = WAITING_BYTES_MAX) -> None:
@@ -45,13 +40,7 @@ class Outbox:
         return len(self._lines)
 
     def put(self, line: bytes) -> None:
-        """Add a line of the panel.
-
-        Raises
-        ------
-        TooSlow
-            If more waits than may.
-        """
+        """Add a line of the panel; raises TooSlow if more waits than may."""
         text = line.decode(errors="replace").rstrip("\n")
         key = self._key(line)
         self._bytes += len(text) - len(self._lines.pop(key, ""))

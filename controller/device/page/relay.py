@@ -15,7 +15,7 @@ from websockets.frames import CloseCode
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.names import load_names
 from controller.device.page.outbox import Outbox, TooSlow
-from controller.device.page.requests import OwnKinds, judged, outcome
+from controller.device.page.requests import OwnKinds, evaluated, outcome
 from controller.device.page.screen import Screen, ScreenPlace
 from controller.device.page.settings import PageSettings
 from controller.device.page.tools import PageTools
@@ -109,7 +109,7 @@ class _Judge:
         rate.fill(self._clock())
 
     def __call__(self, frame: str) -> tuple[bytes, str]:
-        return judged(frame, self._rights, self._rate, self._clock(), self._own)
+        return evaluated(frame, self._rights, self._rate, self._clock(), self._own)
 
 
 async def _requests(

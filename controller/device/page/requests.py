@@ -1,4 +1,4 @@
-"""Frames of a page: judged, and encoded again for the panel, so that what it reads is what was judged."""
+"""Frames of a page: evaluated, and encoded again for the panel, so that what it reads is what was evaluated."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NOTHING: Final[Mapping[str, Any]] = {}
 OwnKinds = Mapping[str, Callable[[dict[str, Any]], Mapping[str, Any] | None]]
 
 
-def judged(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, own: OwnKinds = NOTHING) -> tuple[bytes, str]:
+def evaluated(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, own: OwnKinds = NOTHING) -> tuple[bytes, str]:
     """A line for the panel, or an answer to the page; one of the two is empty, or both where the bridge answers later.
 
     A request to stop is always within the rate.

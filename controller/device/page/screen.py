@@ -42,24 +42,13 @@ class ScreenPlace(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Screen:
-    """The place in force.
-
-    Parameters
-    ----------
-    file : Path
-        Where it is kept; its folder is made when it has to be.
-
-    Attributes
-    ----------
-    place : ScreenPlace or None
-        None: nobody has said.
-    """
+    """The place in force, kept in a file whose folder is made when it has to be."""
 
     def __init__(self, settings: PageSettings, file: Path) -> None:
         self._file = file
         self._watchers: set[Callable[[], None]] = set()
         self.given = settings.x_mm_from_pixels is not None
-        self.place = _kept(file)
+        self.place = _kept(file)  # None: nobody has said
         if settings.x_mm_from_pixels is not None and settings.y_mm_from_pixels is not None:
             self.place = ScreenPlace(settings.x_mm_from_pixels, settings.y_mm_from_pixels)
 

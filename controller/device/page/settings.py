@@ -65,11 +65,5 @@ class PageSettings(Record, frozen=True, forbid_unknown_fields=True, kw_only=True
 
 
 def load_settings(file: Path | None) -> PageSettings:
-    """Settings of a file; without one, the defaults.
-
-    Raises
-    ------
-    ConfigError
-        If the file is absent or invalid.
-    """
+    """Settings of a file; without one, the defaults; raises ConfigError if the file is absent or invalid."""
     return PageSettings() if file is None else load_toml(file, PageSettings)

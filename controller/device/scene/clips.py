@@ -18,29 +18,19 @@ MOST_PULSES: Final = 1000  # of a train of changing rate: each has to be found; 
 EXPLAINED_BYTES: Final = 1024  # of an effect that is refused: finding the words takes milliseconds for a long one
 
 
-class Clip(NamedTuple):
+class ClientEffect(NamedTuple):
     """What a client's effect plays, and the name under which its emissions are reported."""
 
     name: str
     train: Train
 
 
-def read_clip(name: str, line: bytes | memoryview | msgspec.Raw, board: Board) -> Clip:
+def read_clip(name: str, line: bytes | memoryview | msgspec.Raw, board: Board) -> ClientEffect:
     """Read an effect of a client.
 
-    Parameters
-    ----------
-    name : str
-        Of its emissions.
-    line : bytes
-        JSON with the keys of an [effects.NAME]; without `when`, and without an `effect` that has one, it is for commands.
-    board : Board
-        Whose duty limit bounds its pulses.
-
-    Raises
-    ------
-    ConfigError
-        If it is invalid, has more than `MOST_PULSES`, is silent, or only a moving finger or a fixed emitter can have it.
+    `name` is that of its emissions; `line` is JSON with the keys of an [effects.NAME]; without `when`, and without an `effect` that
+    has one, it is for commands. The board's duty limit bounds its pulses. Raises ConfigError if it is invalid, has more than
+    `MOST_PULSES`, is silent, or only a moving finger or a fixed emitter can have it.
     """
     try:
         table = msgspec.json.decode(line, type=EffectTable)
@@ -58,7 +48,7 @@ def read_clip(name: str, line: bytes | memoryview | msgspec.Raw, board: Board) -
     train = train_of(effect)
     if silent(train):
         raise ConfigError("effect.envelope is silent at every emission of the train")
-    return Clip(name, train)
+    return ClientEffect(name, train)
 
 
 def _require_few(effect: EffectTable) -> None:

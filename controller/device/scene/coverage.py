@@ -21,20 +21,8 @@ def cells_needed(
     A point beyond the outermost cells needs those nearest to it. An effect of `leave` may be felt anywhere, and the
     fingers that a region keeps still may be anywhere.
 
-    Parameters
-    ----------
-    points_m : (cell, 2) array
-        Cells of a whole regular grid, in any order.
-    pitch_m : float
-        Distance of neighbouring cells.
-    margin_m : float
-        How far beyond its region's border an emission for a finger may be, because its place is predicted.
-    wave_scale : float
-        Of the plate (`Bank.wave_scale`).
-
-    Returns
-    -------
-    (cell,) bool array
+    `points_m` (cell, 2) are cells of a whole regular grid, in any order. An emission for a finger may be `margin_m` beyond its
+    region's border, because its place is predicted. `wave_scale` is that of the plate (`Bank.wave_scale`). Returns (cell,).
     """
     x, y = points_m[:, 0], points_m[:, 1]
     near, wide = (

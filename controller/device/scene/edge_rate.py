@@ -9,10 +9,7 @@ from controller.device.scene.scene import Scene
 def edge_warnings(scene: Scene, board: Board, channel_edges: int, all_edges: int) -> list[str]:
     """One line for each edge limit of the board that the scene's fixed emitters and trains would exceed.
 
-    Parameters
-    ----------
-    channel_edges, all_edges : int
-        Edges in one emission, of its busiest channel and of all channels together: the worst of a bank.
+    Edges are those in one emission, of its busiest channel and of all channels together: the worst of a bank.
     """
     spots_hz = sum({emitter.rate_hz for emitter in scene.emitters})  # fixed emitters of one rate share their emissions
     trains_hz = max((region.train_rate_hz for region in scene.regions), default=0.0)

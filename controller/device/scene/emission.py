@@ -11,47 +11,23 @@ from controller.device.scene.scene import FixedEmitter
 
 
 class Emission(NamedTuple):
-    """One focus to be played.
+    """One focus to be played."""
 
-    Attributes
-    ----------
-    time_s : FpgaTime
-        When it is due, in FPGA time.
-    x_m, y_m : float
-        Place on the plate.
-    finger : int or None
-        None: for no finger.
-    region : str
-        Name of the region whose effect it is; for a command, name of the effect.
-    amplitude : float
-        `MIN_AMPLITUDE` to 1.
-    owner : int or str
-        Finger, region of the fixed emitter, or command. A newer emission of the same owner replaces one that waits.
-    ticket : int
-        Of a command, on its first emission only; else 0.
-    pulse, period_s : int, float
-        The emission is number `pulse`, from 0, of a train with this period; period 0: it is a single emission.
-    alternate : bool
-        It is to be played alone, in turn with others, not composed with them.
-    nulled : bool
-        Other fingers are to be kept still meanwhile.
-    channel : int
-        No focus, but the test of this channel, alone; below 0: a focus.
-    """
-
-    time_s: FpgaTime
-    x_m: float
+    time_s: FpgaTime  # when it is due, in FPGA time
+    x_m: float  # x_m, y_m: place on the plate
     y_m: float
-    finger: int | None
-    region: str
-    amplitude: float = 1.0
+    finger: int | None  # None: for no finger
+    region: str  # name of the region whose effect it is; for a command, name of the effect
+    amplitude: float = 1.0  # `MIN_AMPLITUDE` to 1
+    # finger, region of the fixed emitter, or command. A newer emission of the same owner replaces one that waits
     owner: int | str = ""
-    ticket: int = 0
+    ticket: int = 0  # of a command, on its first emission only; else 0
+    # pulse, period_s: the emission is number `pulse`, from 0, of a train with this period; period 0: it is a single emission
     pulse: int = 0
     period_s: float = 0.0
-    alternate: bool = False
-    nulled: bool = False
-    channel: int = -1
+    alternate: bool = False  # it is to be played alone, in turn with others, not composed with them
+    nulled: bool = False  # other fingers are to be kept still meanwhile
+    channel: int = -1  # no focus, but the test of this channel, alone; below 0: a focus
 
 
 _Fields = tuple[FpgaTime, float, float, int | None, str, float, int | str, int, int, float, bool, bool, int]

@@ -20,7 +20,7 @@ import math
 from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
-from controller.device.scene.clips import Clip
+from controller.device.scene.clips import ClientEffect
 from controller.device.scene.emission import Emission, new_emission
 from controller.device.scene.progress import DistanceProgress, GridProgress
 from controller.device.scene.region_lookup import OUTSIDE
@@ -41,25 +41,7 @@ class ActiveEffects:
 
     Each finger has one from its first sample to its last: a new object for each sample would cost as much as all the rest.
 
-    Parameters
-    ----------
-    scene : Scene
-        What the effects are taken from; `change_scene` takes another.
-    owner : int or str
-        Number of the finger, or name of the command.
-    x_m, y_m : float
-        Place on the plate.
-
-    Attributes
-    ----------
-    finger : int or None
-        None for a command at a point.
-    region : int
-        Index in the scene, or OUTSIDE.
-    next_s : float
-        When the next pulse of a train is due; inf: no train is active.
-    period_s : float
-        Least time from pulse to pulse of its trains; inf: none has several.
+    `owner` is the number of the finger, or the name of the command; `change_scene` takes the effects from another scene.
     """
 
     __slots__ = ("_progress", "_scene", "_trains", "finger", "next_s", "owner", "period_s", "region", "x_m", "y_m")
@@ -67,12 +49,12 @@ class ActiveEffects:
     def __init__(self, scene: Scene, owner: int | str, x_m: float, y_m: float) -> None:
         self._scene = scene
         self.owner = owner
-        self.finger = owner if isinstance(owner, int) else None
+        self.finger = owner if isinstance(owner, int) else None  # none for a command at a point
         self.x_m = x_m
         self.y_m = y_m
-        self.region = OUTSIDE
-        self.next_s = FPGA_NEVER
-        self.period_s = math.inf
+        self.region = OUTSIDE  # index in the scene, or OUTSIDE
+        self.next_s = FPGA_NEVER  # when the next pulse of a train is due; inf: no train is active
+        self.period_s = math.inf  # least time from pulse to pulse of its trains; inf: none has several
         self._trains: list[ActiveTrain] = []
         self._progress: tuple[DistanceProgress | GridProgress, ...] = ()
 
@@ -92,18 +74,7 @@ class ActiveEffects:
         return not all(train.train.rhythm == () for train in self._trains)
 
     def press(self, time_s: FpgaTime) -> tuple[Emission, ...]:
-        """The finger is put down at its place.
-
-        Parameters
-        ----------
-        time_s : float
-            Of the sample, as for every method: in FPGA time.
-
-        Returns
-        -------
-        tuple of Emission
-            Due now: at most one, as for every touch sample.
-        """
+        """The finger is put down at its place; returns what is due now, at most one, as for every touch sample."""
         index = self._scene.lookup.at(self.x_m, self.y_m)
         if index == OUTSIDE:
             return ()
@@ -142,27 +113,12 @@ class ActiveEffects:
         trains = self._scene.regions[self.region].release
         return _at_most_one(self._begin(trains, self.region, time_s, ends_on_leave=True)) if trains else ()
 
-    def start(self, effect: str | Clip, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
-        """A command plays an effect here.
+    def start(self, effect: str | ClientEffect, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
+        """A command plays an effect of the scene, by its name, or one that a client has sent; returns what is due now.
 
-        Parameters
-        ----------
-        effect : str or Clip
-            One of the scene's, by its name, or one that a client has sent.
-        amplitude : float
-            `MIN_AMPLITUDE` to 1, times the effect's own; a product below `MIN_AMPLITUDE` is played at that.
-        ticket : int
-            Returned on the first emission.
-
-        Returns
-        -------
-        tuple of Emission
-            Due now.
-
-        Raises
-        ------
-        UnknownEffect
-            If there is no effect of this name, or only a moving finger or a fixed emitter can have it.
+        `amplitude` is `MIN_AMPLITUDE` to 1, times the effect's own; a product below `MIN_AMPLITUDE` is played at that. `ticket` is
+        returned on the first emission. Raises UnknownEffect if there is no effect of this name, or only a moving finger or a fixed
+        emitter can have it.
         """
         if isinstance(effect, str):
             train = self._scene.effects.get(effect)
@@ -178,11 +134,8 @@ class ActiveEffects:
     def advance(self, until_s: FpgaTime) -> tuple[Emission, ...]:
         """Take the pulses of trains that are due up to `until_s`.
 
-        Returns
-        -------
-        tuple of Emission
-            In order of time. Of several missed pulses of one train only the last, with its own time: the others cannot be
-            played any more, and the train keeps its pulse.
+        In order of time. Of several missed pulses of one train only the last, with its own time: the others cannot be played any
+        more, and the train keeps its pulse.
         """
         if self.next_s > until_s:
             return ()

@@ -47,15 +47,8 @@ class _Shaped(msgspec.Struct, frozen=True):
 def read_layer(line: bytes, board: Board) -> CheckedLayer:
     """Read the regions of a layer and check them against a board.
 
-    Parameters
-    ----------
-    line : bytes
-        A client's line: JSON with `regions` and `effects`.
-
-    Raises
-    ------
-    ConfigError
-        If `regions` or `effects` as a whole are invalid, or one of the effects is; naming key and value.
+    `line` is a client's: JSON with `regions` and `effects`. Raises ConfigError if `regions` or `effects` as a whole are invalid, or
+    one of the effects is; naming key and value.
     """
     try:
         tables = msgspec.json.decode(line, type=LayerTables)
@@ -86,13 +79,7 @@ class _Reader:
         self._alike: dict[tuple[Any, ...], tuple[tuple[EffectTable, ...], Region]] = {}
 
     def read(self, index: int, table: dict[str, Any]) -> None:
-        """Take the next region.
-
-        Raises
-        ------
-        ConfigError
-            If it is refused.
-        """
+        """Take the next region; raises ConfigError if it is refused."""
         key = f"regions[{index}]"
         region = _region_table(key, table)
         if region.name in self._names:

@@ -27,21 +27,11 @@ UNMOVED = Placement()
 
 
 class Layer(NamedTuple):
-    """Regions of one client, in its order.
+    """Regions of one client, in its order."""
 
-    Attributes
-    ----------
-    owner : int
-        Number of the client; a client that connects later has a higher one.
-    regions : tuple of Region
-        At the layer's own places.
-    lookup : RegionLookup
-        Of these regions.
-    """
-
-    owner: int
-    regions: tuple[Region, ...]
-    lookup: RegionLookup
+    owner: int  # number of the client; a client that connects later has a higher one
+    regions: tuple[Region, ...]  # at the layer's own places
+    lookup: RegionLookup  # of these regions
     placement: Placement = UNMOVED
 
 

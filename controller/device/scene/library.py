@@ -32,13 +32,7 @@ class LibraryTable(Record, frozen=True):
 
 @cache
 def library() -> Effects:
-    """The effects that ship with the package, by name.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value.
-    """
+    """The effects that ship with the package, by name; raises ConfigError: naming file, key and value."""
     known = {}
     for name, table in load_toml(LIBRARY, LibraryTable).effects.items():
         key = f"{LIBRARY}: effects.{name}"
@@ -51,24 +45,9 @@ def library() -> Effects:
 def known_effects(before: str, own: Tables, board: Board) -> tuple[Effects, Effects]:
     """Effects that a scene's regions can name, and those of them that a command can play.
 
-    Parameters
-    ----------
-    before : str
-        Beginning of messages, before the key: the scene's file.
-    own : dict
-        The scene's own effects as they stand in the file. They may build on the library's and on those above them, and take
-        their names.
-    board : Board
-        Whose duty limit bounds the rates.
-
-    Returns
-    -------
-    known, playable : dict of str to EffectTable
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value.
+    `before` is the beginning of messages, before the key: the scene's file. The scene's `own` effects, as they stand in the file,
+    may build on the library's and on those above them, and take their names. The board's duty limit bounds the rates. Raises
+    ConfigError: naming file, key and value.
     """
     known = dict(library())
     for name, table in own.items():
@@ -87,21 +66,8 @@ def known_effects(before: str, own: Tables, board: Board) -> tuple[Effects, Effe
 def resolved(key: str, given: str | EffectTable, known: Effects, board: Board) -> EffectTable:
     """An effect, checked, with the keys that it does not give taken from the one that it builds on.
 
-    Parameters
-    ----------
-    key : str
-        File and key, for messages.
-    given : str or EffectTable
-        A name, or a table.
-    known : dict
-        Effects that may be named.
-    board : Board
-        Whose duty limit bounds the rate.
-
-    Raises
-    ------
-    ConfigError
-        If it names an unknown effect, its keys do not go together, or the board does not allow its rate.
+    `key` is file and key, for messages; the board's duty limit bounds the rate. Raises ConfigError if it names an unknown effect,
+    its keys do not go together, or the board does not allow its rate.
     """
     base = given if isinstance(given, str) else given.effect
     effect = EffectTable() if isinstance(given, str) else given

@@ -17,27 +17,14 @@ COMMON = ("effect", "when", "amplitude")  # keys that every effect takes
 
 
 class Primitive(NamedTuple):
-    """A kind of effect.
+    """A kind of effect."""
 
-    Attributes
-    ----------
-    name : str
-        As messages call it.
-    when : tuple of str
-        Occasions on which it may be felt, alone or together.
-    required : tuple of tuples of str
-        Keys that it needs; of several in one tuple exactly one.
-    optional : tuple of str
-        Keys that it takes as well.
-    chosen_by : tuple of (str, tuple)
-        Of several primitives with the same occasion, this is the one if the key is given, with one of the values if there are any;
-        empty: if no row above is.
-    """
-
-    name: str
-    when: tuple[When, ...]
-    required: tuple[tuple[str, ...], ...] = ()
-    optional: tuple[str, ...] = ()
+    name: str  # as messages call it
+    when: tuple[When, ...]  # occasions on which it may be felt, alone or together
+    required: tuple[tuple[str, ...], ...] = ()  # keys that it needs; of several in one tuple exactly one
+    optional: tuple[str, ...] = ()  # keys that it takes as well
+    # Of several primitives with the same occasion, this is the one if the key is given, with one of the values if there are
+    # any; empty: if no row above is
     chosen_by: tuple[str, tuple[str, ...]] | None = None
 
     @property

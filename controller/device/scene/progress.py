@@ -18,12 +18,7 @@ MAX_REARM_M: Final = 0.5e-3
 class DistanceProgress:
     """Distance that a finger has travelled since the last emission, in any direction.
 
-    Parameters
-    ----------
-    spacing_m, amplitude : float
-        As in `Spacing`.
-    x_m, y_m : float
-        Place of the finger's first report inside the region.
+    The finger's first report inside the region was at (x_m, y_m).
     """
 
     __slots__ = ("_anchor_x_m", "_anchor_y_m", "_rest_m", "_spacing_m", "_travelled_m", "amplitude")
@@ -62,12 +57,7 @@ class DistanceProgress:
 class GridProgress:
     """Between which grid lines a finger is, and which line it has just felt.
 
-    Parameters
-    ----------
-    spacing_m, amplitude, axis, origin_m
-        As in `Spacing`.
-    at_m : float
-        Coordinate along that axis of the finger's first report inside the region.
+    The finger's first report inside the region was at `at_m` along the axis.
     """
 
     __slots__ = ("_axis", "_cell", "_felt", "_origin_m", "_rearm", "_spacing_m", "amplitude")

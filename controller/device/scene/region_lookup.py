@@ -13,22 +13,14 @@ TILES: Final = 32  # of the spatial index, along each axis
 
 
 class RegionLookup:
-    """Finds the first region that contains a point.
-
-    Parameters
-    ----------
-    shapes : sequence of shapes
-        Of the regions, in the order of the scene.
-    low_x_m, low_y_m, tiles_per_m_x, tiles_per_m_y, candidates
-        As in `SpatialIndex`.
-    """
+    """Finds the first region that contains a point."""
 
     __slots__ = ("_boxes", "_candidates", "_low_x_m", "_low_y_m", "_shapes", "_tiles_per_m_x", "_tiles_per_m_y")
 
     def __init__(
         self,
-        shapes: Sequence[Rectangle | Circle | Polygon],
-        low_x_m: float,
+        shapes: Sequence[Rectangle | Circle | Polygon],  # of the regions, in the order of the scene
+        low_x_m: float,  # low_x_m, low_y_m, tiles_per_m_x, tiles_per_m_y, candidates: as in `SpatialIndex`
         low_y_m: float,
         tiles_per_m_x: float,
         tiles_per_m_y: float,
@@ -59,12 +51,7 @@ class RegionLookup:
 class StackedLookup:
     """Finds the first region that contains a point, in layers over a scene: the topmost layer first, the scene last.
 
-    Parameters
-    ----------
-    layers : sequence
-        Of each layer its lookup, the place (x_m, y_m) of its origin, the scale of its lengths, and how many regions it has.
-    scene : RegionLookup
-        Of the scene.
+    Of each layer: its lookup, the place (x_m, y_m) of its origin, the scale of its lengths, and how many regions it has.
     """
 
     __slots__ = ("_layers", "_scene", "_under")

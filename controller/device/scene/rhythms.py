@@ -41,12 +41,7 @@ def rhythm_of(effect: EffectTable) -> tuple[Point, ...]:
 def pulse_times_ms(rates: Sequence[Point], duration_ms: float, phase: float) -> list[float]:
     """Times at which the integral of a rate has come to `phase`, `phase` + 1, …, before the end.
 
-    Parameters
-    ----------
-    rates : sequence of (float, float)
-        Points (ms, Hz) in order of time, all above 0 Hz.
-    phase : float
-        In periods, 0 to 1.
+    `rates` are points (ms, Hz) in order of time, all above 0 Hz; `phase` is 0 to 1 periods.
     """
     times_ms: list[float] = []
     passed, wanted = 0.0, phase  # periods

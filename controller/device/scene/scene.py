@@ -32,25 +32,15 @@ TilesPerM = Annotated[float, Meta(gt=0, le=TILES / MIN_SIDE_M)]
 
 
 class FixedEmitter(NamedTuple):
-    """A point that is played all the time, without a finger.
-
-    Attributes
-    ----------
-    region : str
-        Name of its region.
-    phase : float
-        By how much of a period its pulses are delayed.
-    alternate : bool
-        As in `Emission`.
-    """
+    """A point that is played all the time, without a finger."""
 
     x_m: PlaceM
     y_m: PlaceM
     rate_hz: Annotated[float, Meta(ge=0.1, le=1000)]
-    region: str
+    region: str  # name of its region
     amplitude: EffectiveAmplitude = 1.0
-    phase: Annotated[float, Meta(ge=0, lt=1)] = 0.0
-    alternate: bool = False
+    phase: Annotated[float, Meta(ge=0, lt=1)] = 0.0  # by how much of a period its pulses are delayed
+    alternate: bool = False  # as in `Emission`
 
 
 class Region(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
@@ -80,20 +70,13 @@ class Region(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
 
 
 class SpatialIndex(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
-    """Tiles over the bounds of all regions, each with the regions that a point in it can be in.
+    """Tiles over the bounds of all regions, each with the regions that a point in it can be in."""
 
-    Attributes
-    ----------
-    low_x_m, low_y_m : float
-        Corner of smallest coordinates.
-    candidates : tuple of tuples of int
-        For tile `column * TILES + row` the indices of its regions, in the order of the scene.
-    """
-
-    low_x_m: PlaceM
+    low_x_m: PlaceM  # low_x_m, low_y_m: corner of smallest coordinates
     low_y_m: PlaceM
     tiles_per_m_x: TilesPerM
     tiles_per_m_y: TilesPerM
+    # For tile `column * TILES + row` the indices of its regions, in the order of the scene
     candidates: Annotated[
         tuple[tuple[Annotated[int, Meta(ge=0)], ...], ...], Meta(min_length=TILES * TILES, max_length=TILES * TILES)
     ]
@@ -144,33 +127,17 @@ def _bounds_meet(bounds: NDArray[np.float64], boxes: Boxes) -> NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Regions, fixed emitters, and the effects that commands can play.
+    """Regions, fixed emitters, and the effects that commands can play."""
 
-    Parameters
-    ----------
-    regions : tuple of Region
-        In the order in which they are asked for a point.
-    effects : mapping of str to Train
-        What a command can play, by name.
-    known_index : SpatialIndex, optional
-        Of these regions; computed if it is not given.
-
-    Attributes
-    ----------
-    may_idle : bool
-        Whether nothing is played without a touch, and the first touch may be felt late.
-    layers : tuple of Layer
-        What lies on top, the topmost first: `regions` begins with theirs (`under`).
-    """
-
-    regions: tuple[Region, ...]
-    effects: Mapping[str, Train] = field(default_factory=dict)
-    known_index: InitVar[SpatialIndex | None] = None
+    regions: tuple[Region, ...]  # in the order in which they are asked for a point
+    effects: Mapping[str, Train] = field(default_factory=dict)  # what a command can play, by name
+    known_index: InitVar[SpatialIndex | None] = None  # of these regions; computed if it is not given
     emitters: tuple[FixedEmitter, ...] = field(init=False)
     index: SpatialIndex = field(init=False, repr=False)
     lookup: RegionLookup | StackedLookup = field(init=False, repr=False, compare=False)
+    # Whether nothing is played without a touch, and the first touch may be felt late
     may_idle: bool = field(init=False, repr=False, compare=False)
-    layers: tuple[Layer, ...] = ()
+    layers: tuple[Layer, ...] = ()  # what lies on top, the topmost first: `regions` begins with theirs (`under`)
 
     def __post_init__(self, known_index: SpatialIndex | None) -> None:
         object.__setattr__(self, "emitters", tuple([region.emitter for region in self.regions if region.emitter]))
@@ -211,10 +178,7 @@ class Scene:
     def named(self, owner: int, name: str) -> int:
         """Index of the region of a name: of the layer of this owner, else of the scene without layers.
 
-        Raises
-        ------
-        ConfigError
-            If neither has one.
+        Raises ConfigError if neither has one.
         """
         first = 0
         for layer in self.layers:
@@ -234,13 +198,7 @@ class Scene:
 
 
 def load_scene(file: Path, board: Board) -> Scene:
-    """Read a scene.toml, checked against the board on which it is played.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value.
-    """
+    """Read a scene.toml, checked against the board on which it is played; raises ConfigError, naming file, key and value."""
     return scene_of(read_scene(file, board))
 
 

@@ -43,15 +43,8 @@ class CheckedScene(NamedTuple):
 def find_scene(board: Board, name_or_path: str | None = None) -> Path:
     """File of a scene.
 
-    Parameters
-    ----------
-    name_or_path : str, optional
-        A path, else `<name>.toml` beside the board's file, else one that was saved; default: the scene that the board names.
-
-    Raises
-    ------
-    ConfigError
-        If there is none, listing the scenes that exist.
+    `name_or_path` is a path, else `<name>.toml` beside the board's file, else one that was saved; default: the scene that the board
+    names. Raises ConfigError if there is none, listing the scenes that exist.
     """
     name = name_or_path or board.scene
     given = [Path(name)] if name_or_path else []  # a name in board.toml is never relative to the current folder
@@ -79,28 +72,14 @@ def saved_scenes(board: Board) -> Path | None:
 
 
 def read_scene(file: Path, board: Board) -> CheckedScene:
-    """Read a scene.toml and check it against a board: its plate, its limits.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value.
-    """
+    """Read a scene.toml and check it against a board: its plate, its limits; raises ConfigError, naming file, key and value."""
     return check_scene(str(file), read_tables(file), board)
 
 
 def check_scene(file: str, tables: dict[str, Any], board: Board) -> CheckedScene:
     """Check what was read from a scene.toml against a board.
 
-    Parameters
-    ----------
-    file : str
-        What messages call it.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value.
+    `file` is what messages call it. Raises ConfigError, naming file, key and value.
     """
     scene = as_record(f"{file}: ", tables, SceneTable)
     known, playable = known_effects(f"{file}: ", scene.effects, board)
@@ -152,15 +131,7 @@ def shape_of(region: AnyRegionTable, plate: Rectangle) -> Shape:
 def check_effects(key: str, region: AnyRegionTable, effects: tuple[EffectTable, ...], board: Board) -> None:
     """Check that the effects of one region go together, and their amplitude with that of the region.
 
-    Parameters
-    ----------
-    key : str
-        File and key of the region, for messages.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value.
+    `key` is file and key of the region, for messages. Raises ConfigError, naming file, key and value.
     """
     for number, effect in enumerate(effects):
         at = f"{key}.effects[{number}]"

@@ -15,21 +15,12 @@ from controller.device.scene.trains import EffectiveAmplitude
 
 
 class Spacing(NamedTuple):
-    """How an effect repeats in space as a finger moves within its region.
+    """How an effect repeats in space as a finger moves within its region."""
 
-    Attributes
-    ----------
-    spacing_m : float
-        Distance from one emission to the next.
-    axis : int or None
-        None: of the finger's path, in any direction; 0: of grid lines at fixed x, 1: at fixed y.
-    origin_m : float
-        Where one of the grid lines lies.
-    """
-
-    spacing_m: Annotated[float, Meta(ge=1e-5, le=1)]
+    spacing_m: Annotated[float, Meta(ge=1e-5, le=1)]  # distance from one emission to the next
+    # None: of the finger's path, in any direction; 0: of grid lines at fixed x, 1: at fixed y
     axis: Annotated[int, Meta(ge=0, le=1)] | None
-    origin_m: PlaceM
+    origin_m: PlaceM  # where one of the grid lines lies
     amplitude: EffectiveAmplitude
 
     def begin(self, x_m: float, y_m: float) -> DistanceProgress | GridProgress:

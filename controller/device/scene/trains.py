@@ -24,27 +24,15 @@ RARE_S: Final = 3600.0  # in place of a period, of one pulse that has a time of 
 
 
 class Train(NamedTuple):
-    """Emissions as an effect defines them: of equal spacing in time, or of a rhythm; a single emission is a train of one pulse.
+    """Emissions as an effect defines them: of equal spacing in time, or of a rhythm; a single emission is a train of one pulse."""
 
-    Attributes
-    ----------
-    amplitude : float
-        Before envelope and gain.
-    period_s : float
-        From pulse to pulse, of a rhythm the least; 0 for a single emission.
-    first_s : float
-        From the start to pulse 0.
-    envelope : tuple of (float, float)
-        Points (s from the start, amplitude), linear between, constant beyond; empty: no envelope.
-    rhythm : tuple of (float, float)
-        Each pulse (s from the start, amplitude), in order of time; empty: they are of equal spacing.
-    """
-
-    amplitude: EffectiveAmplitude = 1.0
+    amplitude: EffectiveAmplitude = 1.0  # before envelope and gain
     pulses: Annotated[int, Meta(ge=1, le=MAX_PULSES)] = 1
-    period_s: Seconds = 0.0
-    first_s: Seconds = 0.0
+    period_s: Seconds = 0.0  # from pulse to pulse, of a rhythm the least; 0 for a single emission
+    first_s: Seconds = 0.0  # from the start to pulse 0
+    # Points (s from the start, amplitude), linear between, constant beyond; empty: no envelope
     envelope: Annotated[tuple[Point, ...], Meta(max_length=1000)] = ()
+    # Each pulse (s from the start, amplitude), in order of time; empty: they are of equal spacing
     rhythm: Annotated[tuple[Point, ...], Meta(max_length=MOST_PULSES)] = ()
 
     @property
@@ -73,47 +61,24 @@ class Train(NamedTuple):
 
 
 class ActiveTrain:
-    """A train that has begun; `take` moves it on.
-
-    Parameters
-    ----------
-    start_s : float
-        When it begins; pulse 0 is the train's `first_s` later.
-    region : int
-        Index of the region whose effect it is; below 0 for a command.
-    ends_on_leave : bool
-        Whether it ends when the finger leaves that region.
-    gain : float
-        Factor of its amplitude, `MIN_AMPLITUDE` to 1.
-    effect : str
-        Name of the effect, for a command.
-    ticket : int
-        Of a command, until its first emission; else 0.
-
-    Attributes
-    ----------
-    first_s : float
-        Time of pulse 0.
-    pulse : int
-        Number of the next pulse.
-    """
+    """A train that has begun; `take` moves it on."""
 
     __slots__ = ("effect", "ends_on_leave", "first_s", "gain", "pulse", "region", "ticket", "train")
 
     def __init__(
         self,
         train: Train,
-        start_s: FpgaTime,
-        region: int,
+        start_s: FpgaTime,  # when it begins; pulse 0 is the train's `first_s` later
+        region: int,  # index of the region whose effect it is; below 0 for a command
         *,
-        ends_on_leave: bool,
-        gain: float = 1.0,
-        effect: str = "",
-        ticket: int = 0,
+        ends_on_leave: bool,  # whether it ends when the finger leaves that region
+        gain: float = 1.0,  # factor of its amplitude, `MIN_AMPLITUDE` to 1
+        effect: str = "",  # name of the effect, for a command
+        ticket: int = 0,  # of a command, until its first emission; else 0
     ) -> None:
         self.train = train
-        self.first_s = start_s + train.first_s
-        self.pulse = 0
+        self.first_s = start_s + train.first_s  # time of pulse 0
+        self.pulse = 0  # number of the next pulse
         self.gain = gain
         self.region = region
         self.ends_on_leave = ends_on_leave
@@ -133,12 +98,7 @@ class ActiveTrain:
     def take(self, until_s: FpgaTime) -> tuple[int, float]:
         """Take all pulses that are due up to `until_s`.
 
-        Returns
-        -------
-        pulse : int
-            Number of the last of them that is not silent; NO_PULSE if there is none.
-        amplitude : float
-            Its amplitude; 0 if there is none.
+        Returns the number of the last of them that is not silent, NO_PULSE if there is none, and its amplitude, 0 if there is none.
         """
         if self.over or until_s < self.next_s:
             return NO_PULSE, 0.0

@@ -14,24 +14,11 @@ LEAST_STEP: Final = 20e-6  # of the scale: costs 1e-5 of the amplitude, and a re
 
 
 class BitClock:
-    """Scales an FPGA's bit clock as the thermometer says, whenever nothing plays.
-
-    Parameters
-    ----------
-    period_s : float
-        Time between readings.
-
-    Attributes
-    ----------
-    scale : float
-        Factor of the bit clock that the FPGA uses now.
-    temperature_c : float or None
-        Of the plate; None while unknown.
-    """
+    """Scales an FPGA's bit clock as the thermometer says, whenever nothing plays; it is read every `period_s`."""
 
     def __init__(self, session: Session, thermometer: TemperatureSource, period_s: float) -> None:
-        self.scale = 1.0
-        self.temperature_c: float | None = None
+        self.scale = 1.0  # factor of the bit clock that the FPGA uses now
+        self.temperature_c: float | None = None  # of the plate; None while unknown
         self._session = session
         self._thermometer = thermometer
         self._period_s = period_s

@@ -21,11 +21,6 @@ def check_responses_beside(bank: Bank, cells: Iterable[int]) -> None:
     """Check the responses of cells in a process of its own, which nobody waits for; damage is logged once.
 
     Call it before threads are started, memory is locked, and devices are open.
-
-    Parameters
-    ----------
-    cells : iterable of int
-        They have entries.
     """
     with contextlib.suppress(OSError):  # no process left: the loop checks what it uses
         child = os.fork()

@@ -43,19 +43,8 @@ def gateware_hash() -> int:
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:
     """Link to a board's FPGA.
 
-    Parameters
-    ----------
-    now_s : callable
-        The host's clock.
-    unhurried : bool
-        Wait longer for answers over a serial port: for bring-up, not for the event loop.
-
-    Raises
-    ------
-    ConfigError
-        If it is simulated.
-    LinkError
-        If its device cannot be opened.
+    An `unhurried` link waits longer for answers over a serial port: for bring-up, not for the event loop. Raises ConfigError if it
+    is simulated; LinkError if its device cannot be opened.
     """
     if board.link.kind == "spi":
         from controller.device.fpga.links.spi_link import SpiLink
@@ -87,41 +76,22 @@ def bitstream_path(board: Board) -> Path:
 def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Session:
     """Bring up the FPGA at the other end of a link, and check that it runs the gateware of this software.
 
-    Raises
-    ------
-    LinkError
-        If it does not answer, or runs another gateware.
+    Raises LinkError if it does not answer, or runs another gateware.
     """
     return Session(link, board, gateware_hash(), now_s)
 
 
 def open_panel(board: Board) -> EventReader:
-    """Driver of a board's touch panel.
-
-    Raises
-    ------
-    TouchError
-        If it is not there, or the board has none.
-    """
+    """Driver of a board's touch panel; raises TouchError if it is not there, or the board has none."""
     if not board.touch.has_device:
         raise TouchError(NO_PANEL.format(board.name))
     return panels.open_panel(board.touch)
 
 
 def open_input(device: str, *, grab: bool = False) -> EventReader:
-    """Driver of an input device of the kernel.
+    """Driver of an input device of the kernel, by path or name; with `grab` other programs cannot read it.
 
-    Parameters
-    ----------
-    device : str
-        Path or name.
-    grab : bool
-        Keep other programs from reading it.
-
-    Raises
-    ------
-    TouchError
-        If it is not there.
+    Raises TouchError if it is not there.
     """
     from controller.device.touch.drivers.event_device import LinuxInput
 
@@ -131,10 +101,7 @@ def open_input(device: str, *, grab: bool = False) -> EventReader:
 def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0.0) -> TouchSource:
     """Touches of a board's panel, or of a recording that begins at `start_s` on the host's clock.
 
-    Raises
-    ------
-    TouchError
-        If the panel is not there.
+    Raises TouchError if the panel is not there.
     """
     if replay is not None:
         from controller.device.touch.recordings.replay import RecordingSource
@@ -148,10 +115,7 @@ def await_panel(board: Board) -> AwaitedReader | PanelProcess:
 
     Call it before the loop gets real-time priority.
 
-    Raises
-    ------
-    ConfigError
-        If the board has none.
+    Raises ConfigError if the board has none.
     """
     if not board.touch.has_device:
         raise ConfigError(NO_PANEL.format(board.name))
@@ -188,10 +152,7 @@ def _beside(what: str, priority: int, settings: msgspec.Struct) -> Worker:
 def recording_path(board: Board, given: str | None) -> Path:
     """Path of the recording to replay: the given one, else the board's.
 
-    Raises
-    ------
-    ConfigError
-        If none is given and the board names none.
+    Raises ConfigError if none is given and the board names none.
     """
     if given is not None:
         return Path(given)

@@ -30,37 +30,21 @@ OFF = {
 
 
 class Housekeeping:
-    """Reports the panel's state and follows the plate's temperature; `progress` is called in each turn of the loop.
-
-    Parameters
-    ----------
-    session : Session
-        Its bit clock follows the plate's temperature.
-    notifier : Notifier
-        Reports the panel's state to the service manager when it changes. The service is ready with the first known state,
-        whether or not FPGA and touch panel are connected: programs that start after it, such as a user interface, do not
-        wait for a cable to be plugged in, and show the state themselves.
-    thermometer : TemperatureSource or None
-        None: the bit clock is not scaled.
-    reload_file : ReloadFile, optional
-        Where the result of each reload is written.
-
-    Attributes
-    ----------
-    condition : Condition
-        State of the panel, as last reported.
-    """
+    """Reports the panel's state and follows the plate's temperature; `progress` is called in each turn of the loop."""
 
     def __init__(
         self,
         board: Board,
-        session: Session,
+        session: Session,  # its bit clock follows the plate's temperature
+        # Reports the panel's state to the service manager when it changes. The service is ready with the first known state,
+        # whether or not FPGA and touch panel are connected: programs that start after it, such as a user interface, do not
+        # wait for a cable to be plugged in, and show the state themselves
         notifier: Notifier,
         watchdog: Watchdog,
-        thermometer: TemperatureSource | None,
-        reload_file: ReloadFile | None = None,
+        thermometer: TemperatureSource | None,  # None: the bit clock is not scaled
+        reload_file: ReloadFile | None = None,  # where the result of each reload is written
     ) -> None:
-        self.condition = Condition()
+        self.condition = Condition()  # state of the panel, as last reported
         self._notifier = notifier
         self._watchdog = watchdog
         self._reload_file = reload_file or ReloadFile(None)
@@ -92,21 +76,11 @@ class Housekeeping:
     def watch(
         self,
         loop: Watched,
-        panel: Panel | None,
-        reported: Sequence[Callable[[Condition], None]] = (),
-        counts: Counts | None = None,
+        panel: Panel | None,  # None: a recording is replayed
+        reported: Sequence[Callable[[Condition], None]] = (),  # each is called with each new condition, the first included
+        counts: Counts | None = None,  # of the touch panel: said once if most positions lie off the plate
     ) -> None:
-        """Set what is reported.
-
-        Parameters
-        ----------
-        panel : Panel or None
-            None: a recording is replayed.
-        reported : sequence of callable
-            Each is called with each new condition, the first included.
-        counts : Counts, optional
-            Of the touch panel: said once if most positions lie off the plate.
-        """
+        """Set what is reported."""
         self._counts = counts
         self._loop = loop
         self._panel = panel
@@ -122,13 +96,7 @@ class Housekeeping:
         self._scene = prepared
 
     def progress(self, now_s: float) -> None:
-        """Do what is due in this turn of the loop.
-
-        Parameters
-        ----------
-        now_s : float
-            Host time.
-        """
+        """Do what is due in this turn of the loop."""
         self._watchdog.progress(now_s)
         loop = self._loop
         if loop is None:

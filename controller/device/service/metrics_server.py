@@ -30,24 +30,14 @@ LOOPBACK: Final = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
 class MetricsServer:
-    """Serves the metrics of a registry at `PATH`.
-
-    Parameters
-    ----------
-    hosts : iterable of str
-        Names and addresses that requests may be made to, besides those of the loopback interface.
-    now_s : callable, optional
-        Monotonic time.
-    connection_s : float
-        Longest time of a connection.
-    """
+    """Serves the metrics of a registry at `PATH`."""
 
     def __init__(
         self,
         registry: CollectorRegistry,
-        hosts: Iterable[str] = (),
-        now_s: Callable[[], float] = time.monotonic,
-        connection_s: float = CONNECTION_S,
+        hosts: Iterable[str] = (),  # names and addresses that requests may be made to, besides those of the loopback interface
+        now_s: Callable[[], float] = time.monotonic,  # monotonic time
+        connection_s: float = CONNECTION_S,  # longest time of a connection
     ) -> None:
         self._registry = registry
         self._hosts = LOOPBACK | {host.lower() for host in hosts}

@@ -24,15 +24,7 @@ def migrate(state: Path) -> list[str]:
     One that is newer than what has its new name, since an older program has calibrated the panel again, takes its place; what was
     there is kept as `NAME.before-…`. A measured one is never replaced by one that is not.
 
-    Parameters
-    ----------
-    state : Path
-        The state folder; it need not exist.
-
-    Returns
-    -------
-    list of str
-        What was done, and what could not be: the banks are found where they are, too.
+    Returns what was done, and what could not be: the banks are found where they are, too.
     """
     said = []
     for old in sorted((state / "banks").glob("*.bank")):

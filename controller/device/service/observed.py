@@ -26,15 +26,9 @@ class TemperatureSource(Protocol):
 
 
 class Panel(Protocol):
-    """A touch panel that may be disconnected.
+    """A touch panel that may be disconnected."""
 
-    Attributes
-    ----------
-    warnings : Counter of str
-        Anomalies found by its driver, by kind (`reports.WARNINGS`).
-    """
-
-    warnings: Counter[str]
+    warnings: Counter[str]  # anomalies found by its driver, by kind (`reports.WARNINGS`)
 
     @property
     def description(self) -> DeviceDescription:

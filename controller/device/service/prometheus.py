@@ -58,13 +58,7 @@ class PanelFigures:
         self._greeting: Greeting | None = None
 
     def __call__(self) -> tuple[str, str, dict[str, Any]]:
-        """Version, board and figures.
-
-        Raises
-        ------
-        ControllerError
-            If no panel answers.
-        """
+        """Version, board and figures; raises ControllerError if no panel answers."""
         kept = self._panel is not None
         try:
             return self._ask()
@@ -95,12 +89,8 @@ class PanelFigures:
 class PanelCollector(Collector):
     """Metrics of one panel, collected when Prometheus asks.
 
-    Parameters
-    ----------
-    ask : callable
-        Version, board and figures of the panel; ControllerError if it does not answer.
-    more : callable, optional
-        Further metrics that do not need the panel, such as those of its releases.
+    `ask` gives version, board and figures of the panel, or raises ControllerError if it does not answer; `more` gives metrics that
+    do not need the panel, such as those of its releases.
     """
 
     def __init__(self, ask: Ask, more: Callable[[], Iterator[Metric]] = lambda: iter(())) -> None:

@@ -22,15 +22,7 @@ def enter_realtime(settings: Realtime) -> list[str]:
 
     Threads and processes started later have ordinary priority.
 
-    Parameters
-    ----------
-    settings : Realtime
-        Of the board.
-
-    Returns
-    -------
-    list of str
-        Empty, or one warning: what was refused, and how to permit it.
+    Returns no line, or one warning: what was refused, and how to permit it.
     """
     refused = [_schedule(settings.priority), _pin(settings.cpu), _lock_memory() if settings.lock_memory else ""]
     one_blas_thread()
@@ -59,11 +51,6 @@ def group_refusal(root: Path) -> str:
 
     A kernel built with it refuses real-time scheduling in a control group that was given no share of it (sched(7),
     Documentation/scheduler/sched-rt-group.rst); in the unified hierarchy no group but the root has one.
-
-    Parameters
-    ----------
-    root : Path
-        Of the file system.
     """
     groups = dict(line.split(":", 2)[1:] for line in _text(root / "proc/self/cgroup").splitlines() if line.count(":") >= 2)
     names = next((names for names in groups if "cpu" in names.split(",")), "")
@@ -129,10 +116,7 @@ def _text(file: Path) -> str:
 def one_blas_thread() -> list[str]:
     """Limit OpenBLAS to one thread, in this process and its children: for the loop's small products, threads cost time.
 
-    Returns
-    -------
-    list of str
-        Paths of the OpenBLAS libraries found; empty if numpy uses another BLAS.
+    Returns the paths of the OpenBLAS libraries found; none if numpy uses another BLAS.
     """
     os.environ["OPENBLAS_NUM_THREADS"] = "1"  # for libraries loaded later
     reported = []

@@ -26,31 +26,15 @@ BYTES_MAX = 65_536
 
 
 class Reloaded(msgspec.Struct, frozen=True):
-    """Result of the last reload.
+    """Result of the last reload."""
 
-    Attributes
-    ----------
-    count : int
-        Reloads since the service started.
-    refused : str
-        Why the last one was refused; empty if it was not.
-    environment : str
-        Where the service's program is installed; empty: written before this key existed.
-    """
-
-    count: int
-    refused: str
-    environment: str = ""
+    count: int  # reloads since the service started
+    refused: str  # why the last one was refused; empty if it was not
+    environment: str = ""  # where the service's program is installed; empty: written before this key existed
 
 
 class ReloadFile:
-    """File with the result of the last reload, written by the service.
-
-    Parameters
-    ----------
-    folder : Path or None
-        The runtime folder; None: there is none, and nothing is written.
-    """
+    """File with the result of the last reload, written by the service. Without a runtime folder nothing is written."""
 
     def __init__(self, folder: Path | None) -> None:
         self._file = folder / NAME if folder is not None else None
@@ -62,15 +46,7 @@ class ReloadFile:
         return cls(_folder(environment))
 
     def write(self, count: int, refused: str) -> None:
-        """Write the result of a reload; an error, such as a full disk, is ignored.
-
-        Parameters
-        ----------
-        count : int
-            Reloads so far.
-        refused : str
-            Why the scene was refused; empty if it was not.
-        """
+        """Write how many reloads there were, and why the last was refused, if it was; an error, such as a full disk, is ignored."""
         if self._file is None:
             return
         new = self._file.with_suffix(".new")
@@ -84,18 +60,9 @@ class ReloadFile:
 def reload(pid: int, environment: Mapping[str, str] = os.environ) -> None:
     """Have the service read its scene again, and wait for the result.
 
-    Parameters
-    ----------
-    pid : int
-        Main process of the service.
-
-    Raises
-    ------
-    ConfigError
-        If the scene was refused, with the reason, or the service runs from another release than this program: what one of them
-        wrote, the other may not read. The scene before stays in force.
-    ControllerError
-        If the process does not exist, or ended meanwhile.
+    `pid` is the main process of the service. Raises ConfigError if the scene was refused, with the reason, or the service runs from
+    another release than this program: what one of them wrote, the other may not read. The scene before stays in force. Raises
+    ControllerError if the process does not exist, or ended meanwhile.
     """
     folder = _folder(environment)
     if folder is None:

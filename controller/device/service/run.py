@@ -64,39 +64,17 @@ class OperatorCommands(CommandSource, Protocol):
 def serve(
     board: Board,
     scene: Scene,
-    scene_name: str,
-    bank: Bank,
-    replay: Recording | None = None,
-    open_fpga: OpenLink = open_link,
-    open_commands: Callable[[], OperatorCommands] | None = None,
+    scene_name: str,  # name or path of the scene, for reloads and the log
+    bank: Bank,  # open; it has all cells that the scene can need
+    replay: Recording | None = None,  # touches from a recording instead of the board's panel; the service ends with it
+    open_fpga: OpenLink = open_link,  # opens the link to the FPGA, if that is a simulated one
+    open_commands: Callable[[], OperatorCommands] | None = None,  # opens what others command the panel by
 ) -> dict[str, Any]:
     """Run a panel.
 
-    Parameters
-    ----------
-    scene_name : str
-        Name or path of the scene, for reloads and the log.
-    bank : Bank
-        Open; it has all cells that the scene can need.
-    replay : Recording, optional
-        Touches from a recording instead of the board's panel; the service ends with it.
-    open_fpga : OpenLink
-        Opens the link to the FPGA, if that is a simulated one.
-    open_commands : callable, optional
-        Opens what others command the panel by.
-
-    Returns
-    -------
-    dict
-        Counters and latencies, ready for JSON.
-
-    Raises
-    ------
-    IncompatibleFpga
-        If the FPGA does not have the gateware or limits that software and board require, also after it was loaded. The service
-        waits for an FPGA or touch panel that is not connected.
-    FaultError
-        If the FPGA has switched off because of a fault that the host must not clear.
+    Returns counters and latencies, ready for JSON. Raises IncompatibleFpga if the FPGA does not have the gateware or limits that
+    software and board require, also after it was loaded. The service waits for an FPGA or touch panel that is not connected. Raises
+    FaultError if the FPGA has switched off because of a fault that the host must not clear.
     """
     with ExitStack() as stack:
         # Before there is a loop whose trace it asks for, it would end the process.

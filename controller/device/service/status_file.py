@@ -32,12 +32,7 @@ class StatusFile(SpareTime):
 
     The folder lies in memory (tmpfs): nothing of it waits for a disk. A status that is not taken is counted and reported once.
 
-    Parameters
-    ----------
-    folder : Path or None
-        The runtime folder; None: nothing is written.
-    board : str
-        Name of the board.
+    Without a folder nothing is written.
     """
 
     def __init__(self, folder: Path | None, board: str) -> None:
@@ -73,21 +68,12 @@ class StatusFile(SpareTime):
     def watch(
         self,
         counters: Counters,
-        waiting: Callable[[], int],
-        touches: Counts | None = None,
+        waiting: Callable[[], int],  # how many emissions are due now
+        touches: Counts | None = None,  # what became of the positions that the touch panel reports
+        # Anomalies of the touch panel by kind, and the remark of its device
         touch: Callable[[], tuple[Mapping[str, int], str]] | None = None,
     ) -> None:
-        """Take what is reported; the first status follows the first condition.
-
-        Parameters
-        ----------
-        waiting : callable
-            How many emissions are due now.
-        touches : Counts, optional
-            What became of the positions that the touch panel reports.
-        touch : callable, optional
-            Anomalies of the touch panel by kind, and the remark of its device.
-        """
+        """Take what is reported; the first status follows the first condition."""
         self._counters = counters
         self._waiting = waiting
         self._touch = touch or _untouched

@@ -19,10 +19,7 @@ class Notifier:
 
     It does not block: messages that find the manager's queue full are kept and sent in order by later calls.
 
-    Parameters
-    ----------
-    address : str
-        $NOTIFY_SOCKET: a path, or a name in the abstract namespace with @ in front; empty: there is no manager.
+    `address` is $NOTIFY_SOCKET: a path, or a name in the abstract namespace with @ in front; empty: there is no manager.
     """
 
     def __init__(self, address: str) -> None:
@@ -93,12 +90,7 @@ class Notifier:
 class Watchdog:
     """Resets the service manager's watchdog while the loop turns; the manager kills a service whose loop hangs.
 
-    Parameters
-    ----------
-    notifier : Notifier
-        Sends the messages.
-    timeout_s : float
-        Silence after which the service is killed, in s; inf: there is no watchdog.
+    After a silence of `timeout_s` the service is killed; inf: there is no watchdog.
     """
 
     def __init__(self, notifier: Notifier, timeout_s: float) -> None:

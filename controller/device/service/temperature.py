@@ -22,28 +22,14 @@ RETRY_S: Final = 10.0  # after a failure: on a stuck bus each attempt takes BUS_
 class Thermometer:
     """A temperature sensor with a check of its readings, which holds the last valid one while the sensor is missing.
 
-    Parameters
-    ----------
-    sensor : Sensor or None
-        None: the one that the settings name; it may be missing and be connected later.
-
-    Attributes
-    ----------
-    temperature_c : float
-        The last valid reading; NaN before the first, and once it is older than `HOLD_S`.
-    refused : int
-        Readings out of range, or too far from the readings before and after.
-    failed : int
-        Attempts that failed.
-    cause : str
-        Why the last attempt gave no valid reading; empty if it did.
+    `sensor` None: the one that the settings name; it may be missing and be connected later.
     """
 
     def __init__(self, settings: Temperature, sensor: Sensor | None = None) -> None:
-        self.temperature_c = math.nan
-        self.refused = 0
-        self.failed = 0
-        self.cause = ""
+        self.temperature_c = math.nan  # the last valid reading; NaN before the first, and once it is older than `HOLD_S`
+        self.refused = 0  # readings out of range, or too far from the readings before and after
+        self.failed = 0  # attempts that failed
+        self.cause = ""  # why the last attempt gave no valid reading; empty if it did
         self._settings = settings
         self._sensor = sensor or sensor_of(settings)
         self._good_s = -math.inf

@@ -37,10 +37,7 @@ class Sensor(Protocol):
     def read_c(self) -> float | None:
         """Temperature in °C; None if a `SensorProcess` has not answered yet.
 
-        Raises
-        ------
-        OSError
-            If the sensor cannot be read; the next call opens it again.
+        Raises OSError if the sensor cannot be read; the next call opens it again.
         """
 
     def close(self) -> None:
@@ -52,10 +49,7 @@ class SensorProcess:
 
     Each call of `read_c` requests the next reading, so a reading is as old as the time between two calls.
 
-    Parameters
-    ----------
-    worker : Worker
-        The process; it runs `serve_sensor`.
+    The worker runs `serve_sensor`.
     """
 
     def __init__(self, worker: Worker) -> None:
@@ -101,10 +95,7 @@ def serve_sensor(sensor: Sensor, loop: socket.socket) -> None:
 class Hwmon:
     """A sensor with a kernel driver: sysfs gives thousandths of a degree (Documentation/hwmon/sysfs-interface).
 
-    Parameters
-    ----------
-    device : str
-        Path of a temp*_input, or name of a chip, of which temp1_input is read.
+    `device` is the path of a temp*_input, or the name of a chip, of which temp1_input is read.
     """
 
     def __init__(self, device: str) -> None:
@@ -147,12 +138,7 @@ class Lm75:
 
     Depending on the chip, 9 to 16 bits are significant; the rest are 0 (LM75B datasheet 7.4.3; TMP75 7.5.1.2; TMP102 normal mode).
 
-    Parameters
-    ----------
-    bus : str
-        I2C bus, such as /dev/i2c-1.
-    address : int
-        0x48 to 0x4F, by the chip's pins.
+    `bus` is such as /dev/i2c-1; `address` is 0x48 to 0x4F, by the chip's pins.
     """
 
     def __init__(self, bus: str, address: int) -> None:

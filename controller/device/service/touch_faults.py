@@ -13,13 +13,7 @@ PERIOD_S: Final = 1.0
 
 
 class TouchFaults:
-    """Logs the faults of a panel; their counts are in the status file.
-
-    Parameters
-    ----------
-    panel : Panel
-        The panel's driver.
-    """
+    """Logs the faults of a panel; their counts are in the status file."""
 
     def __init__(self, panel: Panel) -> None:
         self._panel = panel

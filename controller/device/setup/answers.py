@@ -26,7 +26,7 @@ HELD: Final[dict[str, dict[str, Any]]] = {  # keys of [plate], by how the glass 
 ExtentMm = Annotated[float, Meta(ge=20, le=4000)]
 
 
-class Answers(Record, frozen=True, kw_only=True):
+class SetupAnswers(Record, frozen=True, kw_only=True):
     """Answers of the builder; those with a default need not be given.
 
     Attributes

@@ -23,7 +23,7 @@ from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.device.board.touch_panels import touch_record
 from controller.device.scene.scene_file import find_scene, read_scene
-from controller.device.setup.answers import Answers
+from controller.device.setup.answers import SetupAnswers
 from controller.device.setup.placement import actuators_around
 from controller.errors import ConfigError
 
@@ -34,20 +34,11 @@ PITCH: Final = 0.6  # of half the shortest wave: that of the simulated board
 NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
 
 
-def write_board(folder: Path, answers: Answers, touch: Mapping[str, Any]) -> Board:
+def write_board(folder: Path, answers: SetupAnswers, touch: Mapping[str, Any]) -> Board:
     """Write the folder of a board, and read it back.
 
-    Parameters
-    ----------
-    folder : Path
-        Does not exist yet; its name becomes the board's.
-    touch : mapping
-        Keys of [touch] besides kind and axes.
-
-    Raises
-    ------
-    ConfigError
-        If the folder exists, cannot be written or has no name for a board, or if the board would be refused.
+    `folder` does not exist yet; its name becomes the board's. `touch` has the keys of [touch] besides kind and axes. Raises
+    ConfigError if the folder exists, cannot be written or has no name for a board, or if the board would be refused.
     """
     if not NAME.fullmatch(folder.name):
         raise ConfigError(f"{folder}: a board's folder has a name of lower case letters, digits, - and _")
@@ -71,14 +62,8 @@ def write_board(folder: Path, answers: Answers, touch: Mapping[str, Any]) -> Boa
     return load_board(folder)
 
 
-def board_text(name: str, answers: Answers, touch: Mapping[str, Any]) -> str:
-    """Text of board.toml.
-
-    Raises
-    ------
-    ConfigError
-        If keys of [touch] are invalid, or the discs do not fit on the glass.
-    """
+def board_text(name: str, answers: SetupAnswers, touch: Mapping[str, Any]) -> str:
+    """Text of board.toml; raises ConfigError if keys of [touch] are invalid, or the discs do not fit on the glass."""
     shipped = data_folder("boards") / answers.fpga / "board.toml"
     tables, sections = read_tables(shipped), _sections(shipped.read_text(encoding="utf-8"))
     waveform = as_record(f"{shipped}: waveform.", tables["waveform"], Waveform)
@@ -116,7 +101,7 @@ def _bought(driver: Mapping[str, float]) -> str:
     return f"Each stage: {driver['resistance_ohm']:g} ohm and {millihenry:g} mH into {nanofarad:g} nF"
 
 
-def _limits(text: str, shipped: Mapping[str, float], driver: Mapping[str, float], answers: Answers, channels: int) -> str:
+def _limits(text: str, shipped: Mapping[str, float], driver: Mapping[str, float], answers: SetupAnswers, channels: int) -> str:
     """[limits] of the shipped board, with what follows from the stages: edges that the resistors bear, and the duty within them."""
     permitted_w = answers.resistor_w * shipped["derating"]
     rate_hz = _down(permitted_w / worst_edge_j(Driver(**driver)))

@@ -23,15 +23,7 @@ CUT_MM: Final = 0.4  # between two quadrants
 def actuators_around(length_mm: float, width_mm: float, parts: Parts, discs: int, rim_mm: float) -> list[dict[str, Any]]:
     """Tables of `actuators`: quadrants of discs, half of each disc's idling high.
 
-    Parameters
-    ----------
-    rim_mm : float
-        From the edge of the glass to the rim of a disc.
-
-    Raises
-    ------
-    ConfigError
-        If so many discs do not fit.
+    `rim_mm` is from the edge of the glass to the rim of a disc. Raises ConfigError if that many discs do not fit.
     """
     disc = parts.data
     centres = centres_around(length_mm, width_mm, disc.brass_mm, discs, rim_mm)
@@ -53,10 +45,7 @@ def actuators_around(length_mm: float, width_mm: float, parts: Parts, discs: int
 def centres_around(length_mm: float, width_mm: float, disc_mm: float, discs: int, rim_mm: float) -> list[Place]:
     """Centres of discs, evenly along a rectangle inside the edge; of several starts the one that is least its own mirror image.
 
-    Raises
-    ------
-    ConfigError
-        If so many discs do not fit.
+    Raises ConfigError if that many discs do not fit.
     """
     inset_mm = rim_mm + disc_mm / 2
     along_mm, across_mm = length_mm - 2 * inset_mm, width_mm - 2 * inset_mm

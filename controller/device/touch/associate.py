@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from controller.device.touch.axes import Axes
+from controller.device.touch.axes import PanelAxes
 
 # Values of Contact.identity besides the tracking ids of the device, which are never negative
 NO_CONTACT: Final = -1
@@ -26,45 +26,7 @@ VELOCITY_GAIN = 0.7  # weight of the last step in the velocity
 
 
 class Contact:
-    """State of one contact, or of one slot.
-
-    Attributes
-    ----------
-    identity : int
-        Tracking id, serial number from `FIRST_SERIAL` on, or `NO_CONTACT`, `UNKNOWN`, `IMPLIED`.
-    x, y : int or None
-        Raw position; None before the first one.
-    moved : bool
-        Whether the position has changed since the last sample.
-    hovers, tool_palm : bool
-        As the device reports it.
-    palm : bool
-        Whether it has been a palm since it began.
-    counted : bool
-        Whether it is among the contacts counted.
-    refused : bool
-        Whether it began while ten fingers were played.
-    finger : int or None
-        Number in the samples; None while it is not played.
-    x_m, y_m, size_m : float
-        Of its last sample.
-    size : int
-        ABS_MT_TOUCH_MAJOR.
-    at_x_m, at_y_m : float
-        Without a tracking id: position of its last report.
-    vx, vy : float
-        Without a tracking id: velocity in m/s.
-    held : int
-        Number of the report whose position waits for the next one; 0: none does.
-    held_x_m, held_y_m, held_s : float
-        That position, NaN if it is no place of a finger, and the time of the last report before.
-    stepped : int
-        Number of the report of its last sample.
-    step_vx, step_vy : float
-        Velocity in m/s of the last step between two samples; NaN before the first.
-    silent : bool
-        Whether its panel has fallen silent: it is no finger until the panel reports it again.
-    """
+    """State of one contact, or of one slot."""
 
     __slots__ = (
         "at_x_m",
@@ -98,42 +60,38 @@ class Contact:
     def __init__(
         self, identity: int, *, finger: int | None = None, x_m: float = 0.0, y_m: float = 0.0, size_m: float = 0.0
     ) -> None:
-        self.identity = identity
-        self.x: int | None = None
+        self.identity = identity  # tracking id, serial number from `FIRST_SERIAL` on, or `NO_CONTACT`, `UNKNOWN`, `IMPLIED`
+        self.x: int | None = None  # x, y: raw position; None before the first one
         self.y: int | None = None
+        # Whether the position has changed since the last sample
+        # As the device reports it
+        # Whether it has been a palm since it began
+        # Whether it is among the contacts counted
+        # Whether it began while ten fingers were played
+        # Whether its panel has fallen silent: it is no finger until the panel reports it again
         self.moved = self.hovers = self.tool_palm = self.palm = self.counted = self.refused = self.silent = False
-        self.finger = finger
-        self.x_m = x_m
+        self.finger = finger  # number in the samples; None while it is not played
+        self.x_m = x_m  # x_m, y_m, size_m: of its last sample
         self.y_m = y_m
-        self.size = 0
+        self.size = 0  # ABS_MT_TOUCH_MAJOR
         self.size_m = size_m
-        self.at_x_m = self.at_y_m = self.vx = self.vy = 0.0
-        self.held = self.stepped = 0
+        # Without a tracking id: velocity in m/s
+        self.at_x_m = self.at_y_m = self.vx = self.vy = 0.0  # without a tracking id: position of its last report
+        # Number of the report of its last sample
+        self.held = self.stepped = 0  # number of the report whose position waits for the next one; 0: none does
+        # that position, NaN if it is no place of a finger, and the time of the last report before
         self.held_x_m = self.held_y_m = self.held_s = 0.0
-        self.step_vx = self.step_vy = math.nan
+        self.step_vx = self.step_vy = math.nan  # velocity in m/s of the last step between two samples; NaN before the first
 
 
-def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int], step_s: float) -> dict[int, Contact]:
+def associate(
+    old: dict[int, Contact], new: list[Contact], axes: PanelAxes, serials: Iterator[int], step_s: float
+) -> dict[int, Contact]:
     """Carry the state of the contacts of the last report over to those of a new one.
 
-    Parameters
-    ----------
-    old : dict
-        Contacts of the last report by identity.
-    new : list of Contact
-        Contacts of this report, each with both positions and the device's tracking id, negative without one.
-    axes : Axes
-        Gives positions on the plate.
-    serials : iterator of int
-        Identities for new contacts without tracking id, from FIRST_SERIAL on.
-    step_s : float
-        Time from the last report to this one.
-
-    Returns
-    -------
-    dict
-        Contacts of this report by identity, the old ones updated in place. Of two contacts with one tracking id the
-        first counts.
+    `old` holds contacts by identity; each of `new` has both positions and the device's tracking id, negative without one. `serials`
+    gives identities for new contacts without one, from FIRST_SERIAL on; `step_s` has passed since the last report. Returns the
+    contacts of this report by identity, the old ones updated in place; of two contacts with one tracking id the first counts.
     """
     now: dict[int, Contact] = {}
     untracked = []
@@ -161,15 +119,8 @@ def assignment(costs: Sequence[Sequence[float]]) -> list[int]:
     Shortest augmenting paths (Jonker and Volgenant, Computing 38, 1987); a row whose cheapest column no other row prefers is
     assigned at once.
 
-    Parameters
-    ----------
-    costs : (row, column) sequences of float
-        At least as many columns as rows; inf for an impossible pair, at least one finite cost in each row.
-
-    Returns
-    -------
-    list of int
-        Column of each row.
+    `costs` has at least as many columns as rows, inf for an impossible pair, and at least one finite cost in each row. Returns the
+    column of each row.
     """
     rows, columns = range(len(costs)), range(len(costs[0]) if costs else 0)
     row_of = [-1 for _ in columns]

@@ -20,32 +20,14 @@ class AxisRange:
     maximum: int
 
 
-class Axes:
+class PanelAxes:
     """Both axes of one panel on one board.
 
     A raw value is normalised to 0..1 by the range of its axis; the board's affine map (`touch.x_mm_from_axes`,
-    `touch.y_mm_from_axes`: per unit of x, per unit of y, at their minimum) gives the position on the plate. Axes may be
+    `touch.y_mm_from_axes`: per unit of x, per unit of y, at their minimum) gives the position on the plate. PanelAxes may be
     mirrored or swapped, and may reach beyond the glass.
 
-    Parameters
-    ----------
-    board : TouchedPlate
-        Gives the plate and the map.
-    x, y : AxisRange
-        Ranges of the device's axes. An axis without extent (guessed from one single tap) reads as its middle.
-
-    Attributes
-    ----------
-    from_axes : tuple of 6 float
-        The map: metres along x per raw unit of x, of y, at raw (0, 0); the same along y.
-    plate_m : (float, float)
-        Length and width of the plate.
-    settings : TouchPanel
-        The board's [touch].
-    unit_m : (float, float)
-        Metres on the plate per raw unit of x, and of y; 0 of an axis without extent.
-    size_m_per_unit : float
-        Metres per raw unit of a contact's size, the mean of both axes.
+    An axis without extent (guessed from one single tap) reads as its middle.
     """
 
     __slots__ = ("from_axes", "plate_m", "settings", "size_m_per_unit", "unit_m", "x", "y")
@@ -53,31 +35,22 @@ class Axes:
     def __init__(self, board: TouchedPlate, x: AxisRange, y: AxisRange) -> None:
         self.x = x
         self.y = y
-        self.settings: TouchPanel = board.touch
-        self.plate_m = (board.plate.length_m, board.plate.width_m)
+        self.settings: TouchPanel = board.touch  # the board's [touch]
+        self.plate_m = (board.plate.length_m, board.plate.width_m)  # length and width of the plate
+        # The map: metres along x per raw unit of x, of y, at raw (0, 0); the same along y
         self.from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
         x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self.from_axes
         # The kernel gives a contact's size in units of its position, which may differ between the axes
+        # Metres on the plate per raw unit of x, and of y; 0 of an axis without extent
         self.unit_m = (math.hypot(x_by_x, y_by_x), math.hypot(x_by_y, y_by_y))
-        self.size_m_per_unit = sum(self.unit_m) / 2
+        self.size_m_per_unit = sum(self.unit_m) / 2  # metres per raw unit of a contact's size, the mean of both axes
 
     def clamp(self, x: int, y: int) -> tuple[int, int]:
         """Raw position (`x`, `y`) clamped to both ranges."""
         return _clamped(x, self.x), _clamped(y, self.y)
 
     def position_m(self, x: int, y: int) -> tuple[float, float]:
-        """Position on the plate of a raw position.
-
-        Parameters
-        ----------
-        x, y : int
-            Inside the ranges.
-
-        Returns
-        -------
-        (x_m, y_m)
-            Clamped to the plate.
-        """
+        """Position (x_m, y_m) on the plate, clamped to it, of a raw position inside the ranges."""
         x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self.from_axes
         length_m, width_m = self.plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0

@@ -16,7 +16,7 @@ from math import inf
 from typing import Final
 
 from controller.device.touch.associate import FIRST_SERIAL, IMPLIED, NO_CONTACT, UNKNOWN, Contact, associate
-from controller.device.touch.axes import Axes
+from controller.device.touch.axes import PanelAxes
 from controller.device.touch.event_codes import (
     ABS_MT_DISTANCE,
     ABS_MT_POSITION_X,
@@ -55,35 +55,16 @@ class Decoder:
 
     `feed_report` is on the hot path from touch to emission: it allocates only the samples.
 
-    Parameters
-    ----------
-    axes : Axes
-        Maps raw positions to the plate.
-    protocol : Protocol
-        See `event_codes.protocol_of`.
-    slot, last_slot : int
-        Current slot at the start; highest slot that the device declares, None if unknown.
-    after : Decoder, optional
-        Decoder before a reconnection of the device, whose counts, warnings and finger numbers are continued.
-
-    Attributes
-    ----------
-    counts : Counts
-        Reports, contacts and fingers so far.
-    warnings : Counter of str
-        Anomalies so far, by kind.
-    touched : bool
-        Whether the events fed last ended a report with at least one contact down, and without a position held back.
-    due_s : float
-        When to call `overdue` unless events are fed before; inf: never.
+    `slot` is current at the start; `last_slot` is the highest that the device declares, None if unknown. After a reconnection of
+    the device, counts, warnings and finger numbers of the decoder `after` are continued.
     """
 
     def __init__(
-        self, axes: Axes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
+        self, axes: PanelAxes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
     ) -> None:
-        self.counts: Counts = after.counts if after else Counts()
+        self.counts: Counts = after.counts if after else Counts()  # reports, contacts and fingers so far
         self.counts.devices += 1
-        self.warnings: Counter[str] = after.warnings if after else Counter()
+        self.warnings: Counter[str] = after.warnings if after else Counter()  # anomalies so far, by kind
         self._axes = axes
         self._last_slot = MAX_SLOTS if last_slot is None else last_slot
         self._is_a = protocol is Protocol.A
@@ -97,8 +78,9 @@ class Decoder:
         self._replaced: list[Contact] = []  # contacts that another one has replaced within the report
         self._touching: bool | None = None  # BTN_TOUCH, None before its first event
         self._dropping = False
+        # Whether the events fed last ended a report with at least one contact down, and without a position held back
         self.touched = False
-        self.due_s = inf
+        self.due_s = inf  # when to call `overdue` unless events are fed before; inf: never
         self._plausibility: Plausibility = Plausibility(
             axes,
             MAX_PLAYED,
@@ -118,17 +100,7 @@ class Decoder:
     def feed_report(self, events: Iterable[Event], time_s: float) -> tuple[TouchSample, ...] | None:
         """Take events that all happened at one time; their own times are not looked at.
 
-        Parameters
-        ----------
-        events : iterable of Event
-            Type, code and value as in struct input_event.
-        time_s : float
-            Time of the samples.
-
-        Returns
-        -------
-        tuple of TouchSample or None
-            If the last event is SYN_REPORT: fingers released, then fingers moved or begun; else None.
+        Returns None unless the last event is SYN_REPORT; else samples of fingers released, then of fingers moved or begun.
         """
         samples = None
         self.touched = False
@@ -166,13 +138,7 @@ class Decoder:
         return samples
 
     def release(self, time_s: float) -> tuple[TouchSample, ...]:
-        """Release every finger and forget the panel's state, at the end of the stream or after a loss of events.
-
-        Parameters
-        ----------
-        time_s : float
-            Time of the samples.
-        """
+        """Release every finger and forget the panel's state, at the end of the stream or after a loss of events."""
         fingers = [c for c in (*self._replaced, *self._slots.values()) if c.finger is not None]
         self._slots.clear()
         self._replaced.clear()
@@ -185,13 +151,7 @@ class Decoder:
         return released
 
     def overdue(self, time_s: float) -> tuple[TouchSample, ...]:
-        """Samples of fingers because there was no report by `due_s`; see `Plausibility.overdue`.
-
-        Parameters
-        ----------
-        time_s : float
-            Time of the samples.
-        """
+        """Samples of fingers because there was no report by `due_s`; see `Plausibility.overdue`."""
         samples = self._plausibility.overdue(self._slots.values(), time_s)
         if samples and self._is_a and self._plausibility.due_s == inf:  # what is reported next starts again
             self._slots = {key: contact for key, contact in self._slots.items() if contact.finger is not None}

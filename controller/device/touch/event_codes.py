@@ -68,12 +68,7 @@ class Protocol(Enum):
 def protocol_of(declared_axes: Iterable[int], seen: Iterable[tuple[int, int]]) -> Protocol:
     """Protocol of a recording.
 
-    Parameters
-    ----------
-    declared_axes : iterable of int
-        Codes of EV_ABS that the device declares; a recording may lack them.
-    seen : iterable of (type, code)
-        Events of the stream.
+    `declared_axes` are codes of EV_ABS, which a recording may lack; `seen` are (type, code) of the stream's events.
     """
     axes, events = set(declared_axes), set(seen)
     if (EV_ABS, ABS_MT_SLOT) in events:
@@ -86,13 +81,7 @@ def protocol_of(declared_axes: Iterable[int], seen: Iterable[tuple[int, int]]) -
 
 
 def protocol_of_device(declared_axes: Iterable[int]) -> Protocol:
-    """Protocol of a live device, which declares all its axes: without slots it is not protocol B.
-
-    Parameters
-    ----------
-    declared_axes : iterable of int
-        Codes of EV_ABS.
-    """
+    """Protocol of a live device, which declares all its axes (codes of EV_ABS): without slots it is not protocol B."""
     axes = set(declared_axes)
     if ABS_MT_SLOT in axes:
         return Protocol.B

@@ -26,33 +26,18 @@ class AxisInfo(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DeviceDescription:
-    """Description of an input device, as it stands in the head of an evemu recording.
+    """Description of an input device, as it stands in the head of an evemu recording."""
 
-    Attributes
-    ----------
-    name : str
-        As the device reports it.
-    bus, vendor, product, version : int
-        struct input_id.
-    properties : tuple of int
-        INPUT_PROP codes.
-    codes : mapping of int to tuple of int
-        Codes that it can send, by event type; under EV_SYN: the types.
-    axes : mapping of int to AxisInfo
-        By code of EV_ABS.
-    remark : str
-        What the device lacks and works without, found at this opening; empty: nothing.
-    """
-
-    name: str
-    bus: int = 0
+    name: str  # as the device reports it
+    bus: int = 0  # bus, vendor, product, version: struct input_id
     vendor: int = 0
     product: int = 0
     version: int = 0
-    properties: tuple[int, ...] = ()
+    properties: tuple[int, ...] = ()  # INPUT_PROP codes
+    # Codes that it can send, by event type; under EV_SYN: the types
     codes: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
-    axes: Mapping[int, AxisInfo] = field(default_factory=dict)
-    remark: str = field(default="", compare=False)
+    axes: Mapping[int, AxisInfo] = field(default_factory=dict)  # by code of EV_ABS
+    remark: str = field(default="", compare=False)  # what the device lacks and works without, found at this opening; empty: nothing
 
 
 class EventReader(Protocol):
@@ -61,14 +46,9 @@ class EventReader(Protocol):
     Its events can be decoded and recorded from the first one on: the stream begins with the state of the panel as a report;
     after a loss of events, and after a reconnection, the state comes as another report; when the panel is lost, a report
     lifts every contact.
-
-    Attributes
-    ----------
-    warnings : Counter of str
-        Anomalies that were handled, by kind (`reports.WARNINGS`).
     """
 
-    warnings: Counter[str]
+    warnings: Counter[str]  # anomalies that were handled, by kind (`reports.WARNINGS`)
 
     @property
     def description(self) -> DeviceDescription:
@@ -85,19 +65,9 @@ class EventReader(Protocol):
         """When to call `read` without a readable file, on the loop's clock; None: never."""
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Take the events of at most one report.
+        """Take the events of at most one report: SYN_REPORT last, a long report in several parts; empty if there is none.
 
         It blocks for one bus transfer at most. Errors of the device are handled here: counted, or the device counts as lost.
-
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock.
-
-        Returns
-        -------
-        sequence of Event
-            SYN_REPORT last; a long report comes in several parts. Empty if there is none.
         """
 
     def close(self) -> None:

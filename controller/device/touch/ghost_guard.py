@@ -24,13 +24,7 @@ BURST_LIVES = 4  # the same in multiples of G, if that is longer
 
 
 class GhostGuard:
-    """Ghost windows of the last emissions.
-
-    Parameters
-    ----------
-    ghost_s : float
-        G of the rule; 0: no contact is a suspect.
-    """
+    """Ghost windows of the last emissions. `ghost_s` is G of the rule; with 0 no contact is a suspect."""
 
     __slots__ = ("_end_s", "_ghost_s", "_length_s", "_period_s", "_previous", "_start_s", "_window_begin_s")
 
@@ -66,15 +60,7 @@ class GhostGuard:
     def cleared_s(self, first_s: float) -> float:
         """End of a suspect's ghost window: if it is still down then, it is a finger.
 
-        Parameters
-        ----------
-        first_s : float
-            Its first report.
-
-        Returns
-        -------
-        float
-            On the loop's clock; inf while an emission repeats.
+        It was first reported at `first_s`; inf while an emission repeats.
         """
         return self._previous[1] if first_s < self._previous[1] else self._window(first_s)[1]
 
@@ -96,19 +82,7 @@ class GhostGuard:
 class QuietBudget:
     """Limits the quiet time to `MAX_QUIET_SHARE` of all time, with a reserve for a burst (a leaky bucket).
 
-    Parameters
-    ----------
-    ghost_s : float
-        G of the rule.
-
-    Attributes
-    ----------
-    total_s : float
-        Quiet time so far.
-    retry_s : float
-        When to ask again after a refusal, on the loop's clock; inf: nothing was refused.
-    asked : bool
-        Whether `begin` was called since the last `end`, which is needed then.
+    `ghost_s` is G of the rule.
     """
 
     __slots__ = ("_credit_s", "_last_s", "_max_credit_s", "_quiet", "asked", "retry_s", "total_s")
@@ -117,23 +91,12 @@ class QuietBudget:
         self._max_credit_s = self._credit_s = max(BURST_S, BURST_LIVES * ghost_s) * (1 - MAX_QUIET_SHARE)
         self._last_s = -inf
         self._quiet = False
-        self.asked = False
-        self.retry_s = inf
-        self.total_s = 0.0
+        self.asked = False  # whether `begin` was called since the last `end`, which is needed then
+        self.retry_s = inf  # when to ask again after a refusal, on the loop's clock; inf: nothing was refused
+        self.total_s = 0.0  # quiet time so far
 
     def begin(self, now_s: float, until_s: float) -> bool:
-        """Begin or continue a quiet time.
-
-        Parameters
-        ----------
-        now_s, until_s : float
-            Its begin and expected end on the loop's clock.
-
-        Returns
-        -------
-        bool
-            False: refused, it would exceed the budget.
-        """
+        """Begin or continue a quiet time that is expected to end at `until_s`; False: refused, it would exceed the budget."""
         self.end(now_s, going_on=self._quiet)
         self.asked = True
         cost_s = (until_s - now_s) * (1 - MAX_QUIET_SHARE)
@@ -145,15 +108,7 @@ class QuietBudget:
         return True
 
     def end(self, now_s: float, *, going_on: bool = False) -> None:
-        """Account for the time since the last call and end the quiet time.
-
-        Parameters
-        ----------
-        now_s : float
-            On the loop's clock.
-        going_on : bool
-            Account only: a quiet time continues.
-        """
+        """Account for the time since the last call and end the quiet time, unless it is `going_on`."""
         since_s, self._last_s = max(now_s - self._last_s, 0.0), now_s
         if self._quiet:
             self.total_s += since_s

@@ -15,18 +15,8 @@ NOISE_M: Final = 2e-3  # of a position; the coarsest panel recorded has steps of
 def reaches(contact: Contact, x_m: float, y_m: float, time_s: float, number: int, before_s: float, period_s: float) -> bool:
     """Whether a hand may have moved the finger of a contact from its last place to this one.
 
-    Parameters
-    ----------
-    contact : Contact
-        With a finger.
-    x_m, y_m, time_s : float
-        What is reported.
-    number : int
-        Of this report.
-    before_s : float
-        Time of the report before.
-    period_s : float
-        Report period of the panel.
+    Reported are the place and `time_s` in the report of this `number`; `before_s` is the time of the report before, `period_s` the
+    panel's report period.
     """
     off_x_m, off_y_m = x_m - contact.x_m, y_m - contact.y_m
     if contact.held:
@@ -41,13 +31,7 @@ def reaches(contact: Contact, x_m: float, y_m: float, time_s: float, number: int
 
 
 def goes_on(contact: Contact, x_m: float, y_m: float, time_s: float, before_s: float, period_s: float) -> bool:
-    """Whether a place confirms the one that was held back: near it, or as far beyond it as that was from the last one.
-
-    Parameters
-    ----------
-    contact, x_m, y_m, time_s, before_s, period_s
-        As for `reaches`.
-    """
+    """Whether a place confirms the one that was held back: near it, or as far beyond it as that was from the last one."""
     step_s = moving_s(time_s - before_s, period_s)
     off_x_m, off_y_m = x_m - contact.held_x_m, y_m - contact.held_y_m
     if within(off_x_m, off_y_m, HAND_SPEED, step_s):
@@ -61,14 +45,8 @@ def goes_on(contact: Contact, x_m: float, y_m: float, time_s: float, before_s: f
 def moving_s(since_s: float, period_s: float, *, lost: int = 1) -> float:
     """Time in which a finger may have moved.
 
-    Parameters
-    ----------
-    since_s : float
-        Since the report in which it was last found. Reports may be read late: it has had one period at least.
-    period_s : float
-        Of the panel.
-    lost : int
-        Reports that may be missing in between; before that it rested.
+    `since_s` has passed since the report in which it was last found; reports may be read late: it has had one period at least. Up
+    to `lost` reports may be missing in between; before that it rested.
     """
     return min(max(since_s, period_s), (1 + lost) * period_s)
 

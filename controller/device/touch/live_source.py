@@ -6,7 +6,7 @@ from collections import Counter
 from math import inf
 
 from controller.device.touch import event_codes as ev
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.event_codes import Protocol, protocol_of_device
 from controller.device.touch.event_reader import EventReader
@@ -18,36 +18,20 @@ class LiveSource:
     """Driver and decoder of a panel; a `TouchSource`.
 
     When the panel is lost its fingers are released. After a reconnection its axes are read again and new fingers begin.
-
-    Parameters
-    ----------
-    reader : EventReader
-        Driver of the panel.
-    board : TouchedPlate
-        Gives the plate and the map from the panel's axes to it.
-
-    Attributes
-    ----------
-    counts : Counts
-        Reports, contacts and fingers since the start, reconnections included.
-    silence : Silence
-        To be set before a read by whoever waits for `fileno`.
-    touched : bool
-        See `TouchSource.touched`.
     """
 
     def __init__(self, reader: EventReader, board: TouchedPlate) -> None:
-        self.silence = Silence()
-        self.touched = False
+        self.silence = Silence()  # to be set before a read by whoever waits for `fileno`
+        self.touched = False  # see `TouchSource.touched`
         self._reader = reader
         self._board = board
         self._own_warnings: Counter[str] = Counter()
         self._clock = ReportClock(self._own_warnings)
         self._decoder = self._renewed(None)
-        self.counts: Counts = self._decoder.counts
+        self.counts: Counts = self._decoder.counts  # reports, contacts and fingers since the start, reconnections included
 
     @property
-    def axes(self) -> Axes:
+    def axes(self) -> PanelAxes:
         """Axes of the device as it was opened last."""
         return self._axes
 
@@ -99,6 +83,6 @@ class LiveSource:
         protocol = protocol_of_device(description.axes)
         codes = ev.POSITIONS_SINGLE if protocol is Protocol.SINGLE else ev.POSITIONS
         x, y = (AxisRange(description.axes[code].minimum, description.axes[code].maximum) for code in codes)
-        self._axes = Axes(self._board, x, y)
+        self._axes = PanelAxes(self._board, x, y)
         slots = description.axes.get(ev.ABS_MT_SLOT)
         return Decoder(self._axes, protocol, last_slot=slots.maximum if slots else None, after=before)

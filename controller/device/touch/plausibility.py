@@ -26,7 +26,7 @@ from math import inf, nan
 from typing import Final
 
 from controller.device.touch.associate import IMPLIED, Contact
-from controller.device.touch.axes import OFF_M, Axes
+from controller.device.touch.axes import OFF_M, PanelAxes
 from controller.device.touch.hand_steps import goes_on, moving_s, reaches
 from controller.device.touch.reports import PanelHabits, ReportRate
 from controller.device.touch.source import Counts, TouchSample, touch_sample
@@ -40,60 +40,28 @@ KINDS: Final = ("far_outside", "no_finger", "too_fast", "more_than_played", "fal
 def figures(counts: Counts, warnings: Mapping[str, int]) -> dict[str, int]:
     """Figures of the stage, for JSON.
 
-    Parameters
-    ----------
-    counts : Counts
-        Of the source.
-    warnings : mapping of str to int
-        Of the source, by kind.
-
-    Returns
-    -------
-    dict
-        `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step
-        that no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are
-        fingers.
+    `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step that
+    no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are fingers.
     """
     found = {"points": counts.points, "believed": counts.believed, "held": counts.held, "confirmed": counts.confirmed}
     return found | {kind: warnings.get(kind, 0) for kind in KINDS}
 
 
 class Plausibility:
-    """Contacts of one device to touch samples.
-
-    Parameters
-    ----------
-    axes : Axes
-        Of the device; they give the board's [touch], too.
-    max_played : int
-        Fingers that are played at once; a further one is refused until it is lifted.
-    tells_all : bool
-        Whether each report lists all contacts (protocol A): then it repeats itself while the panel is touched.
-    warnings : Counter of str
-        Of the decoder.
-    after : Plausibility, optional
-        That of the device before a reconnection, whose finger numbers are continued.
-
-    Attributes
-    ----------
-    due_s : float
-        When to call `overdue` unless there is a report before; inf: never.
-    touched : bool
-        Whether the last report had a contact down, and all fingers have their places.
-    """
+    """Contacts of one device to touch samples."""
 
     def __init__(
         self,
-        axes: Axes,
-        max_played: int,
+        axes: PanelAxes,  # of the device; they give the board's [touch], too
+        max_played: int,  # fingers that are played at once; a further one is refused until it is lifted
         *,
-        tells_all: bool,
+        tells_all: bool,  # whether each report lists all contacts (protocol A): then it repeats itself while the panel is touched
         counts: Counts,
-        warnings: Counter[str],
-        after: Plausibility | None = None,
+        warnings: Counter[str],  # of the decoder
+        after: Plausibility | None = None,  # that of the device before a reconnection, whose finger numbers are continued
     ) -> None:
-        self.due_s = inf
-        self.touched = False
+        self.due_s = inf  # when to call `overdue` unless there is a report before; inf: never
+        self.touched = False  # whether the last report had a contact down, and all fingers have their places
         self._next_finger: int = after._next_finger if after else 0
         self._counts = counts
         self._warnings = warnings
@@ -117,21 +85,8 @@ class Plausibility:
     ) -> tuple[TouchSample, ...]:
         """Take a report.
 
-        Parameters
-        ----------
-        contacts : iterable of Contact
-            All that the device has, down or not.
-        replaced : list of Contact
-            Those that another one has replaced; it is emptied.
-        time_s : float
-            Of the report.
-        hovering : bool
-            Whether no contact touches the panel.
-
-        Returns
-        -------
-        tuple of TouchSample
-            Fingers released, then fingers moved or begun.
+        `contacts` are all that the device has, down or not; `replaced`, those that another one has replaced, is emptied. If
+        `hovering`, no contact touches the panel. Returns fingers released, then fingers moved or begun.
         """
         samples: list[TouchSample] = []
         changed: list[Contact] = []
@@ -190,17 +145,7 @@ class Plausibility:
     def overdue(self, contacts: Iterable[Contact], time_s: float) -> tuple[TouchSample, ...]:
         """Decide, as there was no report by `due_s`: a panel that repeats its reports has no finger, any other has fingers at rest.
 
-        Parameters
-        ----------
-        contacts : iterable of Contact
-            As in `report`.
-        time_s : float
-            Of the samples.
-
-        Returns
-        -------
-        tuple of TouchSample
-            Fingers released, or confirmed where they were held back.
+        Returns fingers released, or confirmed where they were held back.
         """
         samples: list[TouchSample] = []
         habits = self._habits
@@ -225,13 +170,7 @@ class Plausibility:
         return tuple(samples)
 
     def released(self, contact: Contact, time_s: float) -> TouchSample:
-        """Release the finger of a `contact`; a position held back is left out.
-
-        Returns
-        -------
-        TouchSample
-            With its last place.
-        """
+        """Release the finger of a `contact` at its last place; a position held back is left out."""
         finger = contact.finger
         assert finger is not None
         contact.finger = None
@@ -297,7 +236,7 @@ class Plausibility:
                 return None
             self._warnings["outside_axes"] += 1
             x, y = self._axes.clamp(x, y)
-        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes  # as `Axes.position_m`, without its call for each report
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes  # as `position_m`, without its call for each report
         length_m, width_m = self._plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
         y_m = y_by_x * x + y_by_y * y + y_at_0

@@ -23,24 +23,7 @@ MIN_INTERVAL_S: Final = 2e-3  # no panel reports faster; reports read late may a
 
 
 class Motion:
-    """Motion of one finger. Call `report` for every report of its panel, moved or not.
-
-    Parameters
-    ----------
-    x_m, y_m, time_s : float
-        First report: position on the plate, time on the loop's clock.
-
-    Attributes
-    ----------
-    x_m, y_m, time_s : float
-        Last report.
-    vx, vy : float
-        Velocity used for the prediction, in m/s.
-    missed_m : float
-        Distance of the last report from where it was predicted.
-    pause_s : float
-        After so long without a report the velocity is unknown.
-    """
+    """Motion of one finger. Call `report` for every report of its panel, moved or not."""
 
     __slots__ = (
         "_anchor_x_m",
@@ -60,13 +43,14 @@ class Motion:
     )
 
     def __init__(self, x_m: float, y_m: float, time_s: float) -> None:
-        self.x_m = self._x_m = self._anchor_x_m = x_m
+        self.x_m = self._x_m = self._anchor_x_m = x_m  # x_m, y_m, time_s: last report
         self.y_m = self._y_m = self._anchor_y_m = y_m
         self.time_s = time_s
-        self.vx = self.vy = self.missed_m = 0.0
+        # Distance of the last report from where it was predicted
+        self.vx = self.vy = self.missed_m = 0.0  # velocity used for the prediction, in m/s
         self._vx = self._vy = 0.0  # m/s, of the filter
         self._rested = 0
-        self.pause_s = MAX_INTERVAL_S
+        self.pause_s = MAX_INTERVAL_S  # after so long without a report the velocity is unknown
 
     def report(self, x_m: float, y_m: float, time_s: float) -> None:
         """Update with a report of position (`x_m`, `y_m`) at `time_s`."""
@@ -105,23 +89,10 @@ class Motion:
             self._rested = 0
 
     def predict(self, at_s: float, known_s: float, lag_s: float, period_s: float) -> tuple[float, float]:
-        """Predict the position of the finger.
+        """Predict the position of the finger at a time, on the plate or beside it.
 
-        Parameters
-        ----------
-        at_s : float
-            Time of the prediction, on the clock of the reports.
-        known_s : float
-            Time up to which all reports have been taken: a finger without a report until then may be at rest.
-        lag_s : float
-            Delay from the true position to its report.
-        period_s : float
-            Report period of the panel; after `SILENT_PERIODS` without a report the finger is at rest.
-
-        Returns
-        -------
-        (x_m, y_m)
-            On the plate or beside it.
+        All reports up to `known_s` have been taken: a finger without a report until then may be at rest, and is after
+        `SILENT_PERIODS` of the panel's period. `lag_s` is the delay from the true position to its report.
         """
         if self._rested >= REST_REPORTS:
             return self._anchor_x_m, self._anchor_y_m

@@ -72,13 +72,7 @@ def describe_warnings(warnings: Mapping[str, int]) -> list[str]:
 
 
 def off_plate_warning(positions: int, off_plate: int) -> str:
-    """Line that says that the board's map of the axes does not fit the panel; empty unless most positions lie off the plate.
-
-    Parameters
-    ----------
-    positions, off_plate : int
-        As in `source.Counts`.
-    """
+    """Line that says that the board's map of the axes does not fit the panel; empty unless most positions lie off the plate."""
     if off_plate * 2 <= positions:
         return ""
     return (
@@ -88,13 +82,7 @@ def off_plate_warning(positions: int, off_plate: int) -> str:
 
 
 class ReportClock:
-    """Corrects the times of reports: never later than now, never decreasing.
-
-    Parameters
-    ----------
-    warnings : Counter of str
-        Counts `time_ahead` and `time_backwards`.
-    """
+    """Corrects the times of reports: never later than now, never decreasing; counts `time_ahead` and `time_backwards`."""
 
     def __init__(self, warnings: Counter[str]) -> None:
         self.warnings = warnings
@@ -118,20 +106,15 @@ class ReportRate:
 
     Counts the times between consecutive reports with a finger down in both. A panel that does not report stationary fingers
     shows its period only while one moves; the median is right as long as fingers move half of the time that they are down.
-
-    Attributes
-    ----------
-    period_s : float
-        Median of the intervals: of the first ones exactly, then a running one that follows a change within some ten reports.
-    measured : int
-        Intervals that it is of so far, at most `FIRST_INTERVALS`; 0: it is assumed.
     """
 
     __slots__ = ("_counts", "_first_s", "_last_s", "measured", "period_s")
 
     def __init__(self) -> None:
+        # Median of the intervals: of the first ones exactly, then a running one that follows a change within some ten
+        # reports
         self.period_s = INITIAL_PERIOD_S
-        self.measured = 0
+        self.measured = 0  # intervals that it is of so far, at most `FIRST_INTERVALS`; 0: it is assumed
         self._first_s = array("d", [0.0]) * FIRST_INTERVALS  # sorted
         self._last_s: float | None = None
         self._counts = array("L", [0]) * BINS
@@ -192,26 +175,8 @@ class ReportRate:
 class PanelHabits:
     """How a panel reports, learnt from its reports: its period, and what it means if it falls silent while it is touched.
 
-    Parameters
-    ----------
-    rate : ReportRate
-        Measured again.
-    tells_all : bool
-        Whether each report lists all contacts (protocol A): then it repeats itself, and a panel that has never reported that no
-        contact is left reports releases by silence.
-
-    Attributes
-    ----------
-    rate : ReportRate
-        Of the reports with a contact down.
-    report_s, before_s : float
-        Times of the last report and of the one before.
-    silent_s : float
-        When it has fallen silent unless there is a report before; inf: it may be silent for ever while fingers rest.
-    rests : bool
-        Set it once the panel has gone on with a contact after a silence: silence means nothing then.
-    fell_silent : bool
-        Set it after a silence: a release that is reported next shows that the panel was touched all the time.
+    Each report of a panel that `tells_all` (protocol A) lists all contacts: then it repeats itself, and a panel that has never
+    reported that no contact is left reports releases by silence.
     """
 
     __slots__ = (
@@ -230,9 +195,12 @@ class PanelHabits:
 
     def __init__(self, rate: ReportRate, *, tells_all: bool) -> None:
         rate.restart()
-        self.rate = rate
-        self.report_s = self.before_s = 0.0
+        self.rate = rate  # of the reports with a contact down
+        self.report_s = self.before_s = 0.0  # times of the last report and of the one before
+        # When it has fallen silent unless there is a report before; inf: it may be silent for ever while fingers rest
         self.silent_s = inf
+        # Set it once the panel has gone on with a contact after a silence: silence means nothing then
+        # Set it after a silence: a release that is reported next shows that the panel was touched all the time
         self.rests = self.fell_silent = False
         self._tells_all = tells_all
         self._tells_releases = False  # it has reported that no contact is left

@@ -21,26 +21,14 @@ class TouchSample(NamedTuple):
 
     A finger keeps its number from its first sample to the one with `contact` False; no later finger has the same number.
     The last sample repeats the position at which the finger was last reported.
-
-    Attributes
-    ----------
-    finger : int
-        Number of the finger.
-    x_m, y_m : float
-        Position on the plate.
-    time_s : float
-        On the loop's clock.
-    contact : bool
-        False: released.
-    size_m : float
-        Major axis of the contact; 0 if the panel reports none, inf if it is released because it has become a palm.
     """
 
-    finger: int
-    x_m: float
+    finger: int  # number of the finger
+    x_m: float  # x_m, y_m: position on the plate
     y_m: float
-    time_s: float
-    contact: bool
+    time_s: float  # on the loop's clock
+    contact: bool  # False: released
+    # Major axis of the contact; 0 if the panel reports none, inf if it is released because it has become a palm
     size_m: float = 0.0
 
 
@@ -50,52 +38,25 @@ touch_sample: Final[Callable[[tuple[int, float, float, float, bool, float]], Tou
 
 @dataclass(slots=True)
 class Counts:
-    """What a source has reported, before any limit of the controller.
+    """What a source has reported, before any limit of the controller."""
 
-    Attributes
-    ----------
-    reports : int
-        SYN_REPORTs with at least one contact down.
-    contacts : int
-        Contacts that began.
-    max_fingers : int
-        Most contacts down in one report.
-    points : int
-        Positions of contacts that are no palms; what became of them says `plausibility.figures`.
-    believed : int
-        Of these, those that became touch samples at once.
-    held, confirmed : int
-        Of these, those that no hand reaches so soon, and of them those that were right all the same.
-    palms : int
-        Contacts that were palms, by tool or by size.
-    devices : int
-        Devices opened: one more after each reconnection.
-    off_plate : int
-        Those that the board's map puts off the plate, by more than `axes.OFF_M`; they were moved to its edge.
-    """
-
-    reports: int = 0
-    contacts: int = 0
-    max_fingers: int = 0
-    points: int = 0
-    believed: int = 0
-    held: int = 0
+    reports: int = 0  # SYN_REPORTs with at least one contact down
+    contacts: int = 0  # contacts that began
+    max_fingers: int = 0  # most contacts down in one report
+    points: int = 0  # positions of contacts that are no palms; what became of them says `plausibility.figures`
+    believed: int = 0  # of these, those that became touch samples at once
+    held: int = 0  # held, confirmed: of these, those that no hand reaches so soon, and of them those that were right all the same
     confirmed: int = 0
-    palms: int = 0
-    devices: int = 0
-    off_plate: int = 0
+    palms: int = 0  # contacts that were palms, by tool or by size
+    devices: int = 0  # devices opened: one more after each reconnection
+    off_plate: int = 0  # those that the board's map puts off the plate, by more than `axes.OFF_M`; they were moved to its edge
 
 
 @dataclass(slots=True)
 class Silence:
-    """What the loop tells the source of a panel before each read.
+    """What the loop tells the source of a panel before each read."""
 
-    Attributes
-    ----------
-    known : bool
-        The selector has just found that nothing can be read from the panel's file. False: something can, or nobody looked.
-    """
-
+    # The selector has just found that nothing can be read from the panel's file. False: something can, or nobody looked
     known: bool = False
 
 
@@ -148,18 +109,7 @@ class TouchSource(Protocol):
         """When to call `read`, on the loop's clock; None: when the file is readable or, without a file, never again."""
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
-        """Take the samples of at most one report.
-
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock; a later report stays where it is.
-
-        Returns
-        -------
-        tuple of TouchSample
-            Empty if no report is due or no finger changed.
-        """
+        """Take the samples of at most one report, by `now_s` on the loop's clock; empty if none is due or no finger changed."""
 
     def close(self) -> None:
         """Close the device or file."""
@@ -183,20 +133,7 @@ class TrackedTouch(TouchSource, Protocol):
         """Numbers of the fingers that are down."""
 
     def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
-        """Predict the position of a finger.
-
-        Parameters
-        ----------
-        finger : int
-            Number as in the samples.
-        at_s : float
-            Time on the loop's clock, at most some tens of ms ahead.
-
-        Returns
-        -------
-        (x_m, y_m) or None
-            On the plate; None once the finger is released.
-        """
+        """Position (x_m, y_m) on the plate predicted for a finger at most some tens of ms ahead; None once it is released."""
 
     def missed_m(self, finger: int) -> float:
         """Distance in m of a finger's last report from where it was predicted; inf once the finger is released."""
@@ -208,10 +145,7 @@ class TrackedTouch(TouchSource, Protocol):
     def confirmed(self, finger: int) -> bool:
         """Whether the panel has confirmed a contact; the loop limits the emissions of an unconfirmed one.
 
-        Parameters
-        ----------
-        finger : int
-            Number as in the samples. A released finger is still known until the next `read`, for its release effect.
+        A released finger is still known until the next `read`, for its release effect.
         """
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
@@ -219,12 +153,7 @@ class TrackedTouch(TouchSource, Protocol):
 
         Call it in the order of `start_s`, at the latest when the emission starts. It ends the one announced before.
 
-        Parameters
-        ----------
-        start_s, end_s : float
-            Start and end of the emission on the loop's clock.
-        period_s : float
-            Above 0: the emission repeats with this period until the next call; `emitted(now_s, now_s)` ends it.
+        With `period_s` above 0 the emission repeats until the next call; `emitted(now_s, now_s)` ends it.
         """
 
     def quiet_until_s(self, now_s: float, next_s: float) -> float:
@@ -233,15 +162,6 @@ class TrackedTouch(TouchSource, Protocol):
         Ask before every emission and while an emission repeats. The pause is at most one emission and the life of its
         ghosts long, and the share of time spent in pauses is limited.
 
-        Parameters
-        ----------
-        now_s : float
-            Time on the loop's clock.
-        next_s : float
-            When the next emission would begin, now or later.
-
-        Returns
-        -------
-        float
-            Time until which no emission may begin; `now_s` or earlier: no pause.
+        The next emission would begin at `next_s`, now or later. Returns the time until which none may begin; `now_s` or earlier: no
+        pause.
         """

@@ -38,32 +38,15 @@ CONFIRMING_REPORTS: Final = 2
 
 @dataclass(slots=True)
 class TrackerCounts:
-    """Contacts that were not simply fingers.
+    """Contacts that were not simply fingers."""
 
-    Attributes
-    ----------
-    held_back : int
-        Suspects.
-    ghosts : int
-        Suspects released before they were cleared.
-    flickers : int
-        Contacts released before `confirm_reports` reports.
-    bridged : int
-        Fingers lost and found again.
-    listened_s : float
-        Time in which emissions were held back to judge suspects.
-    longest_hold_s : float
-        Longest time from the first report of a suspect to its first sample.
-    longest_ghost_s : float
-        Longest time from first report to release of a ghost; if it is close to `ghost_ms`, that is too short.
-    """
-
-    held_back: int = 0
-    ghosts: int = 0
-    flickers: int = 0
-    bridged: int = 0
-    listened_s: float = 0.0
-    longest_hold_s: float = 0.0
+    held_back: int = 0  # suspects
+    ghosts: int = 0  # suspects released before they were cleared
+    flickers: int = 0  # contacts released before `confirm_reports` reports
+    bridged: int = 0  # fingers lost and found again
+    listened_s: float = 0.0  # time in which emissions were held back to judge suspects
+    longest_hold_s: float = 0.0  # longest time from the first report of a suspect to its first sample
+    # Longest time from first report to release of a ghost; if it is close to `ghost_ms`, that is too short
     longest_ghost_s: float = 0.0
 
 
@@ -84,49 +67,23 @@ class _Contact:
 
 
 class Tracker:
-    """Debounce, ghost rejection, bridging of short losses and prediction behind a source; a `TrackedTouch`.
-
-    Parameters
-    ----------
-    source : TouchSource
-        Gives contacts with identities.
-    settings : TouchPanel
-        The board's [touch].
-    length_m, width_m : float
-        Of the plate: predicted positions are clamped to it.
-    bridged : callable, optional
-        Called when a finger was lost and found again, with its number and that of the source's new contact.
-    motion : type of Motion
-        Another predictor, for comparisons.
-
-    Attributes
-    ----------
-    counts : Counts
-        Reports, contacts and fingers of the source.
-    touched : bool
-        Of the source: see `TouchSource.touched`.
-    heard : callable or None
-        See `TrackedTouch`.
-    tracking : TrackerCounts
-        Contacts held back and bridged.
-    rate : ReportRate
-        Measured report period and jitter of the panel.
-    """
+    """Debounce, ghost rejection, bridging of short losses and prediction behind a source; a `TrackedTouch`."""
 
     def __init__(
         self,
-        source: TouchSource,
-        settings: TouchPanel,
-        length_m: float,
+        source: TouchSource,  # gives contacts with identities
+        settings: TouchPanel,  # the board's [touch]
+        length_m: float,  # length_m, width_m: of the plate: predicted positions are clamped to it
         width_m: float,
+        # Called when a finger was lost and found again, with its number and that of the source's new contact
         bridged: Callable[[int, int], None] | None = None,
-        motion: type[Motion] = Motion,
+        motion: type[Motion] = Motion,  # another predictor, for comparisons
     ) -> None:
-        self.counts: Counts = source.counts
-        self.touched = False
-        self.heard: Heard | None = None
-        self.tracking = TrackerCounts()
-        self.rate = ReportRate()
+        self.counts: Counts = source.counts  # reports, contacts and fingers of the source
+        self.touched = False  # of the source: see `TouchSource.touched`
+        self.heard: Heard | None = None  # see `TrackedTouch`
+        self.tracking = TrackerCounts()  # contacts held back and bridged
+        self.rate = ReportRate()  # measured report period and jitter of the panel
         self._source = source
         self._bridged = bridged
         self._motion = motion

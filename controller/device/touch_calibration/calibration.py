@@ -68,10 +68,7 @@ class StationaryTouches:
     def take(self, samples: Sequence[TouchSample], now_s: float) -> tuple[float, float] | None:
         """Take the `samples` of one read at `now_s` (loop's clock).
 
-        Returns
-        -------
-        (x_m, y_m) or None
-            Median of the reports of a finger that has now been held for long enough.
+        Returns the median (x_m, y_m) of the reports of a finger that has now been held for long enough, else None.
         """
         found = self._held(samples[0].time_s if samples else now_s)
         for sample in samples:
@@ -107,19 +104,12 @@ class StationaryTouches:
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """Affine map from normalised axes to the plate.
+    """Affine map from normalised axes to the plate."""
 
-    Attributes
-    ----------
-    x_mm_from_axes, y_mm_from_axes : tuple of 3 float
-        In mm: per unit of x, per unit of y, and at the minimum of both.
-    residuals_mm : tuple of float
-        Leave-one-out residual of each target (the map of all touches follows a single one by up to 0.7 of its error at a
-        corner); empty with three targets, which an affine map always meets.
-    """
-
-    x_mm_from_axes: Row
+    x_mm_from_axes: Row  # x_mm_from_axes, y_mm_from_axes: in mm: per unit of x, per unit of y, and at the minimum of both
     y_mm_from_axes: Row
+    # leave-one-out residual of each target (the map of all touches follows a single one by up to 0.7 of its error at a corner);
+    # empty with three targets, which an affine map always meets
     residuals_mm: tuple[float, ...]
 
     @property
@@ -144,10 +134,7 @@ def default_targets(plate: Plate, count: int) -> list[Point]:
 def check_targets(targets: Sequence[Point], plate: Plate) -> None:
     """Refuse `targets`, each (x_mm, y_mm) on the `plate`, that determine no calibration, before they are touched.
 
-    Raises
-    ------
-    CalibrationError
-        If there are not three to five, one is not on the plate, two coincide, or all lie on one line.
+    Raises CalibrationError if there are not three to five, one is not on the plate, two coincide, or all lie on one line.
     """
     if not MIN_TARGETS <= len(targets) <= MAX_TARGETS:
         raise CalibrationError(f"give {MIN_TARGETS} to {MAX_TARGETS} targets, not {len(targets)}")
@@ -164,20 +151,9 @@ def check_targets(targets: Sequence[Point], plate: Plate) -> None:
 def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) -> Calibration:
     """Fit the least-squares affine map from touches to targets.
 
-    Parameters
-    ----------
-    targets : sequence of (x_mm, y_mm)
-        Three to five points on the plate.
-    touches : sequence of (x, y)
-        Touch of each target on the panel's axes, normalised to 0..1.
-    plate : Plate
-        Gives the sides, against which scale and skew of the axes are evaluated.
-
-    Raises
-    ------
-    CalibrationError
-        If targets or touches coincide or lie on one line, a value is not finite, an axis would have an implausible scale
-        or skew, or a residual exceeds `MAX_RESIDUAL_MM`.
+    `targets` are three to five points (x_mm, y_mm) on the plate; `touches` are on the panel's axes, normalised to 0..1. Raises
+    CalibrationError if targets or touches coincide or lie on one line, a value is not finite, an axis would have an implausible
+    scale or skew, or a residual exceeds `MAX_RESIDUAL_MM`.
     """
     check_targets(targets, plate)
     if len(touches) != len(targets):
@@ -206,13 +182,8 @@ def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) 
 def _leave_one_out_mm(columns: NDArray[np.float64], off_mm: NDArray[np.float64]) -> NDArray[np.float64]:
     """Distance of each touch from the least-squares map of all others.
 
-    Parameters
-    ----------
-    columns : (touches, 3) array
-        Design matrix of the fit.
-    off_mm : (touches, 2) array
-        Residuals of the fit of all; a leave-one-out residual is that over 1 - leverage (Cook and Weisberg, Residuals and
-        Influence in Regression, 2.2).
+    `columns` (touch, 3) is the design matrix of the fit, `off_mm` (touch, 2) are the residuals of the fit of all; a leave-one-out
+    residual is that over 1 - leverage (Cook and Weisberg, Residuals and Influence in Regression, 2.2).
     """
     q, _ = np.linalg.qr(columns)
     redundancy = 1 - np.sum(q * q, axis=1)

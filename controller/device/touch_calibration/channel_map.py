@@ -18,31 +18,15 @@ Place = tuple[float, float]  # x and y on the plate
 
 @dataclass(frozen=True, slots=True)
 class ChannelMap:
-    """Where channels were felt.
+    """Where channels were felt."""
 
-    Attributes
-    ----------
-    discs : list of list of int
-        Channels of each disc, by board.toml.
-    felt_at : dict of int to int or None
-        By channel, the number of the disc nearest to the finger; None: nothing was felt.
-    wrong : list of str
-        What is wrong, one line each.
-    """
-
-    discs: list[list[int]]
-    felt_at: dict[int, int | None]
-    wrong: list[str]
+    discs: list[list[int]]  # channels of each disc, by board.toml
+    felt_at: dict[int, int | None]  # by channel, the number of the disc nearest to the finger; None: nothing was felt
+    wrong: list[str]  # what is wrong, one line each
 
 
 def channel_map(board: Board, places: Mapping[int, Place | None]) -> ChannelMap:
-    """Evaluate where each channel was felt.
-
-    Parameters
-    ----------
-    places : mapping of int to (x_m, y_m) or None
-        By channel, where the finger was; None: nothing was felt.
-    """
+    """Evaluate where each channel was felt. `places` are where the finger was (x_m, y_m), by channel; None: nothing was felt."""
     groups = discs(board.actuators)
     centres = [(sum(one.x_mm for one in group) / len(group), sum(one.y_mm for one in group) / len(group)) for group in groups]
     channels = [sorted(one.channel for one in group) for group in groups]

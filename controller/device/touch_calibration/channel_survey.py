@@ -51,26 +51,12 @@ def survey(
     source: TouchSource,
     channels: Sequence[int],
     person: Person,
-    ask: Callable[[int], None],
+    ask: Callable[[int], None],  # called with a channel that buzzes now
 ) -> Iterator[tuple[int, Place | None]]:
     """Buzz on one channel after the other until each was touched; the outputs are off at the end.
 
-    Parameters
-    ----------
-    ask : callable
-        Called with a channel that buzzes now.
-
-    Yields
-    ------
-    (int, Place or None)
-        A channel, and where the finger was held still; None: nothing was felt.
-
-    Raises
-    ------
-    LinkError, FaultError
-        If the FPGA does not answer, or has switched off.
-    TouchError, CalibrationError
-        If the touch panel fails, or its touches end.
+    Yields a channel, and where the finger was held still; None: nothing was felt. Raises LinkError or FaultError if the FPGA does
+    not answer, or has switched off; TouchError or CalibrationError if the touch panel fails, or its touches end.
     """
     period_ticks = session.timing.period_ticks(board.waveform.duration_s / board.limits.max_duty)
     session.upload(SLOT, memoryview(buzz_words(board).astype("<u4").tobytes()))

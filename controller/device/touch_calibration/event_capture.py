@@ -19,24 +19,11 @@ EV_SND, SND_CLICK = 0x12, 0x00
 
 
 class EventCapture:
-    """An `EventReader` that keeps a copy of every event.
-
-    Parameters
-    ----------
-    reader : EventReader
-        Driver of the panel.
-
-    Attributes
-    ----------
-    events : list of Event
-        All so far, each with the corrected time of its report.
-    warnings : Counter of str
-        Anomalies found by the driver, by kind.
-    """
+    """An `EventReader` that keeps a copy of every event."""
 
     def __init__(self, reader: EventReader) -> None:
-        self.events: list[Event] = []
-        self.warnings = reader.warnings
+        self.events: list[Event] = []  # all so far, each with the corrected time of its report
+        self.warnings = reader.warnings  # anomalies found by the driver, by kind
         self._reader = reader
         self._clock = ReportClock(Counter())
 
@@ -72,33 +59,12 @@ class EventCapture:
 
 
 def emission_event(start_s: float, duration_s: float) -> Event:
-    """Event that stores an emission.
-
-    Parameters
-    ----------
-    start_s : float
-        Start on the loop's clock.
-    duration_s : float
-        Length, stored to a microsecond.
-    """
+    """Event that stores an emission: its start on the loop's clock, and its length to a microsecond."""
     return EV_SND, SND_CLICK, round(duration_s * 1e6), start_s
 
 
 def recording_text(description: DeviceDescription, events: Iterable[Event]) -> str:
-    """Recording of the events of several devices, sorted by time.
-
-    Parameters
-    ----------
-    description : DeviceDescription
-        Of the touch panel.
-    events : iterable of Event
-        Of all devices, in any order.
-
-    Returns
-    -------
-    str
-        evemu text.
-    """
+    """Recording (evemu text) of the events of several devices, in any order; sorted by time."""
     ordered = sorted(events, key=lambda event: event[3])
     first_s = ordered[0][3] if ordered else 0.0
     lines = [event_line(kind, code, value, round((time_s - first_s) * 1e6)) for kind, code, value, time_s in ordered]
@@ -108,19 +74,8 @@ def recording_text(description: DeviceDescription, events: Iterable[Event]) -> s
 def write_recording(path: Path, text: str) -> None:
     """Write a recording.
 
-    Parameters
-    ----------
-    path : Path
-        A new file or an existing recording; see `recorder.open_recording`.
-    text : str
-        From `recording_text`.
-
-    Raises
-    ------
-    ConfigError
-        If a file that is no recording has this name.
-    TouchError, OSError
-        If it cannot be written.
+    `path` is a new file or an existing recording; see `recorder.open_recording`. Raises ConfigError if a file that is no recording
+    has this name; TouchError or OSError if it cannot be written.
     """
     with open_recording(path) as file:
         left = memoryview(text.encode())

@@ -38,28 +38,16 @@ class Contact(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class GhostFigures:
-    """Statistics of a measurement.
+    """Statistics of a measurement."""
 
-    Attributes
-    ----------
-    emissions, ghosts : int
-        Emissions played; contacts that they caused.
-    rate : float
-        Share of emissions that caused at least one ghost, 0 to 1.
-    appears_ms : (float, float) or None
-        From the emission's start to the ghost's first report: earliest and latest; None without any ghost.
-    gone_ms : (float, float, float) or None
-        From the emission's end to the ghost's release: median, 95th percentile and longest; None without any ghost.
-    size_mm : (float, float) or None
-        Median and largest; None if the panel reports no sizes.
-    """
-
-    emissions: int
+    emissions: int  # emissions, ghosts: emissions played; contacts that they caused
     ghosts: int
-    rate: float
+    rate: float  # share of emissions that caused at least one ghost, 0 to 1
+    # From the emission's start to the ghost's first report: earliest and latest; None without any ghost
     appears_ms: tuple[float, float] | None
+    # From the emission's end to the ghost's release: median, 95th percentile and longest; None without any ghost
     gone_ms: tuple[float, float, float] | None
-    size_mm: tuple[float, float] | None
+    size_mm: tuple[float, float] | None  # median and largest; None if the panel reports no sizes
 
     @property
     def rate_below(self) -> float | None:
@@ -80,17 +68,8 @@ class GhostFigures:
 def ghost_figures(recording: Recording, board: Board) -> GhostFigures:
     """Evaluate a recording of emissions on an untouched panel.
 
-    Parameters
-    ----------
-    recording : Recording
-        With emissions among its events (`event_capture.emission_event`).
-    board : Board
-        Gives the map from the panel's axes to the plate.
-
-    Raises
-    ------
-    CalibrationError
-        If there are too few emissions, or contacts that cannot be ghosts.
+    The recording has emissions among its events (`event_capture.emission_event`). Raises CalibrationError if there are too few
+    emissions, or contacts that cannot be ghosts.
     """
     emissions = [(at_s, at_s + us * 1e-6) for kind, code, us, at_s in recording.events if (kind, code) == (EV_SND, SND_CLICK)]
     if not emissions:

@@ -28,27 +28,12 @@ STAYS_S = 1.0  # a contact that lasts longer is no ghost; the measurement ends
 
 
 class Overheard:
-    """A `TrackedTouch` that counts the contacts of a source and passes none to the loop.
-
-    Parameters
-    ----------
-    source : TouchSource
-        Touches of the panel.
-
-    Attributes
-    ----------
-    ghosts : int
-        Contacts so far.
-    heard : None
-        Nobody else listens.
-    since_s : float
-        Start of the contact that has lasted longest, in s of the host's clock; inf: there is none.
-    """
+    """A `TrackedTouch` that counts the contacts of a source and passes none to the loop."""
 
     def __init__(self, source: TouchSource) -> None:
-        self.ghosts = 0
-        self.heard: Heard | None = None
-        self.since_s = NEVER
+        self.ghosts = 0  # contacts so far
+        self.heard: Heard | None = None  # nobody else listens
+        self.since_s = NEVER  # start of the contact that has lasted longest, in s of the host's clock; inf: there is none
         self._source = source
         self._down: dict[int, float] = {}
 
@@ -122,41 +107,19 @@ class Knocks:
     """A `CommandSource` that plays clicks, far enough apart that each ghost belongs to one of them, and then ends the loop.
 
     Pass `ready` to the loop's `run`.
-
-    Parameters
-    ----------
-    panel : Overheard
-        Counts the ghosts.
-    places : sequence of (x_m, y_m)
-        Places of the clicks, in m.
-    duration_s : float
-        T.
-    stop : callable
-        Ends the loop.
-    progress : callable
-        Called with the clicks played and their largest number.
-    seed : int
-        Seed of the random places and times.
-
-    Attributes
-    ----------
-    error : ControllerError or None
-        Why the measurement was ended early.
-    played : int
-        Clicks that were played.
     """
 
     def __init__(
         self,
-        panel: Overheard,
-        places: Sequence[tuple[float, float]],
-        duration_s: float,
-        stop: Callable[[], None],
-        progress: Callable[[int, int], None],
-        seed: int = 0,
+        panel: Overheard,  # counts the ghosts
+        places: Sequence[tuple[float, float]],  # each (x_m, y_m): places of the clicks, in m
+        duration_s: float,  # T
+        stop: Callable[[], None],  # ends the loop
+        progress: Callable[[int, int], None],  # called with the clicks played and their largest number
+        seed: int = 0,  # seed of the random places and times
     ) -> None:
-        self.error: ControllerError | None = None
-        self.played = 0
+        self.error: ControllerError | None = None  # why the measurement was ended early
+        self.played = 0  # clicks that were played
         self._panel = panel
         self._places = places
         self._duration_s = duration_s

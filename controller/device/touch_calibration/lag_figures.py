@@ -39,44 +39,21 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class LagFigures:
-    """Result of a measurement.
+    """Result of a measurement."""
 
-    Attributes
-    ----------
-    lag_ms : float
-        Lag of the panel's positions, for board.toml.
-    error_ms : float
-        Random error at 95 % confidence, from the spread of the windows.
-    mouse_ms : float
-        Report period of the mouse; half of it is added in `lag_ms`, which may be wrong by as much.
-    turns, windows : int
-        Turns of the strokes; seconds that were used.
-    residual_mm : float
-        Rms distance of the finger from its position by the mouse.
-    """
-
-    lag_ms: float
-    error_ms: float
-    mouse_ms: float
-    turns: int
+    lag_ms: float  # lag of the panel's positions, for board.toml
+    error_ms: float  # random error at 95 % confidence, from the spread of the windows
+    mouse_ms: float  # report period of the mouse; half of it is added in `lag_ms`, which may be wrong by as much
+    turns: int  # turns, windows: turns of the strokes; seconds that were used
     windows: int
-    residual_mm: float
+    residual_mm: float  # rms distance of the finger from its position by the mouse
 
 
 def lag_figures(recording: Recording, board: Board) -> LagFigures:
     """Evaluate a recording of one finger and a mouse that moved together.
 
-    Parameters
-    ----------
-    recording : Recording
-        Of the panel, with the mouse's EV_REL among its events.
-    board : Board
-        Gives the map from the panel's axes to the plate.
-
-    Raises
-    ------
-    CalibrationError
-        If there are too few strokes, several fingers, no mouse or a slow one, or finger and mouse did not move together.
+    The mouse's EV_REL are among the events of the recording. Raises CalibrationError if there are too few strokes, several fingers,
+    no mouse or a slow one, or finger and mouse did not move together.
     """
     mouse = _mouse(recording)
     at_s, positions_m = _finger(recording, board)

@@ -12,15 +12,7 @@ from controller.errors import TouchError
 class Mouse:
     """A pointing device that reports relative steps.
 
-    Parameters
-    ----------
-    device : str
-        Path, best below /dev/input/by-id.
-
-    Raises
-    ------
-    TouchError
-        If it is absent, cannot be opened or is no mouse.
+    `device` is a path, best below /dev/input/by-id. Raises TouchError if it is absent, cannot be opened or is no mouse.
     """
 
     def __init__(self, device: str) -> None:
@@ -40,13 +32,7 @@ class Mouse:
         return self._opened.fd
 
     def read(self) -> list[Event]:
-        """Steps since the last call, as EV_REL events.
-
-        Raises
-        ------
-        TouchError
-            If it was unplugged.
-        """
+        """Steps since the last call, as EV_REL events; raises TouchError if it was unplugged."""
         try:
             events = list(self._opened.read())
         except BlockingIOError:

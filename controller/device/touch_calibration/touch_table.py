@@ -28,10 +28,7 @@ def board_lines(calibration: Calibration) -> tuple[str, str]:
 def with_calibration(text: str, calibration: Calibration) -> str:
     """Replace the two axis lines in the `text` of a board.toml by those of `calibration`; comments, order and line ends stay.
 
-    Raises
-    ------
-    CalibrationError
-        If each key does not stand exactly once, on one line, in [touch].
+    Raises CalibrationError if each key does not stand exactly once, on one line, in [touch].
     """
     changed = text
     for key, line in zip(AXIS_KEYS, board_lines(calibration), strict=True):
@@ -46,10 +43,8 @@ def with_calibration(text: str, calibration: Calibration) -> str:
 def check_writable(file: Path) -> None:
     """Refuse a board.toml (`file`) that cannot be changed, before a measurement is made for it.
 
-    Raises
-    ------
-    CalibrationError
-        If this user may not create files in its folder, or it is part of a release, which is signed and will be followed by others.
+    Raises CalibrationError if this user may not create files in its folder, or it is part of a release, which is signed and will be
+    followed by others.
     """
     release = running_release()
     if release is not None and release.resolve() in file.resolve().parents:
@@ -65,10 +60,7 @@ def check_writable(file: Path) -> None:
 def write_calibration(file: Path, calibration: Calibration) -> None:
     """Change the two axis lines of a board.toml (`file`) to those of `calibration`.
 
-    Raises
-    ------
-    CalibrationError, ConfigError
-        See `_rewrite`; the file is unchanged then.
+    Raises CalibrationError or ConfigError: see `_rewrite`; the file is unchanged then.
     """
     _rewrite(file, lambda text: with_calibration(text, calibration))
 
@@ -81,10 +73,7 @@ def value_line(key: str, value: float) -> str:
 def with_value(text: str, key: str, value: float) -> str:
     """Set `key` of [touch] to `value` in the `text` of a board.toml, inserted as first line if absent; all else stays.
 
-    Raises
-    ------
-    CalibrationError
-        If there is no table [touch], or it is not written as one line for each key.
+    Raises CalibrationError if there is no table [touch], or it is not written as one line for each key.
     """
     line = value_line(key, value)
     table = re.search(r"^[ \t]*\[touch\][^\r\n]*(?P<end>\r?\n)(?P<lines>(?:(?![ \t]*\[)[^\n]*(?:\n|\Z))*)", text, flags=re.M)
@@ -107,10 +96,7 @@ def with_value(text: str, key: str, value: float) -> str:
 def write_value(file: Path, key: str, value: float) -> None:
     """Set `key` of [touch] to `value` in a board.toml (`file`).
 
-    Raises
-    ------
-    CalibrationError, ConfigError
-        See `_rewrite`; the file is unchanged then.
+    Raises CalibrationError or ConfigError: see `_rewrite`; the file is unchanged then.
     """
     _rewrite(file, lambda text: with_value(text, key, value))
 
@@ -118,12 +104,8 @@ def write_value(file: Path, key: str, value: float) -> None:
 def _rewrite(file: Path, change: Callable[[str], str]) -> None:
     """Replace a board.toml atomically.
 
-    Raises
-    ------
-    CalibrationError
-        If the file cannot be written, or `change` does not find its lines; the file is unchanged then.
-    ConfigError
-        If the board would not be valid with the new lines; the file is unchanged then.
+    Raises CalibrationError if the file cannot be written, or `change` does not find its lines; the file is unchanged then. Raises
+    ConfigError if the board would not be valid with the new lines; the file is unchanged then.
     """
     file = file.resolve()  # a link stays a link
     temporary = None

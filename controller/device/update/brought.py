@@ -28,23 +28,9 @@ Outcome = Literal["adopt", "trial", "stays"]
 def install_brought(layout: Layout, folder: Path) -> tuple[Outcome, str]:
     """Install the release in a folder, unless this device has no use for it.
 
-    Parameters
-    ----------
-    folder : Path
-        As `haptic-panel update make-release` makes it.
-
-    Returns
-    -------
-    outcome : str
-        adopt: it is installed, and the device has no other to use; trial: it is installed and its trial is asked for;
-        stays: the release in use stays.
-    why : str
-        A line for who installs the package.
-
-    Raises
-    ------
-    UpdateError
-        If a file is not what its manifest says, the release does not fit this device, or it cannot be written.
+    `folder` is as `haptic-panel update make-release` makes it. Returns adopt: it is installed, and the device has no other to use;
+    trial: it is installed and its trial is asked for; or stays: the release in use stays; and a line for who installs the package.
+    Raises UpdateError if a file is not what its manifest says, the release does not fit this device, or it cannot be written.
     """
     path = folder / MANIFEST
     coming = read_manifest(path.read_bytes(), str(path))

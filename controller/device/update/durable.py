@@ -13,10 +13,7 @@ from controller.errors import UpdateError
 def write_durably(path: Path, data: bytes, mode: int = 0o644) -> None:
     """Write a small file: beside it, synced, renamed, and its folder synced.
 
-    Raises
-    ------
-    OSError
-        If it cannot be written; the old file is there, whole.
+    Raises OSError if it cannot be written; the old file is there, whole.
     """
     new = path.with_name(f".{path.name}.new")
     try:

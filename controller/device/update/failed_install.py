@@ -24,25 +24,13 @@ WHY_MAX: Final = 300
 
 
 class FailedInstall(msgspec.Struct, frozen=True, kw_only=True):
-    """What is known of it.
-
-    Attributes
-    ----------
-    manifest : str
-        SHA-256 of its manifest: another release of that name is another one.
-    why : str
-        Of the last try.
-    failures : int
-        Tries, all of which failed.
-    looks : int
-        Of the timer since the last try.
-    """
+    """What is known of it."""
 
     version: Annotated[str, Meta(max_length=64)]
-    manifest: str
-    why: Annotated[str, Meta(max_length=WHY_MAX)]
-    failures: Annotated[int, Meta(ge=1)]
-    looks: Annotated[int, Meta(ge=0)] = 0
+    manifest: str  # SHA-256 of its manifest: another release of that name is another one
+    why: Annotated[str, Meta(max_length=WHY_MAX)]  # of the last try
+    failures: Annotated[int, Meta(ge=1)]  # tries, all of which failed
+    looks: Annotated[int, Meta(ge=0)] = 0  # of the timer since the last try
 
     @property
     def in_words(self) -> str:

@@ -14,10 +14,7 @@ def refuse_root(layout: Layout) -> None:
     It keeps a checkout's command from leaving files of root's among those of `haptic-update`. What protects root from a release is
     that script: code that a less trusted user owns cannot be trusted to give up rights.
 
-    Raises
-    ------
-    UpdateError
-        If this is root, and the releases are not elsewhere ($HAPTIC_PANEL_ROOT).
+    Raises UpdateError if this is root, and the releases are not elsewhere ($HAPTIC_PANEL_ROOT).
     """
     if os.geteuid() == 0 and layout.root == ROOT:
         raise UpdateError(

@@ -31,18 +31,9 @@ def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _don
     Its environment is built where it stays: its files have paths of it. `.complete` is written last, after all else is on the disk.
     What an interrupted installation left is removed first.
 
-    Parameters
-    ----------
-    manifest : Manifest
-        Its files are in the store.
-    progress : callable, optional
-        Called with steps done, and all.
-
-    Raises
-    ------
-    UpdateError
-        If the release is for another Python, computer or package, a file in the store is damaged or absent, it does not start,
-        or the disk is full. Nothing of it is left then, but that it failed (`failed_install`).
+    The manifest's files are in the store; `progress` is called with steps done, and all. Raises UpdateError if the release is for
+    another Python, computer or package, a file in the store is damaged or absent, it does not start, or the disk is full. Nothing
+    of it is left then, but that it failed (`failed_install`).
     """
     folder, name = layout.release(manifest.version), f"release {manifest.version}"
     if manifest.platform != this_platform():
@@ -72,10 +63,7 @@ def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _don
 def prune(layout: Layout, coming: Manifest) -> list[str]:
     """Remove own releases that nothing leads to any more, and files of the store that no release has; versions of those removed.
 
-    Parameters
-    ----------
-    coming : Manifest
-        The release that is about to be installed; its files are kept.
+    Files of the release that is about to be installed (`coming`) are kept.
     """
     wanted = {layout.word("current"), layout.word("previous"), layout.word("trial"), coming.version}
     if layout.current.is_symlink():

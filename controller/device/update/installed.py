@@ -15,64 +15,28 @@ from controller.regular_file import read_regular
 
 
 class InstalledRelease(msgspec.Struct, frozen=True, kw_only=True):
-    """A folder of `releases/`.
-
-    Attributes
-    ----------
-    counter : int or None
-        None: its manifest cannot be read, or it was installed by hand and has none.
-    complete : bool
-        Whether it may be started.
-    failed : bool
-        Whether it was tried and did not serve.
-    size_bytes : int or None
-        Of its files before they were installed; what it shares with other releases counts for each.
-    """
+    """A folder of `releases/`."""
 
     version: str
-    counter: int | None
-    complete: bool
-    failed: bool
-    size_bytes: int | None
+    counter: int | None  # None: its manifest cannot be read, or it was installed by hand and has none
+    complete: bool  # whether it may be started
+    failed: bool  # whether it was tried and did not serve
+    size_bytes: int | None  # of its files before they were installed; what it shares with other releases counts for each
 
 
 class UpdateState(msgspec.Struct, frozen=True, kw_only=True):
-    """Releases of a device.
+    """Releases of a device."""
 
-    Attributes
-    ----------
-    in_use : str
-        Release that `current` leads to: the trial's while there is one; empty: none.
-    stays : str
-        Release that is used if there is no trial.
-    previous : str
-        Release before it, for a rollback; empty: none.
-    trial : str
-        Release on trial; empty: none.
-    tries : int
-        Starts of the trial so far.
-    failed : tuple of str
-        Releases that are not tried again.
-    requested : tuple of str
-        What the fall-back script was asked for and has not done yet.
-    releases : tuple of InstalledRelease
-        The newest first.
-    not_installed : str
-        Release whose installation failed, how often and why; empty: none.
-    problems : tuple of str
-        What is damaged or cannot be read.
-    """
-
-    in_use: str = ""
-    stays: str = ""
-    previous: str = ""
-    trial: str = ""
-    tries: int = 0
-    failed: tuple[str, ...] = ()
-    requested: tuple[str, ...] = ()
-    releases: tuple[InstalledRelease, ...] = ()
-    not_installed: str = ""
-    problems: tuple[str, ...] = ()
+    in_use: str = ""  # release that `current` leads to: the trial's while there is one; empty: none
+    stays: str = ""  # release that is used if there is no trial
+    previous: str = ""  # release before it, for a rollback; empty: none
+    trial: str = ""  # release on trial; empty: none
+    tries: int = 0  # starts of the trial so far
+    failed: tuple[str, ...] = ()  # releases that are not tried again
+    requested: tuple[str, ...] = ()  # what the fall-back script was asked for and has not done yet
+    releases: tuple[InstalledRelease, ...] = ()  # the newest first
+    not_installed: str = ""  # release whose installation failed, how often and why; empty: none
+    problems: tuple[str, ...] = ()  # what is damaged or cannot be read
 
     def figures(self) -> dict[str, Any]:
         """Ready for JSON."""

@@ -42,22 +42,12 @@ class Verdict(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """By what a trial is evaluated.
-
-    Attributes
-    ----------
-    healthy_s : float
-        For how long it must serve.
-    boot : str
-        Of now.
-    before : PanelStatus or None
-        How the release before fared when the update was asked for.
-    """
+    """By what a trial is evaluated."""
 
     release: str
-    healthy_s: float
-    boot: str = ""
-    before: PanelStatus | None = None
+    healthy_s: float  # for how long it must serve
+    boot: str = ""  # of now
+    before: PanelStatus | None = None  # how the release before fared when the update was asked for
 
     def forgiven(self, count: int) -> int:
         """How many events of a kind the trial may have, of which the release before had this many."""
@@ -70,19 +60,11 @@ class Rules:
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """What is known of a trial so far.
-
-    Attributes
-    ----------
-    why : str
-        Of a bad one; of one that is not evaluated yet, what is the matter; else empty.
-    stands : bool
-        It starts well, and waits for something that is not its own.
-    """
+    """What is known of a trial so far."""
 
     verdict: Verdict = Verdict.NOT_YET
-    why: str = ""
-    stands: bool = False
+    why: str = ""  # of a bad one; of one that is not evaluated yet, what is the matter; else empty
+    stands: bool = False  # it starts well, and waits for something that is not its own
     _seen_s: float | None = None
     _evaluated_s: float = 0.0  # since the evaluation began, without what was waited for
     _waited_s: float = 0.0  # the newest stretch of it
@@ -95,14 +77,7 @@ class Evaluation:
 def judge(before: Evaluation, now_s: float, status: PanelStatus | None, rules: Rules) -> Evaluation:
     """What is known of a trial after its status was read once more.
 
-    Parameters
-    ----------
-    before : Evaluation
-        What was known; at first `Evaluation()`.
-    now_s : float
-        CLOCK_MONOTONIC.
-    status : PanelStatus or None
-        None: there is none, or it cannot be read.
+    `before` is what was known, at first `Evaluation()`; `status` is None if there is none, or it cannot be read.
     """
     if before.verdict is not Verdict.NOT_YET:
         return before

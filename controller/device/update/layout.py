@@ -30,15 +30,10 @@ class Layout:
     Owners: `state` and `current` are written by the fall-back script alone, as root; all other folders by the user `haptic-update`,
     who asks the fall-back script for what it wants by a file in `requests`. Nothing of a release ever runs as root: scripts of the
     Debian package see to it before any of it starts (systemd/README.md, Who runs what).
-
-    Attributes
-    ----------
-    trusted_root : Path
-        First root.json of the repository's owner, by which all others are evaluated.
     """
 
     root: Path = ROOT
-    trusted_root: Path = TRUSTED_ROOT
+    trusted_root: Path = TRUSTED_ROOT  # first root.json of the repository's owner, by which all others are evaluated
 
     @classmethod
     def from_environment(cls) -> Layout:

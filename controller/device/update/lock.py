@@ -16,19 +16,8 @@ from controller.regular_file import open_private
 def alone(lock: Path, held: str = "another update is at work: try again when it is done") -> Iterator[None]:
     """Hold a lock for the time of the block; it ends with its process, however that ends. No other user can take it.
 
-    Parameters
-    ----------
-    lock : Path
-        File that is made for it.
-    held : str
-        What is said if another process holds it.
-
-    Raises
-    ------
-    UpdateError
-        If another process holds it.
-    OSError
-        If its file cannot be made.
+    `held` is what is said if another process holds it. Raises UpdateError if another process holds it; OSError if its file cannot
+    be made.
     """
     fd = open_private(lock)
     try:

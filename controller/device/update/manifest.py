@@ -32,26 +32,15 @@ PATH: Final = re.compile(r"[0-9A-Za-z_][0-9A-Za-z._+-]*(/[0-9A-Za-z_][0-9A-Za-z.
 
 
 class ReleaseFile(Record, frozen=True):
-    """A file of a release.
+    """A file of a release."""
 
-    Attributes
-    ----------
-    path : str
-        In the folder of the release: `wheels/…`, `boards/<name>/…`, `banks/<board>.bank`, `gateware/<board>.bit`, `sbom.cdx.json`.
-    """
-
+    # In the folder of the release: `wheels/…`, `boards/<name>/…`, `banks/<board>.bank`, `gateware/<board>.bit`, `sbom.cdx.json`
     path: Annotated[str, Meta(max_length=240)]
     sha256: Digest
     size_bytes: Count
 
     def is_whole(self, path: Path) -> bool:
-        """Whether a path leads to this file, unchanged.
-
-        Raises
-        ------
-        OSError
-            If it is absent, or cannot be read.
-        """
+        """Whether a path leads to this file, unchanged; raises OSError if it is absent, or cannot be read."""
         with os.fdopen(open_regular(path), "rb") as file:
             if os.fstat(file.fileno()).st_size != self.size_bytes:
                 return False
@@ -69,43 +58,23 @@ class ReleaseFile(Record, frozen=True):
 
 
 class Manifest(Record, frozen=True):
-    """What a release is.
-
-    Attributes
-    ----------
-    counter : int
-        Larger in each later release; a device refuses a smaller one than it had, whatever the repository says.
-    python, architecture : str
-        Such as 3.11 and x86_64 (`platform.machine`): its wheels are for these only.
-    protocol : int
-        Version of the frames to the FPGA.
-    gateware_hash : str
-        Build hash of the gateware, 8 hexadecimal digits.
-    bank_format, settings_format : int
-        Formats of files that it reads.
-    boards : dict
-        Digest of each board it brings, by its name.
-    minimum_counter : int
-        Counter of the oldest release from which it may be installed.
-    built_s : int
-        When its sources were committed (SOURCE_DATE_EPOCH), in s since 1970: a device's clock that says less is wrong.
-    fall_back : int
-        Interface of fall-back script and units that it needs (`FALL_BACK_INTERFACE`).
-    """
+    """What a release is."""
 
     version: Annotated[str, Meta(pattern=rf"^{RELEASE_NAME.pattern}\Z")]
-    counter: Count
+    counter: Count  # larger in each later release; a device refuses a smaller one than it had, whatever the repository says
+    # python, architecture: such as 3.11 and x86_64 (`platform.machine`): its wheels are for these only
     python: Annotated[str, Meta(pattern=r"^3\.[0-9]+\Z")]
     architecture: Annotated[str, Meta(pattern=r"^[0-9a-z_]+\Z")]
-    protocol: Count
-    gateware_hash: Annotated[str, Meta(pattern=r"^[0-9a-f]{8}\Z")]
-    bank_format: Count
+    protocol: Count  # version of the frames to the FPGA
+    gateware_hash: Annotated[str, Meta(pattern=r"^[0-9a-f]{8}\Z")]  # build hash of the gateware, 8 hexadecimal digits
+    bank_format: Count  # bank_format, settings_format: formats of files that it reads
     settings_format: Count
     files: list[ReleaseFile]
-    boards: dict[str, Digest] = msgspec.field(default_factory=dict)
-    minimum_counter: Count = 0
+    boards: dict[str, Digest] = msgspec.field(default_factory=dict)  # digest of each board it brings, by its name
+    minimum_counter: Count = 0  # counter of the oldest release from which it may be installed
+    # When its sources were committed (SOURCE_DATE_EPOCH), in s since 1970: a device's clock that says less is wrong
     built_s: Count = 0
-    fall_back: Count = FALL_BACK_INTERFACE
+    fall_back: Count = FALL_BACK_INTERFACE  # interface of fall-back script and units that it needs (`FALL_BACK_INTERFACE`)
     format: Annotated[int, Meta(ge=FORMAT, le=FORMAT)] = FORMAT
 
     @property
@@ -129,15 +98,9 @@ class Manifest(Record, frozen=True):
 
 
 class Channel(Record, frozen=True):
-    """What a channel (`channels/<name>.json` in the repository) offers now.
+    """What a channel (`channels/<name>.json` in the repository) offers now."""
 
-    Attributes
-    ----------
-    releases : dict
-        Path of a manifest in the repository, by platform.
-    """
-
-    releases: dict[str, str]
+    releases: dict[str, str]  # path of a manifest in the repository, by platform
 
     @staticmethod
     def target(name: str) -> str:
@@ -148,10 +111,7 @@ class Channel(Record, frozen=True):
 def read_object(data: bytes, origin: str) -> dict[str, Any]:
     """An object of JSON that means the same to every reader: in UTF-8, each key once, numbers that are finite.
 
-    Raises
-    ------
-    ConfigError
-        If it is none.
+    Raises ConfigError if it is none.
     """
 
     def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -181,15 +141,8 @@ def this_platform() -> str:
 def read_manifest(data: bytes, origin: str) -> Manifest:
     """A manifest from its JSON.
 
-    Parameters
-    ----------
-    origin : str
-        What it is called in errors.
-
-    Raises
-    ------
-    UpdateError
-        If it is not valid, or a path of it leaves its folder or comes twice.
+    `origin` is what it is called in errors. Raises UpdateError if it is not valid, or a path of it leaves its folder or comes
+    twice.
     """
     if len(data) > MANIFEST_BYTES_MAX:
         raise UpdateError(f"{origin}: {len(data):,} bytes are more than the {MANIFEST_BYTES_MAX:,} of any manifest")

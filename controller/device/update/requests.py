@@ -14,18 +14,9 @@ Request = Literal["trial", "good", "bad", "stands", "rollback"]
 def ask(layout: Layout, what: Request, version: str) -> None:
     """Ask for something.
 
-    Parameters
-    ----------
-    what : str
-        trial: try this release; good, bad: the trial is to stay, or to go for good; stands: it starts well and is not evaluated
-        yet, so that its starts so far do not count; rollback: back to the release before.
-    version : str
-        Release that it is about; of a rollback the one to leave, so that a request read twice is not two steps.
-
-    Raises
-    ------
-    UpdateError
-        If it cannot be written.
+    What: trial: try this release; good, bad: the trial is to stay, or to go for good; stands: it starts well and is not evaluated
+    yet, so that its starts so far do not count; rollback: back to the release before. `version` is the release that it is about; of
+    a rollback the one to leave, so that a request read twice is not two steps. Raises UpdateError if it cannot be written.
     """
     if not RELEASE_NAME.fullmatch(version):
         raise UpdateError(f"{version!r} is no name of a release")

@@ -12,36 +12,17 @@ from controller.device.update.layout import SETTINGS
 
 
 class UpdateSettings(Record, frozen=True):
-    """Where updates come from, and what is done with them.
+    """Where updates come from, and what is done with them."""
 
-    Attributes
-    ----------
-    source : str
-        http(s) address of the repository, or a folder (a stick); empty: nothing is fetched unless `--from` says origin.
-    automatic : str
-        What the timer does: check, download or install.
-    total_s : float
-        Longest time of one update over the network, in s.
-    bytes_per_s : float
-        Most that is fetched, in bytes/s; 0: as much as there is.
-    healthy_s : float
-        For how long a trial must serve before it stays, in s.
-    """
-
+    # http(s) address of the repository, or a folder (a stick); empty: nothing is fetched unless `--from` says origin
     source: str = ""
     channel: Annotated[str, Meta(pattern=r"^[0-9a-z-]{1,32}\Z")] = "stable"
-    automatic: Literal["check", "download", "install"] = "install"
-    total_s: Positive = 3600.0
-    bytes_per_s: Annotated[float, Meta(ge=0)] = 0.0
-    healthy_s: Annotated[float, Meta(ge=1, le=600)] = 20.0
+    automatic: Literal["check", "download", "install"] = "install"  # what the timer does: check, download or install
+    total_s: Positive = 3600.0  # longest time of one update over the network, in s
+    bytes_per_s: Annotated[float, Meta(ge=0)] = 0.0  # most that is fetched, in bytes/s; 0: as much as there is
+    healthy_s: Annotated[float, Meta(ge=1, le=600)] = 20.0  # for how long a trial must serve before it stays, in s
 
 
 def load_settings(file: Path = SETTINGS) -> UpdateSettings:
-    """The settings; those of an absent file are the defaults.
-
-    Raises
-    ------
-    ConfigError
-        If the file is invalid.
-    """
+    """The settings; those of an absent file are the defaults; raises ConfigError if the file is invalid."""
     return load_toml(file, UpdateSettings) if file.exists() else UpdateSettings()

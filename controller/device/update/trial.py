@@ -27,10 +27,7 @@ NEEDED: Final = ("download.fetch", "install")  # beside trust and source: what f
 def keep_before(layout: Layout, status_file: Path = STATUS) -> None:
     """Keep the state of the release in use, when another one is asked for: its faults are not held against the other.
 
-    Raises
-    ------
-    UpdateError
-        If it cannot be kept.
+    Raises UpdateError if it cannot be kept.
     """
     kept = layout.download / BEFORE
     try:
@@ -64,29 +61,15 @@ def why_no_updater(layout: Layout) -> str:
 
 def judge_trial(
     layout: Layout,
-    healthy_s: float,
-    reported: Callable[[str], None],
-    status_file: Path = STATUS,
-    now_s: Callable[[], float] = time.monotonic,
+    healthy_s: float,  # for how long it must serve
+    reported: Callable[[str], None],  # called with the state of the trial at each look, about once a second
+    status_file: Path = STATUS,  # of the service
+    now_s: Callable[[], float] = time.monotonic,  # now_s, pause: clock of the statuses, and what waits on it
     pause: Callable[[float], None] = time.sleep,
 ) -> Verdict:
     """Judge the release on trial, and ask the fall-back script for what follows; to be run by that release itself.
 
-    Parameters
-    ----------
-    healthy_s : float
-        For how long it must serve.
-    reported : callable
-        Called with the state of the trial at each look, about once a second.
-    status_file : Path
-        Of the service.
-    now_s, pause : callable
-        Clock of the statuses, and what waits on it.
-
-    Raises
-    ------
-    UpdateError
-        If a verdict cannot be handed over.
+    Raises UpdateError if a verdict cannot be handed over.
     """
     version = layout.word("trial")
     why = why_no_updater(layout)

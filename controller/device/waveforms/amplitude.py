@@ -14,10 +14,7 @@ AMPLITUDES = tuple(2 ** (-step / STEPS_PER_HALF) for step in range(LAST_STEP + 1
 def amplitude_step(amplitude: float) -> int:
     """Nearest step of an amplitude: 0 is full, `LAST_STEP` is `MIN_AMPLITUDE` and everything below.
 
-    Raises
-    ------
-    ValueError
-        If it is not above 0 and at most 1.
+    Raises ValueError if it is not above 0 and at most 1.
     """
     if not 0 < amplitude <= 1:
         raise ValueError(f"amplitude {amplitude} is not above 0 and at most 1")

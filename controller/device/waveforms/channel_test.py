@@ -14,26 +14,8 @@ SAMPLES_A_PERIOD: Final = 6  # at least; a bit clock too slow for the band's end
 def chirp_words(channel: int, samples: int, bit_clock_hz: float, idle_word: int, band_hz: tuple[float, float]) -> memoryview:
     """Drive words of a linear chirp on one channel, which begins at that channel's idle level.
 
-    Parameters
-    ----------
-    channel : int
-        0 to 31.
-    samples : int
-        Length of an emission.
-    idle_word : int
-        Level of each channel at rest: bit q is channel q.
-    band_hz : (float, float)
-        Where it begins and ends: the band of the board.
-
-    Returns
-    -------
-    memoryview
-        4 bytes a sample, as they go to the wire.
-
-    Raises
-    ------
-    ValueError
-        If there is no such channel.
+    The chirp begins and ends at the board's band. The words have 4 bytes a sample, as they go to the wire; bit q of `idle_word` is
+    the level of channel q at rest. Raises ValueError if there is no such channel.
     """
     if not 0 <= channel < CHANNELS:
         raise ValueError(f"channel {channel} is not 0 to {CHANNELS - 1}")

@@ -22,19 +22,8 @@ BLOCK_S = 96e-6  # over which the local strength of a response is taken
 class Composer:
     """Composes drive words from a bank's responses in memory taken once.
 
-    Parameters
-    ----------
-    bank : Bank
-        The open bank; its response section is mapped with the first composition.
-    idle_word : int
-        Level of each channel at rest: bit q is channel q.
-
-    Raises
-    ------
-    BankError
-        If the bank's waveforms are longer than can be composed.
-    ValueError
-        If the idle word is not 32 bits.
+    The response section of the bank is mapped with the first composition; bit q of `idle_word` is the level of channel q at rest.
+    Raises BankError if the bank's waveforms are longer than can be composed; ValueError if the idle word is not 32 bits.
     """
 
     def __init__(self, bank: Bank, idle_word: int) -> None:
@@ -46,8 +35,8 @@ class Composer:
         eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.GROUP_SAMPLES)
         block_samples = min(max(kernel.GROUP_SAMPLES * eights, kernel.GROUP_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
         self._bank = bank
-        entries, scales, self._good = bank.responses.tables()
-        self._plan = kernel.PLAN.pack(
+        entries, scales, good = bank.responses.tables()
+        plan = kernel.PLAN.pack(
             bank.samples,
             bank.sections["response"].stride,
             grid.nx,
@@ -59,11 +48,11 @@ class Composer:
             grid.x0_m,
             grid.y0_m,
         )
-        self._entries, self._scales = memoryview(array("i", entries)), memoryview(array("f", scales))
+        tables = memoryview(array("i", entries)), memoryview(array("f", scales))
+        self._buffers = kernel.BankBuffers(plan, *tables, good, b"")  # the responses follow once their section is mapped
         self._room = bytearray(kernel.room_bytes(bank.samples))
         self._words = bytearray(4 * bank.samples)
         self._view = memoryview(self._words).toreadonly()
-        self._responses = memoryview(b"")  # the section, once it is mapped
 
     def compose(self, points: Sequence[Point]) -> memoryview:
         """Drive words that make every point jump at T, up or down, whichever lets all of them jump farther.
@@ -71,51 +60,26 @@ class Composer:
         Points within 2.8 mm of each other (at the simulated board's wavelength) are one place and get the smallest of their
         amplitudes. No point gets more than it asks for.
 
-        Parameters
-        ----------
-        points : sequence of (x_m, y_m, amplitude)
-            1 to `MAX_FOCI`; above 0 to 1. Points beyond the outermost cells take the nearest place
-            among the cells.
-
-        Returns
-        -------
-        memoryview
-            4 bytes a sample, as they go to the wire; valid until the next call.
-
-        Raises
-        ------
-        BankError
-            If a cell that a point needs is not in the bank, or damaged.
-        ValueError
-            If there are no points or too many, or numbers that are not finite or beyond their range.
+        There are 1 to `MAX_FOCI` points; those beyond the outermost cells take the nearest place among the cells. Returns 4 bytes a
+        sample, as they go to the wire; valid until the next call. Raises BankError if a cell that a point needs is not in the bank,
+        or damaged; ValueError if there are no points or too many, or numbers that are not finite or beyond their range.
         """
-        words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
-        if not self._responses:
-            self._responses = bank.responses.section
-        while (cell := kernel.compose(words, room, plan, entries, scales, self._good, self._responses, points)) >= 0:
-            bank.responses.check(cell)
+        responses = self._bank.responses
+        if not self._buffers.response:
+            self._buffers = self._buffers._replace(response=responses.section)
+        while (cell := kernel.compose(self._words, self._room, self._buffers, points)) >= 0:
+            responses.check(cell)
         return self._view
 
     def keep_still(self, points: Sequence[Point], nulls: Sequence[Point]) -> None:
         """Change the words that `compose` gave for these points, so that other places stay still near T.
 
-        Parameters
-        ----------
-        points : sequence of (x_m, y_m, amplitude)
-            As composed.
-        nulls : sequence of (x_m, y_m, amplitude)
-            At most `MAX_NULLS`, of any amplitude above 0; those without responses in the bank are left out.
-
-        Raises
-        ------
-        BankError
-            If a response is damaged.
-        ValueError
-            If there are too many places, or numbers that are not finite or beyond their range.
+        At most `MAX_NULLS` places, of any amplitude above 0; those without responses in the bank are left out. Raises BankError if
+        a response is damaged; ValueError if there are too many places, or numbers that are not finite or beyond their range.
         """
-        words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
-        there = [place for place in nulls if bank.responses.has(place[0], place[1])]
+        responses = self._bank.responses
+        there = [place for place in nulls if responses.has(place[0], place[1])]
         if not there:
             return
-        while (cell := kernel.null_places(words, room, plan, entries, scales, self._good, self._responses, points, there)) >= 0:
-            bank.responses.check(cell)
+        while (cell := kernel.null_places(self._words, self._room, self._buffers, points, there)) >= 0:
+            responses.check(cell)

@@ -20,21 +20,12 @@ Place = tuple[float, float]  # x_m, y_m
 
 @dataclass(frozen=True, slots=True)
 class WaveformDesign:
-    """Drive words, and what the method that made them expects of them.
+    """Drive words, and what the method that made them expects of them."""
 
-    Attributes
-    ----------
-    words : (sample,) uint32 array
-        Drive words, first played first.
-    displacement_m : (point,) float array
-        At each point at T, from rest at the idle word; negative where the point is kicked downwards.
-    nulls_m : (null,) float array
-        Largest absolute displacement at each null near T.
-    """
-
-    words: NDArray[np.uint32]
+    words: NDArray[np.uint32]  # (sample,): drive words, first played first
+    # (point,): at each point at T, from rest at the idle word; negative where the point is kicked downwards
     displacement_m: NDArray[np.floating[Any]]
-    nulls_m: NDArray[np.floating[Any]]
+    nulls_m: NDArray[np.floating[Any]]  # (null,): largest absolute displacement at each null near T
 
 
 class DesignMethod(Protocol):
@@ -45,18 +36,9 @@ class DesignMethod(Protocol):
         """One to four words for tables and legends."""
 
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
-        """Find drive words for one emission.
+        """Find drive words for one emission, with places (`nulls`) that shall stay still near T.
 
-        Parameters
-        ----------
-        points : sequence of (x_m, y_m, amplitude)
-            Foci; amplitudes above 0 to 1, each a share of what the point would get if all points were composed at full amplitude.
-        nulls : sequence of (x_m, y_m)
-            Places that shall stay still near T.
-
-        Raises
-        ------
-        ValueError
-            If there is no point, if numbers are not finite or beyond their range, or if the method cannot do what is asked:
-            nulls, or less than full amplitude.
+        Amplitudes are above 0 to 1, each a share of what the point would get if all points were composed at full amplitude. Raises
+        ValueError if there is no point, if numbers are not finite or beyond their range, or if the method cannot do what is asked:
+        nulls, or less than full amplitude.
         """

@@ -22,13 +22,7 @@ NEAR_S = 25e-6  # a null is evaluated this long before and after T
 
 
 class DeviceComposition:
-    """Any points at any amplitude, and nulls; what it expects is what the bank knows.
-
-    Parameters
-    ----------
-    bank : Bank
-        Open, of this board.
-    """
+    """Any points at any amplitude, and nulls; what it expects is what the bank knows."""
 
     name = "device composition"
 
@@ -40,13 +34,7 @@ class DeviceComposition:
         self._near_samples = round(NEAR_S / board.waveform.bit_period_s)
 
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
-        """As `DesignMethod.design`.
-
-        Raises
-        ------
-        BankError
-            If a cell that a point needs is not in the bank, or damaged.
-        """
+        """As `DesignMethod.design`; raises BankError if a cell that a point needs is not in the bank, or damaged."""
         words = np.frombuffer(self._composer.compose(points), WORD)
         if nulls:
             self._composer.keep_still(points, [(x_m, y_m, 1.0) for x_m, y_m in nulls])

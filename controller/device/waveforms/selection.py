@@ -36,34 +36,18 @@ NULL_APART_M: Final = 5e-3  # a place nearer to a focus than this cannot be kept
 class Selection:
     """Keys and drive words for points on the plate.
 
-    Parameters
-    ----------
-    bank : Bank
-        The open bank.
-    snap_m : float
-        A single point of full amplitude at most this far from a cell's centre plays that cell.
-    idle_word : int
-        Level of each channel at rest: bit q is channel q.
-    band_hz : (float, float), optional
-        Of the board, for the test of a channel; None: none is tested.
-    ready : bool
-        False: what the bank has composed beforehand is composed all the same.
-
-    Attributes
-    ----------
-    lattice_m : float
-        Distance of the points to which places are rounded.
-    reuse_m : float
-        A waveform for a place this near serves as well.
+    A single point of full amplitude at most `snap_m` from a cell's centre plays that cell. Bit q of `idle_word` is the level of
+    channel q at rest. `band_hz`, the board's, is for the test of a channel; None: none is tested. Unless `ready`, what the bank has
+    composed beforehand is composed all the same.
     """
 
     def __init__(
         self, bank: Bank, snap_m: float, idle_word: int, band_hz: tuple[float, float] | None = None, *, ready: bool = True
     ) -> None:
         self._bank = bank
-        self.lattice_m = LATTICE_M * bank.wave_scale
+        self.lattice_m = LATTICE_M * bank.wave_scale  # distance of the points to which places are rounded
         self._null_apart_m = NULL_APART_M * bank.wave_scale
-        self.reuse_m = REUSE_RADIUS_M * bank.wave_scale
+        self.reuse_m = REUSE_RADIUS_M * bank.wave_scale  # a waveform for a place this near serves as well
         self._compositions = bank.drive.compositions if ready else {}
         self._snap_m = snap_m
         self._idle_word = idle_word
@@ -78,10 +62,7 @@ class Selection:
     def prepare(self) -> None:
         """Take the memory for composing, and map the responses, before playing begins.
 
-        Raises
-        ------
-        BankError
-            If the bank's first entry is damaged.
+        Raises BankError if the bank's first entry is damaged.
         """
         if not self._bank.composes:
             return
@@ -95,12 +76,7 @@ class Selection:
     def key(self, points: Sequence[Point]) -> Key:
         """Name of the waveform for these points (x_m, y_m, amplitude); equal keys have equal words.
 
-        Raises
-        ------
-        ValueError
-            If an amplitude is not above 0 and at most 1, or a place is NaN.
-        OverflowError
-            If a place is infinite.
+        Raises ValueError if an amplitude is not above 0 and at most 1, or a place is NaN; OverflowError if a place is infinite.
         """
         if len(points) == 1:
             x_m, y_m, amplitude = points[0]
@@ -118,10 +94,7 @@ class Selection:
 
         Places within 5 mm of a point (on the paper's plate) are left as they are.
 
-        Raises
-        ------
-        ValueError
-            If an amplitude is not above 0 and at most 1.
+        Raises ValueError if an amplitude is not above 0 and at most 1.
         """
         apart = []
         for x_m, y_m in places:
@@ -144,10 +117,7 @@ class Selection:
         With frames comes the CRC-32 with which they were built, so that the FPGA finds whatever changed since. Points that the bank
         has composed beforehand are taken from there; if that is damaged, they are composed here.
 
-        Raises
-        ------
-        BankError
-            If an entry it needs is damaged or not in the bank, or the file was changed in place.
+        Raises BankError if an entry it needs is damaged or not in the bank, or the file was changed in place.
         """
         if isinstance(key, int):
             return ReadyFrames(*self._bank.drive.frames(key))
@@ -170,10 +140,7 @@ class Selection:
     def recheck(self, key: Key) -> None:
         """Check the entry of a key again, of which the FPGA refused a frame or the words for a wrong CRC.
 
-        Raises
-        ------
-        BankError
-            If they are wrong in the bank.
+        Raises BankError if they are wrong in the bank.
         """
         if isinstance(key, int):
             self._bank.drive.recheck(key)
@@ -181,15 +148,7 @@ class Selection:
             self._bank.drive.recheck_composed(key)
 
     def reusable(self, key: Key, resident: Key) -> bool:
-        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within `reuse_m`.
-
-        Parameters
-        ----------
-        key : Key
-            The waveform that is to be played.
-        resident : Key
-            The one that the FPGA holds.
-        """
+        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within `reuse_m`."""
         wanted, there = self.single_focus(key), self.single_focus(resident)
         if wanted is None or there is None or wanted[2] != there[2]:
             return False

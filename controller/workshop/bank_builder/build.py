@@ -37,62 +37,32 @@ CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 100
 
 @dataclass(frozen=True)
 class BuildReport:
-    """Result and cost of a build.
-
-    Attributes
-    ----------
-    bytes : int
-        Size of the file.
-    cells : int
-        Entries written.
-    modes : int or None
-        In every response; None: the responses do not come from modes.
-    responses : str
-        Where they come from, `Provenance.in_words`.
-    seconds : float
-        Of the whole build, by the clock.
-    model_seconds, response_seconds : float
-        Processor time of the plate model (none of another source) and of the responses.
-    response_gflops : float or None
-        Additions and multiplications that the responses need, in 10^9 for a second of `response_seconds`; None: no model's.
-    peak_memory_mb : float
-        In MB of 10^6 bytes.
-    worst_edge_rate_hz : float
-        Edges per second of the busiest channel of all entries.
-    interpolation_error : dict
-        `InterpolationError.summary`: what fingers between cells lose.
-    optimised : dict or None
-        What entries were optimised for, and what became of their amplitude; None: they are plain.
-    optimise_seconds : float
-        By the clock.
-    """
+    """Result and cost of a build."""
 
     path: str
-    bytes: int
-    cells: int
-    modes: int | None
-    responses: str
-    seconds: float
+    bytes: int  # size of the file
+    cells: int  # entries written
+    modes: int | None  # in every response; None: the responses do not come from modes
+    responses: str  # where they come from, `Provenance.in_words`
+    seconds: float  # of the whole build, by the clock
+    # model_seconds, response_seconds: processor time of the plate model (none of another source) and of the responses
     model_seconds: float
     response_seconds: float
+    # Additions and multiplications that the responses need, in 10^9 for a second of `response_seconds`; None: no model's
     response_gflops: float | None
-    peak_memory_mb: float
-    worst_edge_rate_hz: float
-    interpolation_error: dict[str, Any]
-    optimised: dict[str, Any] | None
-    optimise_seconds: float
+    peak_memory_mb: float  # in MB of 10^6 bytes
+    worst_edge_rate_hz: float  # edges per second of the busiest channel of all entries
+    interpolation_error: dict[str, Any]  # `InterpolationError.summary`: what fingers between cells lose
+    optimised: dict[str, Any] | None  # what entries were optimised for, and what became of their amplitude; None: they are plain
+    optimise_seconds: float  # by the clock
 
 
 def build_bank(request: BankRequest) -> BuildReport:
     """Build a bank and put it in place of the one at `request.path`, if any.
 
-    Raises
-    ------
-    ConfigError
-        If the pitch leaves no cell, no cell is wanted, an entry would switch a channel more often than the board allows,
-        the build does not fit into `memory_mb`, the source is not of this board, or entries from it are to be optimised.
-    BankError
-        If the folder or disk does not take the file; an old bank is untouched.
+    Raises ConfigError if the pitch leaves no cell, no cell is wanted, an entry would switch a channel more often than the board
+    allows, the build does not fit into `memory_mb`, the source is not of this board, or entries from it are to be optimised. Raises
+    BankError if the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
     plan = BankPlan.of(request)
@@ -167,21 +137,13 @@ def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, nam
 
 
 class _Entries:
-    """Writes waveforms, and keeps what the header says of them.
-
-    Attributes
-    ----------
-    content
-        Hash of all that was written.
-    moves : bool
-        Whether any channel moves any cell.
-    """
+    """Writes waveforms, and keeps what the header says of them."""
 
     def __init__(self, board: Board, header: Header, writer: BankWriter) -> None:
         self._board, self._results, self._writer = board, header.parameters, writer
-        self.content = hashlib.sha256()
+        self.content = hashlib.sha256()  # hash of all that was written
         self.worst_edge_rate_hz = 0.0
-        self.moves = False
+        self.moves = False  # whether any channel moves any cell
 
     def add_cell(self, cell: int, words: NDArray[np.uint32], response: NDArray[np.float32]) -> None:
         self._count_edges(words, f"cell {cell}")

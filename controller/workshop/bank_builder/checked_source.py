@@ -22,10 +22,7 @@ SAME = 1e-6  # relative: numbers that differ by less are written in files
 class CheckedSource:
     """A `ResponseSource` whose responses are checked before they are used.
 
-    Raises
-    ------
-    ConfigError
-        If the source is of another plate, bit clock or length of an emission.
+    Raises ConfigError if the source is of another plate, bit clock or length of an emission.
     """
 
     def __init__(self, board: Board, source: ResponseSource) -> None:

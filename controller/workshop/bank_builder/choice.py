@@ -40,26 +40,14 @@ CELL_US, ONE_US, TEN_US, TEN_LESS_US = 0.14, 6.0, 164.0, 388.0
 
 @dataclass(frozen=True)
 class Setting:
-    """A candidate, and what it costs.
-
-    Attributes
-    ----------
-    composes : bool
-        Whether the bank holds responses.
-    error : float
-        Largest loss of amplitude at the sampled places.
-    time_us : float
-        Of the largest emission.
-    lone_us : float
-        Of a lone finger, mean.
-    """
+    """A candidate, and what it costs."""
 
     pitch_mm: float
     snap_mm: float
-    composes: bool
-    error: float
-    time_us: float
-    lone_us: float
+    composes: bool  # whether the bank holds responses
+    error: float  # largest loss of amplitude at the sampled places
+    time_us: float  # of the largest emission
+    lone_us: float  # of a lone finger, mean
     bytes: int
 
     def beaten_by(self, other: Setting) -> bool:
@@ -69,15 +57,7 @@ class Setting:
 
 
 def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource | None = None) -> list[Setting]:
-    """All candidates for a scene.
-
-    Parameters
-    ----------
-    margin_m : float
-        As of `cells_needed`.
-    source : ResponseSource, optional
-        Of the responses; the board's plate model by default.
-    """
+    """All candidates for a scene. `margin_m` is as of `cells_needed`; responses come from the board's plate model by default."""
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
     source, scale = source or ResponseModel(board), wave_scale(board)
     alone = not needs_responses(scene, scale) and board.application_socket is None
@@ -115,25 +95,9 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
 def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source: ResponseSource | None = None) -> dict[str, Any]:
     """What `compose.method = "auto"` chooses for a scene, to be written into its bank.
 
-    Parameters
-    ----------
-    scene_file : Path
-        Where the scene was read.
-    margin_m : float
-        As of `cells_needed`.
-    source : ResponseSource, optional
-        Of the responses; the board's plate model by default.
-
-    Returns
-    -------
-    dict
-        The fields of the chosen `Setting`; `asked`, as `inspection.asked_of`; `scene`; `why`, a line for people; `front`: pitch,
-        snap (None: no responses), error, time of a lone finger and bytes of each setting on the front.
-
-    Raises
-    ------
-    ConfigError
-        If no setting keeps both bounds.
+    `margin_m` is as of `cells_needed`; responses come from the board's plate model by default. Returns the fields of the chosen
+    `Setting`; `asked`, as `inspection.asked_of`; `scene`; `why`, a line for people; `front`: pitch, snap (None: no responses),
+    error, time of a lone finger and bytes of each setting on the front. Raises ConfigError if no setting keeps both bounds.
     """
     found = settings(board, scene, margin_m, source)
     front = [one for one in found if not any(one.beaten_by(other) for other in found)]

@@ -31,12 +31,8 @@ Composition = tuple[tuple[LatticePoint, ...], NDArray[np.uint32]]
 def played_together(emitters: Sequence[FixedEmitter], duration_s: float, wave_scale: float = 1.0) -> list[tuple[Point, ...]]:
     """Sets of points (x_m, y_m, amplitude) that a scene's fixed emitters play as one waveform, without any finger; 64 at most.
 
-    Parameters
-    ----------
-    duration_s : float
-        Of an emission: pulses nearer to each other than this are played together, if they may be.
-    wave_scale : float
-        Of the plate (`Bank.wave_scale`).
+    Pulses nearer to each other than `duration_s`, that of an emission, are played together, if they may be; `wave_scale` is that of
+    the plate (`Bank.wave_scale`).
     """
     found: dict[frozenset[Point], tuple[Point, ...]] = {}
     pulses = FixedEmitters(emitters, FpgaTime(0.0), wave_scale=wave_scale)
@@ -53,10 +49,7 @@ def played_together(emitters: Sequence[FixedEmitter], duration_s: float, wave_sc
 def compositions(board: Board, grid: Grid, source: ResponseSource, emitters: Sequence[FixedEmitter]) -> list[Composition]:
     """Keys and drive words of what a scene's fixed emitters play together, and of single ones that no cell of the grid serves.
 
-    Raises
-    ------
-    ConfigError
-        If a fixed emitter is where nothing can move.
+    Raises ConfigError if a fixed emitter is where nothing can move.
     """
     method, found, scale = ExactComposition(board, source), [], wave_scale(board)
     for points in played_together(emitters, board.waveform.duration_s, scale):

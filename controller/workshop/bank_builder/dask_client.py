@@ -25,13 +25,7 @@ SAID_CHARACTERS = 160
 
 @contextlib.contextmanager
 def dask_errors(where: str) -> Iterator[None]:
-    """Raise what dask raises as a BankError of one line.
-
-    Parameters
-    ----------
-    where : str
-        The option that asked for dask, with its value.
-    """
+    """Raise what dask raises as a BankError of one line. `where` is the option that asked for dask, with its value."""
     try:
         yield
     except (ControllerError, ModuleNotFoundError) as error:
@@ -56,10 +50,7 @@ def dask_errors(where: str) -> Iterator[None]:
 def open_client(address: str | None, processes: int) -> Iterator[Any]:
     """Client of a scheduler that is there, or of one with as many processes of this computer.
 
-    Raises
-    ------
-    BankError
-        If no scheduler answers at the address, or scheduler or workers have another version of dask.
+    Raises BankError if no scheduler answers at the address, or scheduler or workers have another version of dask.
     """
     import dask
     from distributed import Client, LocalCluster

@@ -31,17 +31,10 @@ DIGITS = 3  # of what a bank tells: the rest differs between machines
 
 @dataclass(frozen=True, eq=False)
 class InterpolationError:
-    """Amplitude lost at sampled places between cells, 1 - A / A_exact, with A_exact that of the sign of the exact response there.
+    """Amplitude lost at places between cells, 1 - A / A_exact, with A_exact that of the sign of the exact response there."""
 
-    Attributes
-    ----------
-    distance_m : (place,) array
-        From each place to the nearest cell.
-    interpolated, nearest : (place,) array
-        Of the sign of the four responses around, interpolated; of the nearest cell's own words.
-    """
-
-    distance_m: Floats
+    distance_m: Floats  # (place,): from each place to the nearest cell
+    # interpolated, nearest: (place,): of the sign of the four responses around, interpolated; of the nearest cell's own words
     interpolated: Floats
     nearest: Floats
 
@@ -60,14 +53,9 @@ class InterpolationError:
 
 
 def interpolation_error(board: Board, source: ResponseSource, grid: Grid, cells: NDArray[np.bool_]) -> InterpolationError:
-    """Judge a grid at random places between cells that are built.
+    """Evaluate a grid at random places between the `cells` (cells of the grid,) that are built.
 
-    Parameters
-    ----------
-    source : ResponseSource
-        Of this board.
-    cells : (cells of the grid,) bool array
-        Cells that are built. A place is evaluated where all four around it are; there may be none.
+    A place is evaluated where all four around it are; there may be none.
     """
     distances, interpolated, nearest = [], [], []
     for row, places_m in _sample(grid, cells):
@@ -138,9 +126,7 @@ def interpolation_warning(summary: dict[str, Any]) -> str:
 def refuse_coarse(board: Board, pitch_m: float) -> None:
     """Refuse a pitch that is not the board's own by the relation that its own keeps (`panel_relations.coarse`).
 
-    Raises
-    ------
-    ConfigError
+    Raises ConfigError.
     """
     for why in coarse(board, pitch_m * 1e3):
         raise ConfigError(f"board {board.name!r}: {why}")

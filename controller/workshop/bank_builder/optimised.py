@@ -31,7 +31,7 @@ from controller.device.kernel.crc import intact, sealed
 from controller.errors import BankError, UsageError
 from controller.regular_file import open_private
 from controller.workshop.bank_builder.dask_client import dask_errors, open_client, results_of
-from controller.workshop.bank_builder.methods.descent import CELLS_AT_ONCE, Aim, Descent
+from controller.workshop.bank_builder.methods.descent import CELLS_AT_ONCE, Descent, DescentAim
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 Words = NDArray[np.uint32]
@@ -47,17 +47,10 @@ RECORD = struct.Struct("<I")  # cell; then its words; then the CRC-32 of both
 
 @dataclass(frozen=True)
 class Workers:
-    """Who optimises.
+    """Who optimises."""
 
-    Attributes
-    ----------
-    processes : int
-        On this machine; 1: the calling process itself.
-    address : str, optional
-        Of a dask scheduler, whose workers have this package in the same version; takes the place of `processes`.
-    """
-
-    processes: int = 1
+    processes: int = 1  # on this machine; 1: the calling process itself
+    # of a dask scheduler, whose workers have this package in the same version; takes the place of `processes`
     address: str | None = None
 
 
@@ -66,23 +59,16 @@ ALONE = Workers()
 
 @dataclass(frozen=True)
 class Task:
-    """A group of cells, and all that determines their words.
-
-    Attributes
-    ----------
-    points_m : tuple of (x_m, y_m)
-    maker : str
-        `creator()` of who asks: a worker of another version would compute other words.
-    """
+    """A group of cells, and all that determines their words."""
 
     board: Board
     highest_hz: float
-    aim: Aim
-    points_m: tuple[tuple[float, float], ...]
-    maker: str
+    aim: DescentAim
+    points_m: tuple[tuple[float, float], ...]  # each (x_m, y_m)
+    maker: str  # `creator()` of who asks: a worker of another version would compute other words
 
 
-def reported(board: Board, aim: Aim) -> dict[str, Any]:
+def reported(board: Board, aim: DescentAim) -> dict[str, Any]:
     """What determines the words besides the board's physics and the cell, for a bank: aim, limit, version of the method."""
     return {**asdict(aim), "max_edge_rate_hz": board.limits.max_edge_rate_hz, "method": METHOD_VERSION}
 
@@ -96,7 +82,7 @@ def compute(task: Task) -> Words:
 
 
 @lru_cache(maxsize=1)
-def _method(board: Board, highest_hz: float, aim: Aim) -> Descent:
+def _method(board: Board, highest_hz: float, aim: DescentAim) -> Descent:
     return Descent(board, ResponseModel(board, highest_hz), aim)
 
 
@@ -114,26 +100,10 @@ def remove_kept(bank: Path) -> None:
 def optimised_words(whole: Task, cells: NDArray[np.intp], kept: Path, workers: Workers, *, progress: bool = False) -> Words:
     """Optimise the entries of cells, the same bits whoever does it.
 
-    Parameters
-    ----------
-    whole : Task
-        All cells as one.
-    cells : (cell,) int array
-        Their numbers.
-    kept : Path
-        File of what is done; what it holds is not computed again. The caller names it by all that determines the words, and removes
-        it when they are safe.
-    progress : bool
-        Show a bar with the time left on stderr if that is a terminal.
-
-    Returns
-    -------
-    (cell, sample) uint32 array
-
-    Raises
-    ------
-    BankError
-        If the scheduler is not found, a worker has another version, or what is done cannot be kept.
+    `whole` has all cells as one, `cells` (cell,) are their numbers. What the file `kept` holds is not computed again: the caller
+    names it by all that determines the words, and removes it when they are safe. With `progress`, a bar shows the time left on
+    stderr if that is a terminal. Returns (cell, sample). Raises BankError if the scheduler is not found, a worker has another
+    version, or what is done cannot be kept.
     """
     words: Words = np.zeros((len(cells), whole.board.waveform.samples), WORD)
     with _Kept.open(kept, words.shape[1]) as done:

@@ -35,21 +35,13 @@ MET_AHEAD_M = 5e-3  # beyond its region, a moving finger is met this far ahead; 
 
 @dataclass(frozen=True)
 class Order:
-    """What a bank is to hold.
-
-    Attributes
-    ----------
-    scene, scene_file
-        Whose cells and fixed emitters; None: the whole plate, without fixed emitters.
-    choice : dict or None
-        What `compose.method = "auto"` chose.
-    """
+    """What a bank is to hold."""
 
     board: Board
     pitch_m: float
-    scene: Scene | None = None
+    scene: Scene | None = None  # scene, scene_file: whose cells and fixed emitters; None: the whole plate, without fixed emitters
     scene_file: Path | None = None
-    choice: dict[str, Any] | None = None
+    choice: dict[str, Any] | None = None  # what `compose.method = "auto"` chose
 
     @property
     def own_path(self) -> Path:
@@ -64,16 +56,8 @@ class Order:
     def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
         """Build it, its file beside or in place of another.
 
-        Parameters
-        ----------
-        cells : (cells of the grid,) bool array, optional
-            Other cells than those of the scene.
-        how
-            Further fields of `BankRequest`.
-
-        Raises
-        ------
-        ConfigError, BankError
+        `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`. Raises
+        ConfigError or BankError.
         """
         refuse_coarse(self.board, self.pitch_m)
         return build_bank(
@@ -95,17 +79,9 @@ class Order:
 def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None = None) -> Order:
     """The order of a bank: for the whole plate, or for the cells that a scene can reach.
 
-    Parameters
-    ----------
-    scene_file : Path, optional
-        None: the whole plate; where the pitch is chosen, the board's own scene.
-    pitch_mm : float, optional
-        The board's own or, where its `compose.method` is "auto", a chosen one by default.
-
-    Raises
-    ------
-    ConfigError
-        If the pitch is too small, the scene is invalid, or no choice keeps the board's bounds.
+    `scene_file` None: the whole plate; where the pitch is chosen, the board's own scene. `pitch_mm` None: the board's own or, where
+    its `compose.method` is "auto", a chosen one. Raises ConfigError if the pitch is too small, the scene is invalid, or no choice
+    keeps the board's bounds.
     """
     if not pitch_of(board, pitch_mm) >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
@@ -138,10 +114,7 @@ def chosen(board: Board, scene: Scene, scene_file: Path, source: ResponseSource 
 def own_bank(board: Board, scene: Scene, scene_file: Path) -> Bank:
     """The board's own bank, built if it is missing, and built again if it does not suit board or scene.
 
-    Raises
-    ------
-    BankError
-        If it does not suit and was measured, or cannot be built.
+    Raises BankError if it does not suit and was measured, or cannot be built.
     """
     path = find_bank(board).path
     wanted, found = _wanted(board, scene, scene_file, path)

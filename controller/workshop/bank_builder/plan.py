@@ -30,29 +30,16 @@ CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 100
 
 @dataclass(frozen=True)
 class BankPlan:
-    """What is computed, and from what.
-
-    Attributes
-    ----------
-    wanted : (cells of the grid,) bool array
-    numbers, points_m
-        Of the cells that are wanted.
-    header
-        Its parameters that are results are filled in as entries are made; it is written last.
-    composed
-        What the fixed emitters play together.
-    blocks
-        Positions in `numbers` of cells that are computed at once.
-    """
+    """What is computed, and from what."""
 
     board: Board
-    wanted: NDArray[np.bool_]
-    numbers: NDArray[np.intp]
+    wanted: NDArray[np.bool_]  # (cells of the grid,)
+    numbers: NDArray[np.intp]  # numbers, points_m: of the cells that are wanted
     points_m: NDArray[np.float64]
     source: ResponseSource
-    header: Header
-    composed: list[Composition]
-    blocks: list[range]
+    header: Header  # its parameters that are results are filled in as entries are made; it is written last
+    composed: list[Composition]  # what the fixed emitters play together
+    blocks: list[range]  # positions in `numbers` of cells that are computed at once
 
     @classmethod
     def of(cls, request: BankRequest) -> BankPlan:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.device.scene.scene import FixedEmitter
-from controller.workshop.bank_builder.methods.descent import Aim
+from controller.workshop.bank_builder.methods.descent import DescentAim
 from controller.workshop.bank_builder.optimised import ALONE, Workers
 from controller.workshop.physics.plate import mode_cut_hz
 from controller.workshop.physics.responses.response_source import ResponseSource
@@ -21,53 +21,25 @@ from controller.workshop.physics.responses.response_source import ResponseSource
 
 @dataclass(frozen=True)
 class BankRequest:
-    """What `build_bank` makes: the first fields say of what the bank is, the last five how it is built.
-
-    Attributes
-    ----------
-    path : Path
-        Its folder is made if it is missing.
-    pitch_m : float, optional
-        Of the grid; the board's own by default.
-    cells : (cells of the grid,) bool array, optional
-        Cells to build; all by default.
-    fixed emitters : sequence of FixedEmitter
-        What they play together is composed beforehand.
-    scene : str, optional
-        What `cells` and `fixed emitters` came from, noted in the build parameters.
-    highest_hz : float, optional
-        Modes above are left out; `mode_cut_hz` by default.
-    choice : dict, optional
-        What `choice.choose` returned; its `composes` says whether responses are written.
-    source : ResponseSource, optional
-        Of the responses; the board's plate model by default.
-    aim : Aim, optional
-        Optimise every entry for this (`workshop/bank_builder/methods/descent.py`). What is done of an interrupted build is kept
-        beside `path`.
-    workers : Workers
-        Who optimises.
-    memory_mb : float, optional
-        Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is.
-    progress : bool
-        Show a bar on stderr if that is a terminal.
-    overwrite : bool
-        Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
-    """
+    """What `build_bank` makes: the first fields say of what the bank is, the last five how it is built."""
 
     board: Board
-    path: Path
-    pitch_m: float | None = None
-    cells: NDArray[np.bool_] | None = None
+    path: Path  # its folder is made if it is missing
+    pitch_m: float | None = None  # of the grid; the board's own by default
+    cells: NDArray[np.bool_] | None = None  # (cells of the grid,): cells to build; all by default
     emitters: Sequence[FixedEmitter] = ()
-    scene: str | None = None
-    highest_hz: float | None = None
-    choice: dict[str, Any] | None = None
-    source: ResponseSource | None = None
-    aim: Aim | None = None
-    workers: Workers = ALONE
+    scene: str | None = None  # what `cells` and `fixed emitters` came from, noted in the build parameters
+    highest_hz: float | None = None  # modes above are left out; `mode_cut_hz` by default
+    choice: dict[str, Any] | None = None  # what `choice.choose` returned; its `composes` says whether responses are written
+    source: ResponseSource | None = None  # of the responses; the board's plate model by default
+    # Optimise every entry for this (`workshop/bank_builder/methods/descent.py`). What is done of an interrupted build is kept
+    # beside `path`
+    aim: DescentAim | None = None
+    workers: Workers = ALONE  # who optimises
+    # Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is
     memory_mb: float | None = None
-    progress: bool = False
-    overwrite: bool = False
+    progress: bool = False  # show a bar on stderr if that is a terminal
+    overwrite: bool = False  # replace a file at `path` even if it is no bank: for paths that this software chooses itself
 
     @property
     def board_as_chosen(self) -> Board:

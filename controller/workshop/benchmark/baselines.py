@@ -34,31 +34,17 @@ class Baseline:
 
 
 class Baselines:
-    """The baselines of a machine.
-
-    Parameters
-    ----------
-    bank : Bank
-        With the cells of all scenes.
-    folder : Path
-        For compiled C.
-
-    Attributes
-    ----------
-    left_out : list of str
-        What is missing, and why.
-    sgemm_rate : float
-        Additions and multiplications of float32 for a second of processor time, at best, on one thread.
-    """
+    """The baselines of a machine. `bank` has the cells of all scenes; `folder` is for compiled C."""
 
     def __init__(self, board: Board, bank: Bank, folder: Path) -> None:
         self._board = board
-        self.left_out: list[str] = []
+        self.left_out: list[str] = []  # what is missing, and why
         self._c: PlainC | None = None
         try:
             self._c = PlainC(folder, bank, board.idle_word)
         except ConfigError as error:
             self.left_out.append(str(error))
+        # Additions and multiplications of float32 for a second of processor time, at best, on one thread
         self.sgemm_rate = best_sgemm_rate()
 
     @property

@@ -29,18 +29,8 @@ REPEATS = 2
 def building_figures(board: Board, judge: Judge, drawn: Sequence[FingerScene]) -> list[Figures]:
     """Costs and losses of ways to build.
 
-    Parameters
-    ----------
-    judge : Judge
-        Of this board.
-    drawn : sequence of FingerScene
-        With one finger each.
-
-    Returns
-    -------
-    list of dict
-        `curve`, `setting`, `seconds` of building the board's grid, `loss`: median of `bound_loss`; None for a pitch, whose loss
-        is that of the methods that interpolate.
+    Each scene has one finger. Figures: `curve`, `setting`, `seconds` of building the board's grid, `loss`: median of `bound_loss`;
+    None for a pitch, whose loss is that of the methods that interpolate.
     """
     pitch_m = board.bank.pitch_mm * 1e-3
     found = []

@@ -31,27 +31,13 @@ FINGERS = (1, 2, 4, 10)
 
 @dataclass(frozen=True)
 class FingerScene:
-    """Fingers of one emission.
+    """Fingers of one emission."""
 
-    Attributes
-    ----------
-    family : str
-        Scenes of one kind are summarised together.
-    points : tuple of (x_m, y_m)
-        Where the fingers are at T; none: nobody touches the panel.
-    expected : tuple of (x_m, y_m)
-        Where the host expects them at T; the same as `points` for fingers at rest.
-    null : (x_m, y_m)
-        A finger that shall feel nothing.
-    detuning : float
-        Ratio of the plate's modal frequencies to those of which responses are known.
-    """
-
-    family: str
-    points: tuple[Place, ...]
-    expected: tuple[Place, ...]
-    null: Place
-    detuning: float = 1.0
+    family: str  # scenes of one kind are summarised together
+    points: tuple[Place, ...]  # each (x_m, y_m): where the fingers are at T; none: nobody touches the panel
+    expected: tuple[Place, ...]  # each (x_m, y_m): where the host expects them at T; the same as `points` for fingers at rest
+    null: Place  # (x_m, y_m): a finger that shall feel nothing
+    detuning: float = 1.0  # ratio of the plate's modal frequencies to those of which responses are known
 
 
 def still(family: str, points: Sequence[Place], null: Place, detuning: float = 1.0) -> FingerScene:
@@ -61,17 +47,7 @@ def still(family: str, points: Sequence[Place], null: Place, detuning: float = 1
 
 
 def scenes(board: Board, seed: int, each: int, random_scenes: int) -> list[FingerScene]:
-    """Draw the scenes of a benchmark.
-
-    Parameters
-    ----------
-    seed : int
-        Equal seeds give equal scenes.
-    each : int
-        Scenes of each family.
-    random_scenes : int
-        Scenes of one to ten fingers anywhere at least 12 mm from the edges.
-    """
+    """Draw the scenes of a benchmark, `each` of every family; random ones have one to ten fingers at least 12 mm from the edges."""
     random = np.random.default_rng(seed)
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     size = np.array([board.plate.length_m, board.plate.width_m])

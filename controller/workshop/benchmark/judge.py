@@ -8,68 +8,25 @@ response gives there.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from functools import cached_property
-from itertools import product
-from typing import Any
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import zoom_fft
 
-from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
-from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.benchmark.fingers_scenes import FingerScene
-from controller.workshop.benchmark.stage.power import resistor_loss_j
-from controller.workshop.physics.audible import AUDIBLE_HZ, REST_TAUS
-from controller.workshop.physics.field import Field, FocusScale
-from controller.workshop.physics.focusing import focus
-from controller.workshop.physics.responses.driver import DriverResponse
-from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.benchmark.plate_under_test import PlateUnderTest
+from controller.workshop.physics.field import Field
 
 Floats = NDArray[np.float64]
 Words = NDArray[np.uint32]
 Errors = dict[str, float]
 
-POLARITIES = 8  # sets of polarities of which the bound is computed, the most promising first
-BOUND_STEPS = 400
 STILL_M = 1e-12  # far below what a focus gives
-LARGEST_BOUND = 12  # fingers: polarities are counted out
-
-
-@dataclass(frozen=True)
-class Reference:
-    """What the plate of a scene can give at its points.
-
-    Attributes
-    ----------
-    alone_m : (point,) array
-        A_ref of each point in m.
-    unfiltered_share : (point,) array
-        A_ref over half the supply times the sum of |h| of the unfiltered response.
-    unit : (point, sample, 32) array
-        Band-limited responses, each over the sum of its absolute values: the sum of one times bits of -1 and 1 is a share of
-        what the point could get alone, in the band.
-    bound : float
-        Largest share that all points can get at once, in the band: max over polarities s of min over weights w of |sum w s unit|_1.
-    """
-
-    alone_m: Floats
-    unfiltered_share: Floats
-    unit: Floats
-    bound: float
 
 
 class Judge:
-    """Errors of drive words.
-
-    Parameters
-    ----------
-    detunings : iterable of float
-        Ratios of modal frequencies for which scenes ask.
-    """
+    """Errors of drive words. `detunings` are ratios of modal frequencies for which scenes ask."""
 
     def __init__(self, board: Board, detunings: Iterable[float] = (1.0,)) -> None:
         self.board = board
@@ -88,24 +45,15 @@ class Judge:
         return self._plates[1.0].model.modes
 
     def errors(self, scene: FingerScene, words: Sequence[Words], free_polarity: Sequence[bool]) -> list[Errors]:
-        """Judge drive words of one scene.
+        """Evaluate drive words (sample,) of one scene by several methods; an emission shorter than the board's starts later.
 
-        Parameters
-        ----------
-        words : sequence of (sample,) uint32 arrays
-            Drive words of several methods; an emission shorter than the board's starts later.
-        free_polarity : sequence of bool
-            Whether a method may kick downwards.
-
-        Returns
-        -------
-        list of dict
-            `loss`: 1 - A / A_ref, mean over the points. `worst_loss`: that of the worst one. `bound_loss`: 1 - share of the worst
-            one in the band over the bound of all words. `felt_loss`: 1 - A / A_ref of the worst one over the best that any of
-            `words` reaches. `amplitude_over_unfiltered`: A over half the supply times sum |h|, mean. `quiet`: largest displacement
-            of the finger that shall feel nothing within 25 us of T, over the mean |A|. `contrast`: of the worst point, over the rms
-            outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz (`physics.audible`). `crest_m`: distance of the crest,
-            largest of the points. `stage_j`: heat in the drivers' series resistors.
+        `free_polarity`: whether a method may kick downwards. Figures: `loss`: 1 - A / A_ref, mean over the points. `worst_loss`:
+        that of the worst one. `bound_loss`: 1 - share of the worst one in the band over the bound of all words. `felt_loss`: 1 - A
+        / A_ref of the worst one over the best that any of `words` reaches. `amplitude_over_unfiltered`: A over half the supply
+        times sum |h|, mean. `quiet`: largest displacement of the finger that shall feel nothing within 25 us of T, over the mean
+        |A|. `contrast`: of the worst point, over the rms outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz
+        (`physics.audible`). `crest_m`: distance of the crest, largest of the points. `stage_j`: heat in the drivers' series
+        resistors.
         """
         plate = self._plates[scene.detuning]
         reference = plate.reference(scene.points)
@@ -139,148 +87,12 @@ class Judge:
         return found
 
 
-class PlateUnderTest:
-    """A board's plate and drivers as they play: from drive words to displacements, by inner products."""
-
-    def __init__(self, board: Board) -> None:
-        self.board = board
-        self.model = ResponseModel(board)
-        self._scale = FocusScale.of(board)
-        self._prediction = Prediction(board, self.model)
-        self._in_drive_order = np.ascontiguousarray(self.model.modal[:, ::-1])
-        self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
-
-    def volts(self, words: Words) -> Floats:
-        """Voltage of each channel above that at rest over the board's whole emission, (sample, 32); shorter ones start later."""
-        volts = np.zeros((self.model.samples, len(self._idle_bits)))
-        volts[len(volts) - len(words) :] = (channel_bits(words) - self._idle_bits) * self.board.driver.supply_v
-        return volts
-
-    def signs(self, words: Words) -> Floats:
-        """Levels of the channels as -1 and 1 over the board's whole emission, (sample, 32)."""
-        signs = np.tile(2 * self._idle_bits - 1, (self.model.samples, 1))
-        signs[len(signs) - len(words) :] = 2.0 * channel_bits(words) - 1
-        return signs
-
-    def field(self, volts: Floats) -> Field:
-        """Displacement of the whole plate at T."""
-        modal: Floats = np.einsum("ms,ms->m", self._in_drive_order, self.model.forces @ volts.T)
-        modes, step = self.model.plate_modes, self.model.step
-        settled = np.zeros((modes.count, 2), np.complex128)
-        return Field(
-            modes=modes,
-            step=step,
-            pole_amplitudes=np.zeros(step.poles.size, np.complex128),
-            driver_amplitudes=settled,
-            level=modal,  # all of it: no time but T is asked for
-            near_s=np.zeros(0),
-            near_force=np.zeros((modes.count, 0)),
-            early_driver_amplitudes=settled,
-            scale=self._scale,
-        )
-
-    def reference(self, points: Sequence[tuple[float, float]]) -> Reference:
-        """What this plate can give at points."""
-        in_band = self.model.drive_order_responses(points, dtype=np.float64)
-        whole = self.model.responses(points)[:, ::-1]
-        alone = np.empty(len(points))
-        for index, response in enumerate(in_band):
-            volts = self.volts(focus(response[None], [1.0], self.board.idle_word))
-            alone[index] = np.vdot(whole[index], volts)
-        most = 0.5 * self.board.driver.supply_v * np.abs(whole).sum(axis=(1, 2))
-        sizes = np.abs(in_band).sum(axis=(1, 2), keepdims=True)
-        unit = np.divide(in_band, sizes, out=np.zeros_like(in_band), where=sizes > 0)
-        return Reference(alone, alone / most, unit, bound(unit.reshape(len(points), -1)))
-
-    def near_responses(self, place: tuple[float, float]) -> NDArray[np.floating[Any]]:
-        """As `Prediction.near_responses`."""
-        return self._prediction.near_responses(place)
-
-    def stage_heat_j(self, words: Sequence[Words]) -> Floats:
-        """Heat of each emission in the series resistors of all driven channels, from the idle word and back to it, in J."""
-        idle = np.array([self.board.idle_word], np.uint32)
-        longest = max((len(given) for given in words), default=0)
-        levels = [channel_bits(np.concatenate([np.repeat(idle, longest - len(one) + 1), one, idle])) for one in words]
-        driven = np.zeros(len(self._idle_bits), bool)
-        driven[[actuator.channel for actuator in self.board.actuators]] = True
-        if not levels:
-            return np.zeros(0)
-        loss = resistor_loss_j(self.board.driver, np.stack(levels, axis=2), self.board.waveform.bit_period_s)
-        heat: Floats = loss[driven].sum(axis=0)
-        return heat
-
-    def audible(self, volts: Floats) -> float:
-        """Energy below 16 kHz: `physics.audible.surface_energy` of the same words."""
-        steps = np.diff(volts, axis=0, prepend=0, append=0)
-        frequency, step_hz, gram = self._audible_gram
-        slopes = zoom_fft(
-            steps, [frequency[0], frequency[-1] + step_hz], len(frequency), fs=self.board.waveform.bit_clock_hz, axis=0
-        )
-        return float(np.einsum("fi,fij,fj->f", slopes.conj(), gram, slopes, optimize=True).real.sum()) * step_hz
-
-    @cached_property
-    def _audible_gram(self) -> tuple[Floats, float, Floats]:
-        """Frequencies, their distance, and the energy density at each as a quadratic form of the channels' slopes of voltage."""
-        modes = self.model.plate_modes
-        driver = DriverResponse.of(self.board.driver)
-        slowest_s = 1 / float(np.min(-self.model.step.poles.real, initial=modes.decay_rate.min()))
-        seconds = self.model.samples * self.board.waveform.bit_period_s + REST_TAUS * slowest_s
-        count = int(np.ceil(AUDIBLE_HZ * seconds))
-        step_hz = AUDIBLE_HZ / count
-        frequency: Floats = step_hz * (np.arange(count, dtype=np.float64) + 0.5)
-        s = 2j * np.pi * frequency
-        passed = np.abs(driver.transfer(s)) ** 2
-        gram = np.empty((count, self.model.forces.shape[1], self.model.forces.shape[1]))
-        for index, at in enumerate(s):
-            stiffness = modes.mass_kg * (modes.angular_frequency**2 + 2 * modes.decay_rate * at + at**2)
-            weight = modes.mean_square * 2 * passed[index] / np.abs(stiffness) ** 2  # both signs of frequency
-            gram[index] = self.model.forces.T @ (weight[:, None] * self.model.forces)
-        return frequency, step_hz, gram
-
-
 def detuned(board: Board, ratio: float) -> Board:
     """The same board with all modal frequencies multiplied by `ratio`."""
     if ratio == 1:
         return board
     stiffer = board.plate.with_stiffness(ratio**2)
     return msgspec.structs.replace(board, plate=stiffer)
-
-
-def bound(unit: Floats) -> float:
-    """Share of its own maximum that every point can get at once: max over polarities of min over weights of |sum w s h|_1.
-
-    Weights are those of a simplex, found by multiplicative steps on the convex function; its value for any weights is an
-    upper bound for the words of these polarities.
-
-    Parameters
-    ----------
-    unit : (point, value) array
-        Responses in the band, each over the sum of its absolute values.
-    """
-    count = len(unit)
-    if count == 1:
-        return 1.0
-    alike = unit @ unit.T
-    if count > LARGEST_BOUND:
-        candidates = np.ones((1, count))
-    else:
-        signs = np.array([(1, *rest) for rest in product((1, -1), repeat=count - 1)], np.float64)
-        candidates = signs[np.argsort(-np.einsum("ki,ij,kj->k", signs, alike, signs))[:POLARITIES]]
-    return max(_least_sum(unit * polarity[:, None]) for polarity in candidates)
-
-
-def _least_sum(unit: Floats) -> float:
-    """Least |sum w h|_1 over weights of the simplex."""
-    count = len(unit)
-    weights = np.full(count, 1 / count)
-    best = float("inf")
-    for step in range(BOUND_STEPS):
-        total = weights @ unit
-        best = min(best, float(np.abs(total).sum()))
-        slope = unit @ np.sign(total)
-        weights *= np.exp(-(slope - slope.min()) * 2.0 / np.sqrt(1 + step))
-        weights /= weights.sum()
-    return best
 
 
 def _contrast(field: Field, scene: FingerScene, amplitude: Floats) -> float:

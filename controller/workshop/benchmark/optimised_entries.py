@@ -38,18 +38,10 @@ Figures = dict[str, Any]
 
 
 def figures(board: Board, cells: int, seed: int) -> Figures:
-    """Judge optimised entries at random cells of the board's grid.
+    """Evaluate optimised entries at random cells of the board's grid, drawn without repetition.
 
-    Parameters
-    ----------
-    cells : int
-        Number of cells, drawn without repetition.
-
-    Returns
-    -------
-    dict
-        For each method its processor time a cell, and for each drift min and median of amplitude and contrast; audible energy and
-        edges relative to plain, on the plate without drift.
+    For each method its processor time a cell, and for each drift min and median of amplitude and contrast; audible energy and edges
+    relative to plain, on the plate without drift.
     """
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     points_m = grid.points()[np.sort(np.random.default_rng(seed).choice(grid.cells, min(cells, grid.cells), replace=False))]

@@ -10,27 +10,16 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from controller.device.board.board import Board
-from controller.errors import ConfigError
 from controller.workshop.physics.field import Field
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 SHOWN_DB = 60.0
 
 
 def plot_optimised(path: Path, board: Board, point_m: tuple[float, float], fields: Sequence[tuple[str, Field]]) -> None:
-    """Draw fields of foci at one point side by side.
+    """Draw fields of foci at one point side by side to a .png, .svg or .pdf file, each with its title.
 
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    point_m : (float, float)
-        Where the focus is.
-    fields : sequence of (title, Field)
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
+    Raises ConfigError if the file cannot be written.
     """
     figure = Figure(figsize=(4.2 * len(fields), 3.4), layout="constrained")
     places = figure.subplots(1, len(fields), sharey=True)
@@ -46,7 +35,4 @@ def plot_optimised(path: Path, board: Board, point_m: tuple[float, float], field
         axes.set(xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm))
     places[0].set(ylabel="y (mm)")
     figure.colorbar(picture, ax=places, label="|displacement| at T (dB of the focus)", shrink=0.9)
-    try:
-        figure.savefig(path, dpi=90)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 90)

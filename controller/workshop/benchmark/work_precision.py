@@ -27,42 +27,25 @@ from controller.workshop.benchmark.judge import Errors, Judge
 from controller.workshop.benchmark.methods.candidate import Candidate
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.benchmark.methods.registry import all_candidates
-from controller.workshop.benchmark.pareto import pareto_front
+from controller.workshop.benchmark.pareto import AXES, front
 
 Figures = dict[str, Any]
 Progress = Callable[[int, int], None]
 SCHEMA_VERSION = 1
 PLACES_AT_ONCE = 40  # whose cells are held: 0.3 GB
 BETTER_HIGH = {"contrast", "amplitude_over_unfiltered"}  # the worst of these is the smallest
-AXES = ("time", "memory", "wire", "stage energy")
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured.
+    """How much is measured."""
 
-    Attributes
-    ----------
-    each : int
-        Scenes of each family.
-    random_scenes : int
-        Further scenes of one to ten fingers.
-    timed_scenes : int
-        Scenes of each number of fingers on which methods are timed.
-    turns : int
-        Calls of each method for each of them.
-    longest_s : float
-        Of timing a method for one number of fingers, beyond its first turns.
-    slow_methods : bool
-        Whether methods that take tenths of a second take part.
-    """
-
-    each: int
-    random_scenes: int
-    timed_scenes: int
-    turns: int
-    longest_s: float
-    slow_methods: bool
+    each: int  # scenes of each family
+    random_scenes: int  # further scenes of one to ten fingers
+    timed_scenes: int  # scenes of each number of fingers on which methods are timed
+    turns: int  # calls of each method for each of them
+    longest_s: float  # of timing a method for one number of fingers, beyond its first turns
+    slow_methods: bool  # whether methods that take tenths of a second take part
 
 
 QUICK = Effort(each=2, random_scenes=4, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
@@ -72,30 +55,13 @@ FULL = Effort(each=4, random_scenes=100, timed_scenes=3, turns=25, longest_s=0.5
 def work_precision(
     board: Board,
     effort: Effort,
-    seed: int = 1,
+    seed: int = 1,  # of the scenes. Errors of equal seeds are equal
     *,
-    timing: bool = True,
-    candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,
-    progress: Progress = lambda _done, _total: None,
+    timing: bool = True,  # whether times are measured
+    candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,  # makes the methods
+    progress: Progress = lambda _done, _total: None,  # called with what is done and all there is to do
 ) -> Figures:
-    """Measure errors and costs of all methods.
-
-    Parameters
-    ----------
-    seed : int
-        Of the scenes. Errors of equal seeds are equal.
-    timing : bool
-        Whether times are measured.
-    candidates : callable
-        Makes the methods.
-    progress : callable
-        Called with what is done and all there is to do.
-
-    Returns
-    -------
-    dict
-        Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says.
-    """
+    """Measure errors and costs of all methods. Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says."""
     surroundings = environment()  # first: the load of the machine is still that of others
     drawn = scenes(board, seed, effort.each, effort.random_scenes)
     places = [place for scene in drawn for place in (*scene.expected, scene.null)]
@@ -174,34 +140,6 @@ def _rates(board: Board, machine: Baselines, modes: int) -> Figures:
         "sgemm_response_us": machine.sgemm_us(modes),
         "multiplications_of_a_response": board.waveform.samples * CHANNELS * modes,
     }
-
-
-def cost(setting: Figures, axis: str, family: str) -> float | None:
-    """Cost of a setting on one of `AXES`, for scenes of a family; None if it was not measured."""
-    if axis == "memory":
-        return float(setting["memory_bytes"])
-    if axis == "wire":
-        return float(setting["wire_bytes"])
-    if axis == "stage energy":
-        found = setting["families"].get(family)
-        return found and float(found["stage_j"]["median"])
-    timing = setting["time_us"].get(family.partition(" ")[0])
-    return timing and float(timing["median_us"])
-
-
-def main_error(family: str) -> str:
-    """The error by which methods are compared first: of one finger in the band, of several what the worst one feels."""
-    return "bound_loss" if family.startswith("1 ") else "felt_loss"
-
-
-def front(settings: Sequence[Figures], axis: str, family: str) -> list[int]:
-    """Indices of the settings on the Pareto front of a cost and the median of the main error, by ascending cost."""
-    error = main_error(family)
-    evaluated = [index for index, setting in enumerate(settings) if family in setting["families"]]
-    costs = [(index, cost(settings[index], axis, family)) for index in evaluated]
-    costly = [(index, value) for index, value in costs if value is not None]
-    errors = [settings[index]["families"][family][error]["median"] for index, _ in costly]
-    return [costly[place][0] for place in pareto_front([value for _, value in costly], errors)]
 
 
 class _Bar:

@@ -1,29 +1,27 @@
-"""Work-precision diagrams: one curve for each method, one point for each setting, the Pareto front behind them.
-
-They are read without colour: each curve has a letter beside it, a marker and a line style, and its name in the key.
-"""
+"""Work-precision diagrams: one curve for each method, one point for each setting, the Pareto front behind them."""
 
 from __future__ import annotations
 
-import string
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from controller.errors import ConfigError
-from controller.workshop.benchmark.pareto import pareto_front
-from controller.workshop.benchmark.work_precision import cost, main_error
+from controller.workshop.benchmark.pareto import cost, main_error
+from controller.workshop.benchmark.work_precision_curves import (
+    FLOOR,
+    draw_curves,
+    draw_key,
+    draw_marks,
+    letters_of,
+    reported,
+    style,
+)
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 Figures = dict[str, Any]
 SUFFIXES = (".png", ".svg")
-FLOOR = 1e-4  # errors below, and below zero, are drawn here
-MARKERS = "osD^v<>pPX*hd8H"
-LINES = ("-", "--", "-.", ":")
-FRONT: dict[str, Any] = {"color": "0.8", "lw": 6, "solid_capstyle": "round", "zorder": 0}
 FRONT_PAGE_TIME = (
     "nearest entry",
     "resident waveform",
@@ -47,24 +45,9 @@ LOST = "amplitude lost by the worst finger: 1 − A / bound"
 
 
 def draw_all(folder: Path, figures: Figures) -> list[Path]:
-    """Draw every diagram as PNG and SVG.
+    """Draw every diagram as PNG and SVG into a folder that is there; returns the files written.
 
-    Parameters
-    ----------
-    folder : Path
-        There already.
-    figures : dict
-        Of `work_precision`.
-
-    Returns
-    -------
-    list of Path
-        The files written.
-
-    Raises
-    ------
-    ConfigError
-        If one cannot be written.
+    Raises ConfigError if one cannot be written.
     """
     timed = any(setting["time_us"] for setting in figures["settings"])
     written = []
@@ -74,10 +57,7 @@ def draw_all(folder: Path, figures: Figures) -> list[Path]:
         figure = draw(figures)
         for suffix in SUFFIXES:
             path = folder / f"{name}{suffix}"
-            try:
-                figure.savefig(path, dpi=110)
-            except OSError as error:
-                raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+            save_figure(figure, path, 110)
             written.append(path)
     return written
 
@@ -88,10 +68,10 @@ def time_diagram(figures: Figures) -> Figure:
     shown = [count for count in SHOWN_FINGERS if f"{count} off grid" in figures["scenes"]]
     for count, ax in zip(shown, figure.subplots(2, 2).flat, strict=False):
         family = f"{count} off grid"
-        _curves(ax, figures, _cost("time", family), _main(family))
-        _marks(ax, figures, int(count))
+        draw_curves(ax, figures, _cost("time", family), _main(family))
+        draw_marks(ax, figures, int(count))
         ax.set(xlabel=TIME, ylabel=LOST, title=f"{count} finger{'s' * (count != '1')} between cells")
-    _key(figure, figures)
+    draw_key(figure, figures)
     return figure
 
 
@@ -105,14 +85,14 @@ def front_page_diagram(figures: Figures) -> Figure:
         (right, FRONT_PAGE_MEMORY, _cost("memory", "", 1e-6), MEMORY),
     ):
         shown = {**figures, "settings": [setting for setting in figures["settings"] if setting["curve"] in curves]}
-        _curves(ax, shown, x_of, _main(family), named=True)
+        draw_curves(ax, shown, x_of, _main(family), named=True)
         ax.set(xlabel=label, ylim=(0.6 * FLOOR, 10))
     left.set(ylabel=LOST)
-    _marks(left, figures, 1)
+    draw_marks(left, figures, 1)
     for ax in (left, right):
         low, high = ax.get_xlim()
         ax.set_xlim(low / 1.5, high * 4)  # room for the names
-    figure.suptitle(_reported(figures), fontsize=8)
+    figure.suptitle(reported(figures), fontsize=8)
     return figure
 
 
@@ -120,9 +100,9 @@ def memory_diagram(figures: Figures) -> Figure:
     """Error against memory, for 1 and 4 fingers."""
     figure = Figure(figsize=(14, 6.5), layout="constrained")
     for count, ax in zip(("1", "4"), figure.subplots(1, 2), strict=True):
-        _curves(ax, figures, _cost("memory", "", 1e-6), _main(f"{count} off grid"))
+        draw_curves(ax, figures, _cost("memory", "", 1e-6), _main(f"{count} off grid"))
         ax.set(xlabel=MEMORY, ylabel=LOST, title=f"{count} finger{'s' * (count != '1')} between cells")
-    _key(figure, figures)
+    draw_key(figure, figures)
     return figure
 
 
@@ -131,12 +111,12 @@ def wire_and_heat_diagram(figures: Figures) -> Figure:
     figure = Figure(figsize=(14, 6.5), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
     family = "1 off grid"
-    _curves(left, figures, _cost("wire", ""), _main(family))
+    draw_curves(left, figures, _cost("wire", ""), _main(family))
     left.set(xlabel=WIRE, ylabel=LOST, title="1 finger between cells")
     heat = _median(family, "stage_j", 1e3)
-    _curves(right, figures, heat, _main(family))
+    draw_curves(right, figures, heat, _main(family))
     right.set(xlabel=HEAT, title="1 finger between cells")
-    _key(figure, figures)
+    draw_key(figure, figures)
     return figure
 
 
@@ -154,9 +134,9 @@ def errors_diagram(figures: Figures) -> Figure:
     ]
     for (label, error), ax in zip(panels, figure.subplots(2, 3).flat, strict=True):
         floor = 1e-12 if "energy" in label else FLOOR
-        _curves(ax, figures, _cost("time", family), error, floor)
+        draw_curves(ax, figures, _cost("time", family), error, floor)
         ax.set(xlabel=TIME, ylabel=label)
-    _key(figure, figures)
+    draw_key(figure, figures)
     return figure
 
 
@@ -168,7 +148,7 @@ def scenes_diagram(figures: Figures) -> Figure:
         best = finest.get(setting["curve"])
         if best is None or _typical(setting) < _typical(best):
             finest[setting["curve"]] = setting
-    letters = _letters(figures)
+    letters = letters_of(figures)
     order = {curve: index for index, curve in enumerate(letters)}
     figure = Figure(figsize=(13, 0.75 * len(families) + 3), layout="constrained")
     ax = figure.subplots()
@@ -180,7 +160,7 @@ def scenes_diagram(figures: Figures) -> Figure:
             y = row + 0.35 - 0.7 * place / max(len(finest) - 1, 1)
             median, worst = (max(found[main_error(family)][kind], FLOOR) for kind in ("median", "worst"))
             ax.plot([median, worst], [y, y], color="0.6", lw=0.8, zorder=1)
-            ax.plot(median, y, **{**_style(order[curve]), "ms": 4, "ls": ""}, zorder=2)
+            ax.plot(median, y, **{**style(order[curve]), "ms": 4, "ls": ""}, zorder=2)
             ax.annotate(letters[curve], (worst, y), xytext=(3, 0), textcoords="offset points", va="center", fontsize=5.5)
         ax.axhline(row + 0.5, color="0.85", lw=0.6)
     ax.set_yticks(range(len(families)), families)
@@ -189,7 +169,7 @@ def scenes_diagram(figures: Figures) -> Figure:
         xscale="log",
         xlabel=f"{LOST}; marker: median, end of the line: worst scene; best setting of each method",
     )
-    _key(figure, figures)
+    draw_key(figure, figures)
     return figure
 
 
@@ -208,7 +188,7 @@ def building_diagram(figures: Figures) -> Figure:
             loss = of_pitch.get(row["setting"]) if row["loss"] is None else row["loss"]
             if row["curve"] == curve and loss is not None:
                 points.append((row["seconds"], max(loss, FLOOR), row["setting"]))
-        ax.plot([x for x, _, _ in points], [y for _, y, _ in points], **_style(index), label=curve)
+        ax.plot([x for x, _, _ in points], [y for _, y, _ in points], **style(index), label=curve)
         for x, y, label in points:
             ax.annotate(label, (x, y), xytext=(5, 3), textcoords="offset points", fontsize=6)
     ax.set(xscale="log", yscale="log", xlabel="processor time of the responses of the whole grid (s)", ylabel=LOST)
@@ -250,92 +230,6 @@ def _median(family: str, error: str, factor: float = 1.0) -> Callable[[Figures],
         return None if errors is None else factor * float(errors[error]["median"])
 
     return found
-
-
-def _letters(figures: Figures) -> dict[str, str]:
-    curves = dict.fromkeys(setting["curve"] for setting in figures["settings"])
-    return {curve: string.ascii_uppercase[index % 26] + "'" * (index // 26) for index, curve in enumerate(curves)}
-
-
-def _style(index: int) -> dict[str, Any]:
-    return {
-        "marker": MARKERS[index % len(MARKERS)],
-        "ls": LINES[index % len(LINES)],
-        "color": ("black", "0.35", "0.55")[index % 3],
-        "mfc": "white" if index % 2 else None,
-        "ms": 5,
-        "lw": 0.9,
-    }
-
-
-def _curves(
-    ax: Axes,
-    figures: Figures,
-    x_of: Callable[[Figures], float | None],
-    y_of: Callable[[Figures], float | None],
-    floor: float = FLOOR,
-    *,
-    named: bool = False,
-) -> None:
-    """All curves of an axes, and the front; beside each curve its letter, or its name."""
-    letters = _letters(figures)
-    everything: list[tuple[float, float]] = []
-    for index, curve in enumerate(letters):
-        points = []
-        for setting in figures["settings"]:
-            x, y = x_of(setting), y_of(setting)
-            if setting["curve"] == curve and x is not None and y is not None and x > 0:
-                points.append((x, max(y, floor), setting["setting"]))
-        if not points:
-            continue
-        ax.plot([x for x, _, _ in points], [y for _, y, _ in points], **_style(index))
-        for x, y, label in (points[0], points[-1])[-len(points) :]:  # between them they follow in order
-            ax.annotate(label, (x, y), xytext=(3, -7), textcoords="offset points", fontsize=6 if named else 4.5, color="0.4")
-        x, y, _ = points[-1]
-        if named:
-            ax.annotate(curve, (x, y), xytext=(2, 6), textcoords="offset points", fontsize=8, rotation=50, rotation_mode="anchor")
-        else:
-            ax.annotate(letters[curve], (x, y), xytext=(-9, 3), textcoords="offset points", fontsize=10, fontweight="bold")
-        everything += [(x, y) for x, y, _ in points]
-    front = [everything[index] for index in pareto_front([x for x, _ in everything], [y for _, y in everything])]
-    if front:
-        corners = [front[0]]
-        for x, y in front[1:]:
-            corners += [(x, corners[-1][1]), (x, y)]
-        ax.plot([x for x, _ in corners], [y for _, y in corners], **FRONT)
-    ax.set(xscale="log", yscale="log")
-    ax.grid(which="major", color="0.9", lw=0.6)
-
-
-def _marks(ax: Axes, figures: Figures, fingers: int) -> None:
-    """Times of the baselines, as lines across."""
-    marks = [(row["name"], row["median_us"]) for row in figures["baselines"] if row["fingers"] == fingers]
-    if figures["machine"].get("wire_us"):
-        marks.append(("upload on the wire", figures["machine"]["wire_us"]))
-    for name, at_us in marks:
-        ax.axvline(at_us, color="0.7", lw=0.8, ls=(0, (1, 2)), zorder=0)
-        ax.annotate(
-            name, (at_us, 0.01), xycoords=("data", "axes fraction"), rotation=90, fontsize=6, color="0.4", ha="right", va="bottom"
-        )
-
-
-def _key(figure: Figure, figures: Figures) -> None:
-    """Names of the curves by letter, and what it was measured on."""
-    handles = [
-        Line2D([], [], label=f"{letter}  {curve}", **_style(index))
-        for index, (curve, letter) in enumerate(_letters(figures).items())
-    ]
-    handles.append(Line2D([], [], label="Pareto front", **FRONT))
-    figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
-    figure.suptitle(_reported(figures), fontsize=8)
-
-
-def _reported(figures: Figures) -> str:
-    reported = figures["environment"]
-    return (
-        f"{figures['board']}: {figures['modes']} modes, {figures['modes_in_band']} in the band; seed {figures['seed']}; "
-        f"{reported['processor']}, one core; kernel {reported['kernel']}; commit {reported['commit']}"
-    )
 
 
 TIMED = ("time", "errors", "front_page", "building")  # those that need times

@@ -18,23 +18,8 @@ LEAST_CORRELATION: Final = 0.5  # of the second track with what the channel play
 def begin_of(sync: Floats, rate_hz: float, levels: NDArray[np.bool_], bit_clock_hz: float, nominal: float, slack: int) -> float:
     """Sample, with its fraction, at which the first word of an emission begins.
 
-    Parameters
-    ----------
-    sync : (sample,) array
-        Second track, in any unit and of either sign.
-    rate_hz : float
-        Of the samples.
-    levels : (word,) bool array
-        What the channel played.
-    nominal : float
-        Where the emission is expected.
-    slack : int
-        Samples by which it may be earlier or later.
-
-    Raises
-    ------
-    CalibrationError
-        If it is not found there.
+    `sync` (sample,) is the second track, in any unit and of either sign; `levels` (word,) are what the channel played. The emission
+    is expected at `nominal`, up to `slack` samples earlier or later. Raises CalibrationError if it is not found there.
     """
     count = round(len(levels) / bit_clock_hz * rate_hz)
     first = max(round(nominal) - slack, 0)

@@ -26,19 +26,11 @@ EVALUATED = 60  # places
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
-    """A regular grid on which points lie, on a plate whose corner is the origin.
+    """A regular grid on which points lie, on a plate whose corner is the origin."""
 
-    Attributes
-    ----------
-    x_m, y_m : (nx,), (ny,) array
-        Places along the sides.
-    place : (point,) int array
-        Of each point: row * nx + column.
-    """
-
-    x_m: Floats
+    x_m: Floats  # x_m, y_m: (nx,), (ny,): places along the sides
     y_m: Floats
-    place: NDArray[np.intp]
+    place: NDArray[np.intp]  # (point,): of each point: row * nx + column
 
     @classmethod
     def found_in(cls, points_m: Floats) -> Lattice | None:
@@ -78,17 +70,10 @@ class Lattice:
 
 @dataclass(frozen=True, eq=False)
 class Cosines:
-    """A field known on a grid of cells, and everywhere between.
+    """A field known on a grid of cells, and everywhere between."""
 
-    Attributes
-    ----------
-    extents_m : (float, float)
-        Length and width of the plate.
-    amplitudes : (bin, half wave along y, half wave along x, channel) array
-    """
-
-    extents_m: tuple[float, float]
-    amplitudes: Spectra
+    extents_m: tuple[float, float]  # length and width of the plate
+    amplitudes: Spectra  # (bin, half wave along y, half wave along x, channel)
 
     @classmethod
     def of(cls, values: Spectra, columns: int, extents_m: tuple[float, float]) -> Cosines:
@@ -116,30 +101,17 @@ class Cosines:
 
 def fill_places(
     lattice: Lattice,
-    values: Spectra,
-    known: NDArray[np.bool_],
+    values: Spectra,  # (bin, place, channel): completed in place
+    known: NDArray[np.bool_],  # (place, channel)
     prior: Prior,
-    noise: float = NOISE,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    noise: float = NOISE,  # variance of the noise, in that of the field
+    progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the number of places done and of all
 ) -> Spectra:
     """Estimate places of a grid from their neighbours, as if they were missing; those that are missing get that estimate.
 
     Where none is missing, neighbours weigh the same all over the plate but near its edges; else `EVALUATED` places stand for all.
 
-    Parameters
-    ----------
-    values : (bin, place, channel) array
-        Completed in place.
-    known : (place, channel) bool array
-    noise : float
-        Variance of the noise, in that of the field.
-    progress : callable
-        Called with the number of places done and of all.
-
-    Returns
-    -------
-    (bin, place, channel) array
-        Places as foreseen by their neighbours, NaN where that was not estimated.
+    Returns places (bin, place, channel) as foreseen by their neighbours, NaN where that was not estimated.
     """
     places = lattice.points()
     measured, foreseen = values.copy() if not known.all() else values, np.full_like(values, np.nan)

@@ -23,20 +23,12 @@ ABOVE_NOISE = 4.0  # in power
 
 @dataclass(frozen=True)
 class Decay:
-    """Decay in a part of the band.
-
-    Attributes
-    ----------
-    time_s : float
-        In which displacement falls to 1/e.
-    error_s : float
-        Its standard deviation, from the scatter between channels.
-    """
+    """Decay in a part of the band."""
 
     low_hz: float
     high_hz: float
-    time_s: float
-    error_s: float
+    time_s: float  # in which displacement falls to 1/e
+    error_s: float  # its standard deviation, from the scatter between channels
 
 
 def fit_decays(
@@ -44,12 +36,8 @@ def fit_decays(
 ) -> list[Decay]:
     """Fit the decay in parts of the band; those in which nothing can be determined are left out.
 
-    Parameters
-    ----------
-    responses : (point, sample, channel) array
-    known : (point, channel) bool array
-    noise : (point, channel) array
-        Standard deviation of a sample; NaN where it cannot be determined.
+    `responses` are (point, sample, channel), `known` and `noise` (point, channel): the standard deviation of a sample, NaN where it
+    cannot be determined.
     """
     channels = np.flatnonzero(known.any(axis=0))
     chosen = np.random.default_rng(1).permutation(np.flatnonzero(known.any(axis=1)))[: max(RECORDS // max(channels.size, 1), 1)]

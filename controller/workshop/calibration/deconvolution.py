@@ -12,19 +12,18 @@ zero.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import next_fast_len
 
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.records.drives import Drive, held_spectrum, transform
 from controller.workshop.calibration.records.measurements import Measurement, PointRecords
-from controller.workshop.physics.responses.modal_response import edge_width_hz
+from controller.workshop.calibration.transfers import RawBins, Transfers
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -41,112 +40,11 @@ EARLIEST_S = 0.9e-3  # before the pulse, where noise is looked for
 DERIVATIVES = {"m": 0, "m/s": 1, "m/s^2": 2}
 
 
-@dataclass(frozen=True, eq=False)
-class RawBins:
-    """Frequencies at which responses are found: multiples of bit_clock_hz / length.
-
-    Attributes
-    ----------
-    length : int
-        Samples of the bit clock after which a response would repeat; longer than any record.
-    first : int
-        Number of the lowest.
-    gain : (bin,) array
-        1 wherever the waveform's filter passes anything; falls to 0 beyond, over half the filter's edge.
-    """
-
-    bit_clock_hz: float
-    length: int
-    first: int
-    gain: Floats
-
-    @classmethod
-    def of(cls, board: Board, longest_s: float) -> RawBins:
-        """Bins of a board's band, for records that end `longest_s` after the start of their emission."""
-        waveform = board.waveform
-        length = next_fast_len(int(np.ceil(1.1 * longest_s * waveform.bit_clock_hz)) + waveform.samples, real=True)
-        edge_hz = edge_width_hz((waveform.band_low_hz, waveform.band_high_hz))
-        low_hz, high_hz = waveform.band_low_hz - edge_hz / 2, waveform.band_high_hz + edge_hz / 2
-        step_hz = waveform.bit_clock_hz / length
-        highest_hz = min(high_hz + edge_hz / 2, waveform.bit_clock_hz / 2 - step_hz)
-        first = int(np.ceil((low_hz - edge_hz / 2) / step_hz))
-        frequency_hz = step_hz * np.arange(first, int(highest_hz / step_hz) + 1)
-        outside_hz = np.maximum(np.maximum(low_hz - frequency_hz, frequency_hz - high_hz), 0)
-        gain: Floats = np.cos(np.pi / 2 * np.minimum(outside_hz / (edge_hz / 2), 1)) ** 2
-        return cls(waveform.bit_clock_hz, length, first, gain)
-
-    @property
-    def step_hz(self) -> float:
-        """From bin to bin."""
-        return self.bit_clock_hz / self.length
-
-    @cached_property
-    def frequency_hz(self) -> Floats:
-        """Of each bin."""
-        return self.step_hz * np.arange(self.first, self.first + len(self.gain), dtype=np.float64)
-
-    def response(self, transfer: NDArray[np.complexfloating], delay_s: float = 0.0) -> Floats:
-        """Responses in time.
-
-        Parameters
-        ----------
-        transfer : (..., bin) complex array
-            In m s per V.
-        delay_s : float
-            By which what happened is later in the records than they say; taken out.
-
-        Returns
-        -------
-        (..., length) array
-            m per V; sample j is (j + 1) bit periods after the start of the pulse, the last ones before it.
-        """
-        spectrum = np.zeros((*transfer.shape[:-1], self.length // 2 + 1), np.complex128)
-        turn = np.exp(2j * np.pi * self.frequency_hz * (delay_s + 1 / self.bit_clock_hz))
-        spectrum[..., self.first : self.first + len(self.gain)] = transfer * (self.gain * turn * self.bit_clock_hz)
-        found: Floats = np.fft.irfft(spectrum, self.length, axis=-1)
-        return found
-
-
-@dataclass(frozen=True, eq=False)
-class Transfers:
-    """Transfer functions of one point.
-
-    Attributes
-    ----------
-    transfer : (32, bin) complex64 array
-        In m s per V; zero where not resolved.
-    resolved : (32,) bool array
-        Whether the records that are there determine the channel.
-    variance : (32,) array
-        Of the real and imaginary parts of `transfer` together, mean over the bins; NaN where nothing is left to tell it from.
-    coherence : (32,) array
-        Share of the power of the records that a channel's drive explains, of what it and noise make, mean over the band.
-    residual : float
-        Power of the records that no drive explains, over all of their power; NaN where nothing is left.
-    clipped : int
-        Records that were left out since they are clipped.
-    """
-
-    transfer: NDArray[np.complex64]
-    resolved: NDArray[np.bool_]
-    variance: Floats
-    coherence: Floats
-    residual: float
-    clipped: int = 0
-
-
 class Deconvolution:
     """Deconvolves the records of a measurement.
 
-    Parameters
-    ----------
-    length : int
-        Samples of a record.
-
-    Raises
-    ------
-    CalibrationError
-        If the recorder is too slow for the band, or what was played determines no channel, with what to do.
+    `length` is the samples of a record. Raises CalibrationError if the recorder is too slow for the band, or what was played
+    determines no channel, with what to do.
     """
 
     def __init__(self, measurement: Measurement, board: Board, length: int) -> None:
@@ -188,10 +86,7 @@ class Deconvolution:
     def spectra(self, records: PointRecords, clock_ppm: float = 0.0) -> Complex:
         """Spectra of a point's records as displacement, (emission, repetition, bin) in m s; of what is not there zero.
 
-        Parameters
-        ----------
-        clock_ppm : float
-            By which the recorder's clock is faster than the player's.
+        The recorder's clock is faster than the player's by `clock_ppm`.
         """
         rate_hz = self._rate_hz * (1 + clock_ppm * 1e-6)
         there = np.where(records.there[:, :, None], records.values, 0.0)
@@ -219,14 +114,7 @@ class Deconvolution:
         return self._duration_s >= EARLIEST_S
 
     def transfers(self, spectra: Complex, there: NDArray[np.bool_]) -> Transfers:
-        """Least squares over what is there.
-
-        Parameters
-        ----------
-        spectra : (emission, repetition, bin) complex array
-            As `spectra` gives them.
-        there : (emission, repetition) bool array
-        """
+        """Least squares over what is there (emission, repetition) of `spectra` (emission, repetition, bin)."""
         count = there.sum(axis=1)
         inverse, spread, resolution, leverage = self._operator(count)
         mean = (spectra * there[:, :, None]).sum(axis=1) / np.maximum(count, 1)[:, None]  # (emission, bin)
@@ -259,10 +147,7 @@ class Deconvolution:
     def excited_hz(self) -> tuple[float, float]:
         """Lowest and highest frequency at which what was played determines every channel that it drives.
 
-        Raises
-        ------
-        CalibrationError
-            If there is none.
+        Raises CalibrationError if there is none.
         """
         everything = np.ones(self._played.shape[1], int)
         resolution = self._operator(everything)[2]

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
-from controller.workshop.calibration.deconvolution import RawBins
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.records.drives import held_spectrum
+from controller.workshop.calibration.transfers import RawBins
 from controller.workshop.physics.responses.driver import DriverResponse
 
 Floats = NDArray[np.float64]
@@ -35,24 +35,13 @@ NEAR_WAVELENGTHS = 1.0  # nearer to a patch than this, G does not hold
 
 @dataclass(frozen=True, eq=False)
 class DirectWaves:
-    """What regression on the direct wave gives.
+    """What regression on the direct wave gives."""
 
-    Attributes
-    ----------
-    delay_s : float
-        By which what happened is later in the records than they say.
-    factor : float
-        Of the wavenumber, on that of board.toml.
-    strength : (32, 32) array
-        Row: data of a channel; column: patch of a channel. 1 where it is as board.toml says; NaN without data or patch.
-    error : (32,) array
-        Of a row's numbers, standard deviation.
-    """
-
-    delay_s: float
-    factor: float
+    delay_s: float  # by which what happened is later in the records than they say
+    factor: float  # of the wavenumber, on that of board.toml
+    # (32, 32): row: data of a channel; column: patch of a channel. 1 where it is as board.toml says; NaN without data or patch
     strength: Floats
-    error: Floats
+    error: Floats  # (32,): of a row's numbers, standard deviation
 
 
 def direct_transfer(board: Board, bins: RawBins, points_m: Floats, factor: float = 1.0) -> Complex:
@@ -74,26 +63,14 @@ def direct_transfer(board: Board, bins: RawBins, points_m: Floats, factor: float
 def direct_waves(
     board: Board,
     bins: RawBins,
-    points_m: Floats,
-    transfers: NDArray[np.complexfloating],
-    resolved: NDArray[np.bool_],
-    widest_s: float,
+    points_m: Floats,  # (point, 2)
+    transfers: NDArray[np.complexfloating],  # (point, 32, bin): in m s per V
+    resolved: NDArray[np.bool_],  # (point, 32)
+    widest_s: float,  # delays are looked for from minus this to this; half of the longest record at most
 ) -> DirectWaves | None:
     """Regression of transfer functions on the direct wave.
 
-    Parameters
-    ----------
-    points_m : (point, 2) array
-    transfers : (point, 32, bin) complex array
-        In m s per V.
-    resolved : (point, 32) bool array
-    widest_s : float
-        Delays are looked for from minus this to this; half of the longest record at most.
-
-    Returns
-    -------
-    DirectWaves or None
-        None where it does not stand out: too few points, too near to the patches, or nothing like this board.
+    None where it does not stand out: too few points, too near to the patches, or nothing like this board.
     """
     channels = [a.channel for a in board.actuators]
     measured = transfers[:, channels] * np.sqrt(bins.gain)
@@ -127,20 +104,12 @@ def direct_waves(
 
 
 class _Arrival(NamedTuple):
-    """When the direct wave arrives.
+    """When the direct wave arrives."""
 
-    Attributes
-    ----------
-    height : float
-        Of the pulse that all records make together, relative to that of the wave alone.
-    stands_out : float
-        That height over the pulse's rms.
-    """
-
-    height: float
+    height: float  # of the pulse that all records make together, relative to that of the wave alone
     factor: float
     delay_s: float
-    stands_out: float
+    stands_out: float  # that height over the pulse's rms
 
 
 def _arrival(

@@ -19,30 +19,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Dispersion:
-    """Wavenumbers of a plate.
+    """Wavenumbers of a plate."""
 
-    Attributes
-    ----------
-    mass_kg_m2 : float
-        Mass per area.
-    stiffness_nm : float
-        Bending stiffness D.
-    rotation_kg : float
-        Rotary inertia per area, rho h^3 / 12.
-    shear_n_m : float
-        Shear stiffness kappa G h.
-    factor : float
-        On all wavenumbers at the frequency `reference_hz`: 1 as in the board, others by measurement.
-    slope_per_hz : float
-        Change of that factor per Hz.
-    """
-
-    mass_kg_m2: float
-    stiffness_nm: float
-    rotation_kg: float
-    shear_n_m: float
-    factor: float = 1.0
-    slope_per_hz: float = 0.0
+    mass_kg_m2: float  # mass per area
+    stiffness_nm: float  # bending stiffness D
+    rotation_kg: float  # rotary inertia per area, rho h^3 / 12
+    shear_n_m: float  # shear stiffness kappa G h
+    factor: float = 1.0  # on all wavenumbers at the frequency `reference_hz`: 1 as in the board, others by measurement
+    slope_per_hz: float = 0.0  # change of that factor per Hz
     reference_hz: float = 0.0
 
     @classmethod

@@ -32,24 +32,12 @@ LEAST_ALIKE = 0.5  # correlation of the two at best
 
 @dataclass(frozen=True)
 class FittedDrift:
-    """What one plate did between two measurements.
+    """What one plate did between two measurements."""
 
-    Attributes
-    ----------
-    frequency_ratio : float
-        Frequencies of the later one over those of the earlier one.
-    error : float
-        Standard deviation of the ratio.
-    alike : float
-        Correlation of the responses when time is stretched by it.
-    kelvin : float or None
-        How much warmer the later one was.
-    """
-
-    frequency_ratio: float
-    error: float
-    alike: float
-    kelvin: float | None
+    frequency_ratio: float  # frequencies of the later one over those of the earlier one
+    error: float  # standard deviation of the ratio
+    alike: float  # correlation of the responses when time is stretched by it
+    kelvin: float | None  # how much warmer the later one was
 
     @property
     def coefficient_per_k(self) -> tuple[float, float] | None:
@@ -62,10 +50,7 @@ class FittedDrift:
 def fit_drift(board: Board, earlier: LearnedResponses, later: LearnedResponses) -> FittedDrift:
     """Compare two measurements.
 
-    Raises
-    ------
-    CalibrationError
-        If they share no point, or are not of one plate whose frequencies differ by 2 % at most.
+    Raises CalibrationError if they share no point, or are not of one plate whose frequencies differ by 2 % at most.
     """
     distance_m, nearest = (np.asarray(found) for found in cKDTree(earlier.points_m).query(later.points_m))
     places = [(int(nearest[point]), int(point)) for point in np.flatnonzero(distance_m <= SAME_PLACE_M)]

@@ -36,25 +36,15 @@ Measured = tuple[NDArray[np.float64], Spectra, NDArray[np.bool_], Bins]  # point
 def interpolate(
     board: Board,
     learned: LearnedResponses,
-    progress: Progress = lambda _what, _done, _total: None,
-    dead: Collection[int] = (),
+    progress: Progress = lambda _what, _done, _total: None,  # called with what is done, how much of it, and all of it
+    dead: Collection[int] = (),  # channels that are known to do nothing: their responses are zero
+    # Of the board's plate, which says what lies between scattered points if it foresees those left out better than waves do
     model: Modes | None = None,
 ) -> tuple[InterpolatedResponses, WaveFit]:
     """Interpolate between measured points: by cosines on a grid of cells, by wavenumber otherwise.
 
-    Parameters
-    ----------
-    progress : callable
-        Called with what is done, how much of it, and all of it.
-    dead : collection of int
-        Channels that are known to do nothing: their responses are zero.
-    model : Modes, optional
-        Of the board's plate, which says what lies between scattered points if it foresees those left out better than waves do.
-
-    Raises
-    ------
-    CalibrationError
-        If records, points or channels are too few, points lie on a grid too coarse, or points left out are not foreseen well.
+    Raises CalibrationError if records, points or channels are too few, points lie on a grid too coarse, or points left out are not
+    foreseen well.
     """
     waveform = board.waveform
     known, used = _checked(board, learned, dead)
@@ -85,19 +75,13 @@ def interpolate(
 
 
 class _Interpolation(NamedTuple):
-    """Responses of every place, and how well they foresee points left out.
-
-    Attributes
-    ----------
-    reach : Prior or None
-        Says how far from the measured points the field is known; None where it is known on the whole plate.
-    """
+    """Responses of every place, and how well they foresee points left out."""
 
     field: SpectralField
     leave_out: LeaveOut
     kind: Literal["measured", "completed"]
     words: str
-    reach: Prior | None
+    reach: Prior | None  # says how far from the measured points the field is known; None where it is known on the whole plate
 
 
 def _between_cells(board: Board, lattice: Lattice, measured: Measured, prior: Waves, progress: Progress) -> _Interpolation:
@@ -119,10 +103,7 @@ def _between_points(
 ) -> _Interpolation:
     """By waves, or by the model if it foresees points left out better.
 
-    Raises
-    ------
-    CalibrationError
-        If there are more than `MOST_SCATTERED` points.
+    Raises CalibrationError if there are more than `MOST_SCATTERED` points.
     """
     points_m, spectra, known, bins = measured
     if len(points_m) > MOST_SCATTERED:

@@ -24,17 +24,11 @@ BINS_ASKED = 8
 
 @dataclass(frozen=True, eq=False)
 class LeaveOut:
-    """How well points left out are foreseen by the others.
+    """How well points left out are foreseen by the others."""
 
-    Attributes
-    ----------
-    points_m : (point, 2) array
-    kept : (point,) array
-        Sum of the measured responses with the signs of those foreseen, over the sum of their magnitudes: the share of the amplitude
-        that drive words from the others keep at that point. NaN where it was not evaluated.
-    """
-
-    points_m: Floats
+    points_m: Floats  # (point, 2)
+    # (point,): sum of the measured responses with the signs of those foreseen, over the sum of their magnitudes: the share of
+    # the amplitude that drive words from the others keep at that point. NaN where it was not evaluated
     kept: Floats
 
     def summary(self) -> tuple[float, float]:
@@ -43,13 +37,7 @@ class LeaveOut:
 
 
 class InterpolatedResponses:
-    """A `ResponseSource` from measurements.
-
-    Parameters
-    ----------
-    prior, points_m : Prior and (point, 2) array, or None
-        What says how far from the measured points the field is known; None where it is known on the whole plate.
-    """
+    """A `ResponseSource` from measurements."""
 
     def __init__(
         self,
@@ -58,6 +46,8 @@ class InterpolatedResponses:
         field: SpectralField,
         provenance: Provenance,
         leave_out: LeaveOut,
+        # prior, points_m: what says how far from the measured points the field is known; None where it is known on the
+        # whole plate
         prior: Prior | None,
         points_m: Floats,
     ) -> None:
@@ -93,12 +83,7 @@ class InterpolatedResponses:
     ) -> NDArray[np.floating[Any]]:
         """As `ResponseSource` says; beyond the band as far as it was measured, nothing above it.
 
-        Raises
-        ------
-        CalibrationError
-            If a point is too far from all that were measured.
-        ValueError
-            If `out` has another shape or type.
+        Raises CalibrationError if a point is too far from all that were measured; ValueError if `out` has another shape or type.
         """
         points = self._checked(points_m)
         out = _room(out, (len(points), self.samples, CHANNELS), dtype)

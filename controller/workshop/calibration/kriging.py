@@ -52,23 +52,12 @@ class Prior(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Waves:
-    """Waves of one length a frequency in all directions, and what edges add: waves along them that fade within a wavelength.
+    """Waves of one length a frequency in all directions, and what edges add: waves along them that fade within a wavelength."""
 
-    Attributes
-    ----------
-    wavenumber : (bin,) array
-        In rad/m.
-    near_m : float
-        Distance over which displacements are alike for other reasons.
-    extents_m : (float, float)
-        Length and width of the plate.
-    edge_variance : float
-        Of what fades from each edge, there, in the variance of the field: none at simple supports, which reflect all.
-    """
-
-    wavenumber: Floats
-    near_m: float
-    extents_m: tuple[float, float]
+    wavenumber: Floats  # (bin,): in rad/m
+    near_m: float  # distance over which displacements are alike for other reasons
+    extents_m: tuple[float, float]  # length and width of the plate
+    # Of what fades from each edge, there, in the variance of the field: none at simple supports, which reflect all
     edge_variance: float
 
     @classmethod
@@ -120,21 +109,12 @@ class Waves:
 
 @dataclass(frozen=True, eq=False)
 class WaveField:
-    """The field that `Waves` estimate.
-
-    Attributes
-    ----------
-    points_m : (point, 2) array
-    weights : (bin, point, 2 * channel) array
-        Real and imaginary parts in turn.
-    fading : list of (wave, 2 * channel) array
-        Amplitudes of the waves that fade from the edges, of each bin; empty without any.
-    """
+    """The field that `Waves` estimate."""
 
     waves: Waves
-    points_m: Floats
-    weights: NDArray[np.float32]
-    fading: list[Floats]
+    points_m: Floats  # (point, 2)
+    weights: NDArray[np.float32]  # (bin, point, 2 * channel): real and imaginary parts in turn
+    fading: list[Floats]  # amplitudes of the waves that fade from the edges, of each bin; empty without any
 
     def at(self, targets_m: Floats) -> Spectra:
         """As `SpectralField` says."""
@@ -153,30 +133,17 @@ class WaveField:
 
 
 def krige(
-    points_m: Floats,
-    spectra: Spectra,
-    known: NDArray[np.bool_],
+    points_m: Floats,  # (point, 2)
+    spectra: Spectra,  # (bin, point, channel)
+    known: NDArray[np.bool_],  # (point, channel): what of it was measured
     prior: Prior,
-    noise: float = NOISE,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    noise: float = NOISE,  # variance of the noise, in that of the field
+    progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the number of bins done and of all
 ) -> tuple[SpectralField, Spectra]:
     """Solve for the weights, and for the estimate at each point from all others.
 
-    Parameters
-    ----------
-    points_m : (point, 2) array
-    spectra : (bin, point, channel) array
-    known : (point, channel) bool array
-        What of it was measured.
-    noise : float
-        Variance of the noise, in that of the field.
-    progress : callable
-        Called with the number of bins done and of all.
-
-    Returns
-    -------
-    (bin, point, channel) complex array
-        Left out, each point by itself: w_i / (K^-1)_ii beside the measured value, exactly. Zero where nothing was measured.
+    The estimate (bin, point, channel) leaves each point out by itself: w_i / (K^-1)_ii beside the measured value, exactly. Zero
+    where nothing was measured.
     """
     weights, left_out = np.zeros_like(spectra), np.zeros_like(spectra)
     covariance = prior.between(points_m, points_m)

@@ -13,29 +13,15 @@ from controller.workshop.physics.responses.response_source import Provenance
 
 @dataclass(frozen=True, eq=False)
 class LearnedResponses:
-    """Responses at measured points.
+    """Responses at measured points."""
 
-    Attributes
-    ----------
-    points_m : (point, 2) array
-        In the plate's coordinates.
-    responses : (point, sample, 32) array
-        In m per V held for one bit period; sample j is the displacement (j + 1) bit periods after the start of the pulse.
-        Zero where not `known`. May be longer than an emission, for sharper spectra.
-    known : (point, 32) bool array
-        What was measured well enough to use.
-    coherence : (point, 32) array
-        Mean coherence between drive and record in the waveform's band, 0 to 1; NaN where it was not measured.
-    noise : (point, 32) array
-        Standard deviation of a sample's error, in m per V; NaN where it cannot be determined.
-    bit_clock_hz : float
-        Rate of the samples.
-    """
-
-    points_m: NDArray[np.float64]
+    points_m: NDArray[np.float64]  # (point, 2): in the plate's coordinates
+    # (point, sample, 32): in m per V held for one bit period; sample j is the displacement (j + 1) bit periods after the start
+    # of the pulse. Zero where not `known`. May be longer than an emission, for sharper spectra
     responses: NDArray[np.floating[Any]]
-    known: NDArray[np.bool_]
+    known: NDArray[np.bool_]  # (point, 32): what was measured well enough to use
+    # (point, 32): mean coherence between drive and record in the waveform's band, 0 to 1; NaN where it was not measured
     coherence: NDArray[np.float64]
-    noise: NDArray[np.float64]
-    bit_clock_hz: float
+    noise: NDArray[np.float64]  # (point, 32): standard deviation of a sample's error, in m per V; NaN where it cannot be determined
+    bit_clock_hz: float  # rate of the samples
     provenance: Provenance

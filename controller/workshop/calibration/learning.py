@@ -13,13 +13,14 @@ from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.checks import Objection, raise_fatal
 from controller.workshop.calibration.checking.findings import findings_of, remarks_on
-from controller.workshop.calibration.deconvolution import Deconvolution, Transfers
+from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.point_cache import PointCache
 from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
 from controller.workshop.calibration.records.measurements import Measurement, read_measurement, sha256_of
 from controller.workshop.calibration.time_responses import responses_in_time
+from controller.workshop.calibration.transfers import Transfers
 
 Floats = NDArray[np.float64]
 CLOCK_POINTS = 4  # that the clock is found from
@@ -30,37 +31,22 @@ DELAY_TOLERANCE_S = 3e-6  # what geometry and an unknown edge leave open
 
 @dataclass(frozen=True, eq=False)
 class Learned:
-    """What a measurement gives.
-
-    Attributes
-    ----------
-    delay_s : float
-        By which what happened is later in the records than they say; corrected.
-    excited_hz : (float, float)
-        What was played excites this band.
-    residual : (point,) array
-        Share of the records' power that no drive explains.
-    learned_anew : int
-        Points that were not in the cache.
-    """
+    """What a measurement gives."""
 
     measurement: Measurement
     responses: LearnedResponses
     findings: tuple[Objection, ...]
     clock: RecorderClock
-    delay_s: float
+    delay_s: float  # by which what happened is later in the records than they say; corrected
     waves: DirectWaves | None
-    excited_hz: tuple[float, float]
-    residual: Floats
-    learned_anew: int
+    excited_hz: tuple[float, float]  # what was played excites this band
+    residual: Floats  # (point,): share of the records' power that no drive explains
+    learned_anew: int  # points that were not in the cache
 
     def require(self, accepted: Collection[str] = ()) -> LearnedResponses:
         """The responses, if nothing is wrong that would make a wrong bank.
 
-        Raises
-        ------
-        CalibrationError
-            Naming all that is wrong and not `accepted`.
+        Raises CalibrationError, naming all that is wrong and not `accepted`.
         """
         raise_fatal(str(self.measurement.folder), self.findings, accepted)
         return self.responses
@@ -70,25 +56,13 @@ def learn(
     folder: Path,
     board: Board,
     *,
-    samples: int | None = None,
-    cache: Path | None = None,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    samples: int | None = None,  # of a response; twice an emission by default, or what the records hold
+    cache: Path | None = None,  # folder for results of points, by the hash of their files: an interrupted run goes on where it was
+    progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the points done and their number
 ) -> Learned:
     """Learn the responses of a board's plate from a measurement folder.
 
-    Parameters
-    ----------
-    samples : int, optional
-        Of a response; twice an emission by default, or what the records hold.
-    cache : Path, optional
-        Folder for results of points, by the hash of their files: an interrupted run goes on where it was.
-    progress : callable
-        Called with the points done and their number.
-
-    Raises
-    ------
-    CalibrationError
-        If the folder cannot be read or determines nothing. What else is wrong is in `findings`.
+    Raises CalibrationError if the folder cannot be read or determines nothing. What else is wrong is in `findings`.
     """
     measurement = read_measurement(folder, board)
     there = [point for point in range(len(measurement.names)) if point not in measurement.missing]

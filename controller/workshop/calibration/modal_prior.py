@@ -27,16 +27,10 @@ BINS_EVALUATED = 12
 
 @dataclass(frozen=True, eq=False)
 class ModalPrior:
-    """Variances of the modes in each bin: a `Prior`.
-
-    Attributes
-    ----------
-    variances : (bin, mode) array
-        A field of variance one together.
-    """
+    """Variances of the modes in each bin: a `Prior`."""
 
     modes: Modes
-    variances: NDArray[np.float32]
+    variances: NDArray[np.float32]  # (bin, mode): a field of variance one together
 
     @classmethod
     def of(cls, board: Board, modes: Modes, waves: WaveFit, bins: Bins) -> ModalPrior:
@@ -77,15 +71,10 @@ class ModalPrior:
 
 @dataclass(frozen=True, eq=False)
 class ModalField:
-    """The field that `ModalPrior` estimates.
-
-    Attributes
-    ----------
-    amplitudes : list of ((mode,), (mode, 2 * channel)) arrays
-        Modes that move in each bin, and how: real and imaginary parts in turn.
-    """
+    """The field that `ModalPrior` estimates."""
 
     modes: Modes
+    # Modes that move in each bin, and how: real and imaginary parts in turn
     amplitudes: list[tuple[NDArray[np.intp], NDArray[np.float32]]]
 
     def at(self, targets_m: Floats) -> Spectra:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from controller.workshop.calibration.deconvolution import Transfers
+from controller.workshop.calibration.transfers import Transfers
 
 FORMAT = "1"  # of the files, and of the method
 
@@ -17,12 +17,7 @@ FORMAT = "1"  # of the files, and of the method
 class PointCache:
     """Transfer functions of points in a folder. A file that is damaged counts as absent; one that cannot be written is left out.
 
-    Parameters
-    ----------
-    folder : Path or None
-        None keeps nothing.
-    common : iterable of str
-        What all points depend on: hashes of common files, the clock.
+    Without a folder nothing is kept; `common` is what all points depend on: hashes of common files, the clock.
     """
 
     def __init__(self, folder: Path | None, common: Iterable[str]) -> None:

@@ -26,24 +26,12 @@ MOST_POINTS = 20_000
 
 @dataclass(frozen=True)
 class PlanTiming:
-    """How long one point takes.
+    """How long one point takes."""
 
-    Attributes
-    ----------
-    record_s : float
-        From the beginning of one record to that of the next: drive, decay and pause.
-    records : int
-        At each point: channels times repetitions.
-    settle_s : float
-        After the head has moved, until it is still.
-    speed_m_s : float
-        Of the head.
-    """
-
-    record_s: float
-    records: int
-    settle_s: float
-    speed_m_s: float
+    record_s: float  # from the beginning of one record to that of the next: drive, decay and pause
+    records: int  # at each point: channels times repetitions
+    settle_s: float  # after the head has moved, until it is still
+    speed_m_s: float  # of the head
 
     def whole_s(self, path_m: float, points: int) -> float:
         """Time for this many points on a path of `path_m`."""
@@ -64,10 +52,7 @@ def scattered_count(board: Board) -> int:
 def grid_points(board: Board) -> Floats:
     """Middles of the largest equal cells of at most half a wavelength that cover the plate, by rows to and fro: (point, 2) in m.
 
-    Raises
-    ------
-    ConfigError
-        If there would be too many.
+    Raises ConfigError if there would be too many.
     """
     extents, most_m = (board.plate.length_m, board.plate.width_m), half_wave_m(board)
     nx, ny = (math.ceil(extent / most_m - 1e-9) for extent in extents)
@@ -84,17 +69,8 @@ def scattered_points(board: Board, count: int, margin_m: float, *, avoid_actuato
 
     Each is the farthest from those before among random candidates (Mitchell's best candidate).
 
-    Parameters
-    ----------
-    margin_m : float
-        Least distance from the plate's edges.
-    avoid_actuators : bool
-        Keep off the patches.
-
-    Raises
-    ------
-    ConfigError
-        If the margin leaves no plate, or there would be too many points.
+    `margin_m` is the least distance from the plate's edges; `avoid_actuators` keeps them off the patches. Raises ConfigError if the
+    margin leaves no plate, or there would be too many points.
     """
     if not 0 < count <= MOST_POINTS:
         raise ConfigError(f"{count} points are not from 1 to {MOST_POINTS:,}")

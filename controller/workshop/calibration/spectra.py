@@ -25,23 +25,12 @@ SILENCE = 0.25  # of an emission
 
 @dataclass(frozen=True, eq=False)
 class Bins:
-    """Frequencies from 0 to where the band's filter ends.
+    """Frequencies from 0 to where the band's filter ends."""
 
-    Attributes
-    ----------
-    length : int
-        Samples of a transform.
-    samples : int
-        Of an emission.
-    frequency_hz : (bin,) array
-    gain : (bin,) array
-        Of the band's filter.
-    """
-
-    length: int
-    samples: int
-    frequency_hz: Floats
-    gain: Floats
+    length: int  # samples of a transform
+    samples: int  # of an emission
+    frequency_hz: Floats  # (bin,)
+    gain: Floats  # (bin,): of the band's filter
 
     @classmethod
     def of(cls, waveform: Waveform, record_samples: int) -> Bins:

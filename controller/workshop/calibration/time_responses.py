@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.workshop.calibration.checking.checks import NOISY_COHERENCE
-from controller.workshop.calibration.deconvolution import Deconvolution, Transfers
+from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.records.measurements import Measurement
+from controller.workshop.calibration.transfers import Transfers
 from controller.workshop.physics.responses.response_source import Provenance, SourceFile
 
 Floats = NDArray[np.float64]
@@ -25,28 +26,14 @@ def responses_in_time(
     measurement: Measurement,
     board: Board,
     deconvolution: Deconvolution,
-    results: dict[int, Transfers],
-    samples: int,
-    delay_s: float,
-    files: dict[Path, str],
+    results: dict[int, Transfers],  # number of a point to its transfer functions
+    samples: int,  # of a response, if records are that long
+    delay_s: float,  # taken out
+    files: dict[Path, str],  # SHA-256 of each file
 ) -> tuple[LearnedResponses, float]:
     """Responses in time, with the noise of each: from the variance of its transfer function, else from what precedes the pulse.
 
-    Parameters
-    ----------
-    results : dict
-        Number of a point to its transfer functions.
-    samples : int
-        Of a response, if records are that long.
-    delay_s : float
-        Taken out.
-    files : dict
-        SHA-256 of each file.
-
-    Returns
-    -------
-    ringing : float
-        What is left of responses where the records end, beyond noise, over their rms; median.
+    Also returns what is left of responses where the records end, beyond noise, over their rms; median.
     """
     bins, count = deconvolution.bins, len(measurement.names)
     samples = min(samples, bins.length - round(EARLY_S[1] * bins.bit_clock_hz))
@@ -81,12 +68,7 @@ def responses_in_time(
 def _noise(deconvolution: Deconvolution, found: Transfers, whole: NDArray[np.floating[Any]], early: slice) -> tuple[Floats, Floats]:
     """Standard deviation of the noise in each of a point's responses, and their coherence, (32,) both.
 
-    Parameters
-    ----------
-    whole : (32, sample) array
-        Responses.
-    early : slice
-        Samples that hold noise alone, for responses whose variance is not known.
+    `whole` are the responses (32, sample); `early` are samples that hold noise alone, for responses whose variance is not known.
     """
     bins = deconvolution.bins
     noise: Floats = np.sqrt(2 * found.variance * (bins.gain**2).sum()) * bins.step_hz

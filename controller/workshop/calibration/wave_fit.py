@@ -33,29 +33,15 @@ FINE: Floats = np.linspace(-0.0075, 0.0075, 7)
 
 @dataclass(frozen=True)
 class WaveFit:
-    """Wavenumbers as measured.
+    """Wavenumbers as measured."""
 
-    Attributes
-    ----------
-    dispersion : Dispersion
-        With the factor found in the middle of the band, and its slope.
-    edge_variance : float
-        Of waves that fade from the edges, in that of the field.
-    factor_error, slope_error_per_hz : float
-        Standard deviations, from the scatter between parts of the band.
-    frequency_hz, factors : tuple of float
-        Middle of each part of the band, and the factor found there.
-    scatter : float
-        Standard deviation of one of them.
-    """
-
-    dispersion: Dispersion
-    edge_variance: float
-    factor_error: float
+    dispersion: Dispersion  # with the factor found in the middle of the band, and its slope
+    edge_variance: float  # of waves that fade from the edges, in that of the field
+    factor_error: float  # factor_error, slope_error_per_hz: standard deviations, from the scatter between parts of the band
     slope_error_per_hz: float
-    frequency_hz: tuple[float, ...]
+    frequency_hz: tuple[float, ...]  # frequency_hz, factors: middle of each part of the band, and the factor found there
     factors: tuple[float, ...]
-    scatter: float
+    scatter: float  # standard deviation of one of them
 
     @property
     def frequency_scale(self) -> float:
@@ -69,29 +55,16 @@ class WaveFit:
 
 
 def fit_waves(
-    board: Board,
-    points_m: Floats,
-    spectra: Spectra,
-    known: NDArray[np.bool_],
+    board: Board,  # what its plate's constants say is where the search begins
+    points_m: Floats,  # (point, 2)
+    spectra: Spectra,  # (bin, point, channel)
+    known: NDArray[np.bool_],  # (point, channel)
     bins: Bins,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the work done and all of it
 ) -> WaveFit:
     """Fit wavenumbers, and what edges add.
 
-    Parameters
-    ----------
-    board : Board
-        What its plate's constants say is where the search begins.
-    points_m : (point, 2) array
-    spectra : (bin, point, channel) array
-    known : (point, channel) bool array
-    progress : callable
-        Called with the work done and all of it.
-
-    Raises
-    ------
-    CalibrationError
-        If no wavenumber within 7 % of the board's explains the field.
+    Raises CalibrationError if no wavenumber within 7 % of the board's explains the field.
     """
     dispersion = Dispersion.of(board.plate)
     whole, channels = _of_one_pattern(known)

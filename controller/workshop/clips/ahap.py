@@ -17,7 +17,7 @@ import numpy as np
 from msgspec import Meta, Struct, field
 
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Clip, Curve, Floats, Tap, Vibration, bounded, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Floats, Tap, Vibration, bounded, decoded_json
 
 LONGEST_S: Final = 30.0  # of an event: Core Haptics plays no longer one
 INTENSITY_CONTROL, SHARPNESS_CONTROL = "HapticIntensityControl", "HapticSharpnessControl"
@@ -93,14 +93,8 @@ class _Control:
         return self._pieces[max(bisect_right(self._starts_s, start_s) - 1, 0) : bisect_right(self._starts_s, end_s)]
 
 
-def read_ahap(file: Path) -> Clip:
-    """Read a clip.
-
-    Raises
-    ------
-    ConfigError
-        If it is no AHAP.
-    """
+def read_ahap(file: Path) -> DesignedClip:
+    """Read a clip; raises ConfigError if it is no AHAP."""
     items = decoded_json(file, _File).pattern
     ignored: Counter[str] = Counter()
     intensity, sharpness = _control(items, INTENSITY_CONTROL, 1.0), _control(items, SHARPNESS_CONTROL, 0.0)
@@ -129,7 +123,7 @@ def read_ahap(file: Path) -> Clip:
             )
         else:
             ignored[event.event_type] += 1
-    return Clip(tuple(taps), tuple(vibrations), ignored)
+    return DesignedClip(tuple(taps), tuple(vibrations), ignored)
 
 
 def _control(items: Sequence[_Item], name: str, neutral: float) -> _Control:

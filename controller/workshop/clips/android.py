@@ -14,20 +14,17 @@ from xml.etree import ElementTree
 
 from controller.errors import ConfigError
 from controller.text_file import read_text
-from controller.workshop.clips.clip import BYTES_MAX, Clip, Curve, Vibration
+from controller.workshop.clips.clip import BYTES_MAX, Curve, DesignedClip, Vibration
 
 FULL: Final = 255
 LONGEST_MS: Final = 86_400_000.0
 ROOTS: Final = ("vibration-effect", "vibration")  # the second is an older name of the first
 
 
-def read_android(file: Path) -> Clip:
+def read_android(file: Path) -> DesignedClip:
     """Read a clip; what repeats is played once.
 
-    Raises
-    ------
-    ConfigError
-        If it is no effect of Android, or has a value that such an effect cannot have.
+    Raises ConfigError if it is no effect of Android, or has a value that such an effect cannot have.
     """
     ignored: Counter[str] = Counter()
     vibrations: list[Vibration] = []
@@ -43,7 +40,7 @@ def read_android(file: Path) -> Clip:
             continue
         vibrations += found
         at_s = found[-1].end_s if found else at_s
-    return Clip((), tuple(vibration for vibration in vibrations if any(vibration.amplitude.values)), +ignored)
+    return DesignedClip((), tuple(vibration for vibration in vibrations if any(vibration.amplitude.values)), +ignored)
 
 
 def _root(file: Path) -> ElementTree.Element:

@@ -45,45 +45,29 @@ class Tap(NamedTuple):
 
 
 class Vibration(NamedTuple):
-    """A continuous event; amplitude and sharpness 0 to 1.
-
-    Attributes
-    ----------
-    rate_hz : Curve, optional
-        Where the file has frequencies; they take the place of the sharpness.
-    phase : float
-        Of its start, in turns.
-    """
+    """A continuous event; amplitude and sharpness 0 to 1."""
 
     start_s: float
     end_s: float
     amplitude: Curve
     sharpness: Curve
-    rate_hz: Curve | None = None
-    phase: float = 0.0
+    rate_hz: Curve | None = None  # where the file has frequencies; they take the place of the sharpness
+    phase: float = 0.0  # of its start, in turns
 
 
-class Clip(NamedTuple):
-    """A clip.
-
-    Attributes
-    ----------
-    ignored : Counter
-        What a panel has no counterpart for, by its name in the file.
-    """
+class DesignedClip(NamedTuple):
+    """A clip."""
 
     taps: tuple[Tap, ...]
     vibrations: tuple[Vibration, ...]
-    ignored: Counter[str]
+    ignored: Counter[str]  # what a panel has no counterpart for, by its name in the file
 
 
 def decoded_json(file: Path, kind: type[T]) -> T:
     """Read a JSON file of a known kind.
 
-    Raises
-    ------
-    ConfigError
-        If it cannot be read, is not JSON, or has a value that this kind cannot have; the message names file and place.
+    Raises ConfigError if it cannot be read, is not JSON, or has a value that this kind cannot have; the message names file and
+    place.
     """
     try:
         text = SPARE_COMMA.sub(lambda found: found[1] or "", read_text(file, BYTES_MAX))

@@ -19,10 +19,7 @@ Pulses = Sequence[tuple[float, float]]
 def pulses_of(name: str, train: Train) -> list[tuple[float, float]]:
     """Time in s and amplitude of each pulse of an effect that is not silent.
 
-    Raises
-    ------
-    ConfigError
-        If they are more than a file that can be imported again has.
+    Raises ConfigError if they are more than a file that can be imported again has.
     """
     if train.pulses > MOST_PULSES:
         raise ConfigError(f"effect {name!r} has {train.pulses:,} pulses, a file {MOST_PULSES:,} at most: shorten it")
@@ -69,19 +66,9 @@ WRITERS: Final[dict[str, Callable[[str, Pulses], dict[str, Any]]]] = {
 
 
 def exported(name: str, train: Train, suffix: str) -> tuple[str, dict[str, Any]]:
-    """An effect as the text of a file of a kind, and its figures.
+    """The effect `name` as the text of a file of a kind, and its figures; `suffix` is a key of `WRITERS`.
 
-    Parameters
-    ----------
-    name : str
-        Of the effect.
-    suffix : str
-        Of the file, a key of `WRITERS`.
-
-    Raises
-    ------
-    ConfigError
-        If it is silent, or has too many pulses.
+    Raises ConfigError if it is silent, or has too many pulses.
     """
     pulses = pulses_of(name, train)
     if not pulses:

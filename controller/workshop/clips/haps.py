@@ -13,7 +13,7 @@ from typing import Annotated, Final
 from msgspec import Meta, Struct, field
 
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Clip, Curve, Tap, Vibration, bounded, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, bounded, decoded_json
 
 VERSION: Final = "5"
 RATE_HZ: Final = 100.0  # where a note has none
@@ -70,14 +70,8 @@ class _Version(Struct, rename={"version": "m_version", "later": "version"}):
     later: str | int | None = None  # its name from version 6 on
 
 
-def read_haps(file: Path) -> Clip:
-    """Read a clip.
-
-    Raises
-    ------
-    ConfigError
-        If it is no .haps of this version.
-    """
+def read_haps(file: Path) -> DesignedClip:
+    """Read a clip; raises ConfigError if it is no .haps of this version."""
     found = decoded_json(file, _Version)
     version = found.later if found.version is None else found.version
     if str(version) != VERSION:
@@ -95,7 +89,7 @@ def read_haps(file: Path) -> Clip:
                 vibrations.append(_vibration(note, gain * note.gain))
             else:
                 taps.append(Tap(note.start, bounded(abs(gain * note.gain)), NEUTRAL))
-    return Clip(tuple(taps), tuple(vibrations), +ignored)
+    return DesignedClip(tuple(taps), tuple(vibrations), +ignored)
 
 
 def _vibration(note: _Note, gain: float) -> Vibration:

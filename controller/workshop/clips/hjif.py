@@ -17,7 +17,7 @@ from typing import Annotated, Final, Literal, NamedTuple
 from msgspec import Meta, Struct
 
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Clip, Curve, Tap, Vibration, bounded, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, bounded, decoded_json
 
 FELT: Final = ("Vibrotactile", "Vibration")  # modalities; the second is an older name of the first
 FIRST_YEAR: Final = 2023
@@ -79,14 +79,8 @@ class _Placed(NamedTuple):
     effect: _Effect
 
 
-def read_hjif(file: Path) -> Clip:
-    """Read a clip.
-
-    Raises
-    ------
-    ConfigError
-        If it is no HJIF, or refers to an effect that it does not have.
-    """
+def read_hjif(file: Path) -> DesignedClip:
+    """Read a clip; raises ConfigError if it is no HJIF, or refers to an effect that it does not have."""
     read = decoded_json(file, _File)
     year = re.match(r"(\d{4})(-\d+)?$", read.version)
     if year is None or int(year[1]) < FIRST_YEAR:
@@ -107,7 +101,7 @@ def read_hjif(file: Path) -> Clip:
                 taps += [_tap(placed, keyframe) for keyframe in placed.effect.keyframes]
             case _:
                 taps += _swings(placed)
-    return Clip(tuple(taps), tuple(vibrations), ignored)
+    return DesignedClip(tuple(taps), tuple(vibrations), ignored)
 
 
 def _placed(file: Path, read: _File, ignored: Counter[str]) -> Iterator[_Placed]:

@@ -13,13 +13,13 @@ from controller.device.scene.library import highest_rate_hz, library
 from controller.errors import ConfigError
 from controller.workshop.clips.ahap import read_ahap
 from controller.workshop.clips.android import read_android
-from controller.workshop.clips.clip import Clip
+from controller.workshop.clips.clip import DesignedClip
 from controller.workshop.clips.haps import read_haps
 from controller.workshop.clips.hjif import read_hjif
 from controller.workshop.clips.lofelt import read_haptic
 from controller.workshop.clips.rhythm import rhythm_of
 
-READERS: Final[dict[str, Callable[[Path], Clip]]] = {  # by the file's suffix
+READERS: Final[dict[str, Callable[[Path], DesignedClip]]] = {  # by the file's suffix
     ".ahap": read_ahap,
     ".haptic": read_haptic,
     ".hjif": read_hjif,
@@ -34,19 +34,9 @@ LONGEST_S: Final = 600.0  # of all vibrations of a clip
 def imported(files: Sequence[Path], board: Board, when: str, low_hz: float, high_hz: float) -> tuple[str, list[dict[str, Any]]]:
     """Effects of files, as TOML, and the figures of each.
 
-    Parameters
-    ----------
-    board : Board
-        Whose duty limit says how near two pulses may be.
-    when : str
-        Occasion of the effects.
-    low_hz, high_hz : float
-        Rates of a vibration of sharpness 0 and 1; the board's duty limits them.
-
-    Raises
-    ------
-    ConfigError
-        If a file cannot be read, is silent, or has more pulses than an effect can.
+    The board's duty limit says how near two pulses may be, and limits the rates of a vibration of sharpness 0 (`low_hz`) and 1
+    (`high_hz`); `when` is the occasion of the effects. Raises ConfigError if a file cannot be read, is silent, or has more pulses
+    than an effect can.
     """
     highest_hz = highest_rate_hz(board)
     if not 0 < low_hz <= high_hz:
@@ -72,7 +62,7 @@ def imported(files: Sequence[Path], board: Board, when: str, low_hz: float, high
     return "\n".join(tables), figures
 
 
-def _reader(file: Path) -> Callable[[Path], Clip]:
+def _reader(file: Path) -> Callable[[Path], DesignedClip]:
     reader = READERS.get(file.suffix.lower())
     if instead := INSTEAD.get(file.suffix.lower()):
         raise ConfigError(f"{file}: is {instead}")

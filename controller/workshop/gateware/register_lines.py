@@ -15,22 +15,13 @@ INPUTS = (Kind.LIVE, Kind.COUNTER, Kind.TIME_LOW)  # wires of haptic_core.v that
 def signal(register: Register) -> str:
     """Name of a register's wire in the Verilog; the port of register_file.v has _i or _o behind it.
 
-    Parameters
-    ----------
-    register : Register
-        Both halves of a time give the same name.
+    Both halves of a time give the same name.
     """
     return register.name.removesuffix("_LOW").removesuffix("_HIGH").lower()
 
 
 def table(registers: Iterable[Register]) -> list[str]:
-    """Lines of the README's table, in Markdown.
-
-    Parameters
-    ----------
-    registers : iterable of Register
-        In the order of their addresses.
-    """
+    """Lines of the README's table, in Markdown; registers come in the order of their addresses."""
     rows = [HEADER, ("---",) * len(HEADER)]
     for register in registers:
         bits = f"{register.bits - 1}:0" if register.bits > 1 else "0"

@@ -41,17 +41,8 @@ KERNEL = Path("controller", "device", "kernel")  # in a checkout
 def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Path, str]:
     """Text that each generated file has to have.
 
-    Parameters
-    ----------
-    folder : Path
-        That of the Verilog; its files give what is not generated.
-    registers : iterable of Register
-        All registers, in the order of their addresses.
-
-    Raises
-    ------
-    ValueError
-        If a record cannot be right, or a file has no place for what is generated.
+    `folder` is that of the Verilog, whose files give what is not generated; registers come in the order of their addresses. Raises
+    ValueError if a record cannot be right, or a file has no place for what is generated.
     """
     registers = list(registers)
     _check(registers)
@@ -105,13 +96,7 @@ def _check(registers: list[Register]) -> None:
 
 
 def _with_blocks(text: str, name: str, blocks: dict[str, list[str]]) -> str:
-    """The text of a file with its generated blocks replaced.
-
-    Raises
-    ------
-    ValueError
-        If it does not have exactly these blocks.
-    """
+    """The text of a file with its generated blocks replaced; raises ValueError if it does not have exactly these blocks."""
     found = [match[3] for match in _BLOCK.finditer(text)]
     if sorted(found) != sorted(blocks):
         raise ValueError(f"{name} has the generated blocks {found}, not {list(blocks)}")
@@ -126,10 +111,7 @@ def _with_blocks(text: str, name: str, blocks: dict[str, list[str]]) -> str:
 def _with_numbers(text: str) -> str:
     """The text of registers.vh with the numbers of registers.py; size, base and comment of each are its own.
 
-    Raises
-    ------
-    ValueError
-        If a constant is in one of the two only.
+    Raises ValueError if a constant is in one of the two only.
     """
     own, blocks = _BLOCK.sub("", text), _BLOCK.search(text)
     names = {match[2] for match in _DEFINE.finditer(own)}
@@ -148,17 +130,7 @@ def _with_numbers(text: str) -> str:
 def with_table(readme: str, lines: list[str]) -> str:
     """The README's text with one of its tables replaced: that whose first two columns have the same heads.
 
-    Parameters
-    ----------
-    readme : str
-        Text of the README.
-    lines : list of str
-        Of the table, without line ends.
-
-    Raises
-    ------
-    ValueError
-        If it does not have exactly one such table.
+    `lines` are the table's, without line ends. Raises ValueError if it does not have exactly one such table.
     """
     head = "|".join(lines[0].split("|")[:3])
     found = list(re.finditer(rf"^{re.escape(head)}\|.*\n(?:\|.*\n)*", readme, re.MULTILINE))

@@ -35,27 +35,13 @@ RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called, and 
 
 
 class Design(NamedTuple):
-    """Sources of one library.
+    """Sources of one library."""
 
-    Attributes
-    ----------
-    top : str
-        Top module; Verilator's class has its name after a `V`.
-    sources : tuple of Path
-        File of the top module, and files that cannot be found by a module's name in fpga_rtl/.
-    wrapper : Path
-        C++ file with the exported functions.
-    options : tuple of str
-        Further options of Verilator.
-    optimise : str
-        Of the C++ compiler.
-    """
-
-    top: str
-    sources: tuple[Path, ...]
-    wrapper: Path
-    options: tuple[str, ...] = ()
-    optimise: str = "-O2"
+    top: str  # top module; Verilator's class has its name after a `V`
+    sources: tuple[Path, ...]  # file of the top module, and files that cannot be found by a module's name in fpga_rtl/
+    wrapper: Path  # C++ file with the exported functions
+    options: tuple[str, ...] = ()  # further options of Verilator
+    optimise: str = "-O2"  # of the C++ compiler
 
 
 def core_design() -> Design:
@@ -73,19 +59,9 @@ def verilator_root() -> Path | None:
 def build_library(parameters: dict[str, int], compiling: Callable[[], None] = lambda: None, design: Design | None = None) -> Path:
     """Return the library of a design with these parameters; build it if it is not in the cache.
 
-    Parameters
-    ----------
-    parameters : dict
-        Values of the top module's parameters.
-    compiling : callable
-        Called before a build, which takes several seconds.
-    design : Design, optional
-        `core_design()` by default.
-
-    Raises
-    ------
-    LinkError
-        If Verilator or the C++ compiler is missing or fails, or the cache cannot be written.
+    `parameters` are the values of the top module's; `compiling` is called before a build, which takes several seconds; the design
+    is `core_design()` by default. Raises LinkError if Verilator or the C++ compiler is missing or fails, or the cache cannot be
+    written.
     """
     root = verilator_root()
     if root is None:

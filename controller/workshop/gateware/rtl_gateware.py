@@ -31,17 +31,7 @@ LINES: Final = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "ua
 class RtlGateware:
     """`haptic_core.v` with its pins: a `Gateware`.
 
-    Parameters
-    ----------
-    parameters : BuildParameters
-        Parameters of the Verilog module.
-    compiling : callable
-        Called before the library is built, which takes several seconds.
-
-    Raises
-    ------
-    LinkError
-        If the library cannot be built.
+    `compiling` is called before the library is built, which takes several seconds. Raises LinkError if the library cannot be built.
     """
 
     def __init__(self, parameters: BuildParameters, compiling: Callable[[], None] = lambda: None) -> None:
@@ -92,15 +82,7 @@ class RtlGateware:
     def wave(self, levels: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """Drive the SPI pins tick by tick from `now` on, to simulate damaged lines.
 
-        Parameters
-        ----------
-        levels : (tick,) uint8 array
-            Bit 0: chip select (high is idle), bit 1: SCK, bit 2: MOSI.
-
-        Returns
-        -------
-        (tick,) uint8 array
-            MISO after each tick.
+        `levels` (tick,): bit 0 is chip select (high is idle), bit 1 SCK, bit 2 MOSI. Returns MISO after each tick (tick,).
         """
         miso = np.empty(levels.size, np.uint8)
         self._library.panel_wave(self._panel, levels.size, levels.ctypes.data, miso.ctypes.data)

@@ -30,19 +30,8 @@ from controller.workshop.gateware.model.model import GatewareModel
 class UartPanel:
     """The gateware model behind its UART: bytes in, bytes out.
 
-    Parameters
-    ----------
-    gateware : GatewareModel
-        Just reset; its permits are set here.
-    clock_hz, baud : int
-        Clock and baud rate of the gateware; a byte takes the time of ten bits, whenever the terminal delivers it.
-    now_s : callable
-        Clock that the gateware's clock follows; tick 0 is its present value.
-
-    Attributes
-    ----------
-    start_s : float
-        Time of tick 0.
+    The gateware was just reset; its permits are set here. A byte takes the time of ten bits, whenever the terminal delivers it.
+    Tick 0 is the present value of `now_s`, which the gateware's clock follows.
     """
 
     def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:
@@ -50,7 +39,7 @@ class UartPanel:
         self._clock_hz = clock_hz
         self._byte_ticks = BITS_PER_BYTE * clock_hz / baud
         self._now_s = now_s
-        self.start_s = now_s()
+        self.start_s = now_s()  # time of tick 0
         self._tick = 0.0  # when the last byte had come
         self._answer_until = 0.0  # a frame that begins earlier is not answered
         self._line = bytearray()
@@ -106,15 +95,7 @@ def decoded(line: bytes | bytearray) -> bytes:
 class PseudoTerminal:
     """A pseudo-terminal that a thread answers; a context manager.
 
-    Parameters
-    ----------
-    answer : callable
-        Takes the bytes received, returns the bytes to send.
-
-    Attributes
-    ----------
-    device : str
-        Path of the terminal.
+    `answer` takes the bytes received and returns the bytes to send.
     """
 
     def __init__(self, answer: Callable[[bytes], bytes]) -> None:
@@ -122,7 +103,7 @@ class PseudoTerminal:
         self._controller, self._terminal = os.openpty()  # the terminal stays open here, so that clients may come and go
         tty.setraw(self._terminal)
         os.set_blocking(self._controller, False)  # like a UART: bytes that nobody reads are lost
-        self.device = os.ttyname(self._terminal)
+        self.device = os.ttyname(self._terminal)  # path of the terminal
         self._stop, self._stopper = os.pipe()
         self._thread = threading.Thread(target=self._serve, name=f"panel at {self.device}", daemon=True)
         self._thread.start()

@@ -27,14 +27,7 @@ TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger: the fr
 class SimulatedLink:
     """`Link` to simulated gateware.
 
-    Parameters
-    ----------
-    settings : LinkSettings
-        Clock and SCK of the board.
-    now_s : callable
-        The loop's clock; tick 0 is its value now.
-    gateware : Gateware
-        Just reset; its permits are set here.
+    The gateware was just reset; its permits are set here. Tick 0 is the present value of `now_s`.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float], gateware: Gateware) -> None:
@@ -114,13 +107,5 @@ class SimulatedLink:
 
 
 def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> SimulatedLink:
-    """Link to the simulated gateware of a board, just reset.
-
-    Parameters
-    ----------
-    now_s : callable
-        The host's clock.
-    gateware : GatewareFactory
-        Makes the gateware: the model, or the compiled Verilog.
-    """
+    """Link to the simulated gateware of a board, just reset. `gateware` makes it: the model, or the compiled Verilog."""
     return SimulatedLink(board.link, now_s, gateware(BuildParameters.of(board, gateware_hash())))

@@ -55,36 +55,18 @@ class Change:
 
 @dataclass(frozen=True)
 class Case:
-    """One table.
+    """One table."""
 
-    Attributes
-    ----------
-    name, title, why : str
-        Key and title of the table; the fault that it would reveal.
-    setup : str
-        "off" or "armed": state at tick 0.
-    bit_ticks : float
-        Bit period.
-    inputs, outputs : tuple of Change
-        In the order of their ticks.
-    slots : dict
-        Drive words of each slot that is stored before tick 0.
-    plays : tuple of str
-        Arguments of each PLAY accepted before tick 0.
-    settings : dict
-        Value of each register written before arming.
-    """
-
-    name: str
+    name: str  # name, title, why: key and title of the table; the fault that it would reveal
     title: str
     why: str
-    setup: str
-    bit_ticks: float
-    inputs: tuple[Change, ...]
+    setup: str  # "off" or "armed": state at tick 0
+    bit_ticks: float  # bit period
+    inputs: tuple[Change, ...]  # inputs, outputs: in the order of their ticks
     outputs: tuple[Change, ...]
-    slots: dict[int, tuple[int, ...]] = field(default_factory=dict)
-    plays: tuple[str, ...] = ()
-    settings: dict[str, int] = field(default_factory=dict)
+    slots: dict[int, tuple[int, ...]] = field(default_factory=dict)  # drive words of each slot that is stored before tick 0
+    plays: tuple[str, ...] = ()  # arguments of each PLAY accepted before tick 0
+    settings: dict[str, int] = field(default_factory=dict)  # value of each register written before arming
 
     @property
     def last_tick(self) -> int:
@@ -100,10 +82,7 @@ class Case:
 def load_cases(folder: Path) -> list[Case]:
     """Read every case of all `*.timing.toml` files of a folder, in the order of files and of their text.
 
-    Raises
-    ------
-    ValueError
-        Naming file and case, if a table cannot be read or two have the same name.
+    Raises ValueError, naming file and case, if a table cannot be read or two have the same name.
     """
     cases: list[Case] = []
     for path in sorted(folder.glob("*.timing.toml")):
@@ -122,19 +101,8 @@ def load_cases(folder: Path) -> list[Case]:
 def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case:
     """Read one case.
 
-    Parameters
-    ----------
-    name : str
-        Its key in the file.
-    entries : dict
-        Its TOML table.
-    ticks : dict
-        Named ticks of the file.
-
-    Raises
-    ------
-    ValueError
-        If an entry is missing, unknown or of another type, or a row cannot be read.
+    `name` is its key in the file, `entries` its TOML table, `ticks` are named ticks of the file. Raises ValueError if an entry is
+    missing, unknown or of another type, or a row cannot be read.
     """
     for key, kind in _NEEDED.items():
         if not isinstance(entries.get(key), kind):
@@ -159,23 +127,9 @@ def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case
 
 
 def read_table(text: str, ticks: dict[str, int]) -> tuple[tuple[Change, ...], tuple[Change, ...]]:
-    """Read the rows of a table.
+    """Read the rows of a table, `tick: inputs -> outputs`, with comments after `#`, into its inputs and outputs.
 
-    Parameters
-    ----------
-    text : str
-        Rows `tick: inputs -> outputs`, with comments after `#`.
-    ticks : dict
-        Named ticks.
-
-    Returns
-    -------
-    inputs, outputs : tuple of Change
-
-    Raises
-    ------
-    ValueError
-        Naming the row, if it cannot be read or comes before the one above it.
+    `ticks` are named ones. Raises ValueError, naming the row, if it cannot be read or comes before the one above it.
     """
     inputs: list[Change] = []
     outputs: list[Change] = []
@@ -197,13 +151,7 @@ def read_table(text: str, ticks: dict[str, int]) -> tuple[tuple[Change, ...], tu
 
 
 def drive_words(text: str) -> tuple[int, ...]:
-    """Read the words of a waveform, such as `0x11 0x22*8`.
-
-    Raises
-    ------
-    ValueError
-        If one of them is not a number.
-    """
+    """Read the words of a waveform, such as `0x11 0x22*8`; raises ValueError if one of them is not a number."""
     parts = [part.partition("*") for part in text.split()]
     return tuple(int(word, 0) for word, _, times in parts for _ in range(int(times or 1)))
 
@@ -211,10 +159,7 @@ def drive_words(text: str) -> tuple[int, ...]:
 def read_tick(text: str, ticks: dict[str, int]) -> int:
     """Evaluate a sum of numbers and named `ticks`, such as `first+2*bit`.
 
-    Raises
-    ------
-    ValueError
-        If a name is unknown, or the text is not a sum.
+    Raises ValueError if a name is unknown, or the text is not a sum.
     """
     compact = text.replace(" ", "")
     if not re.fullmatch(r"(\d+\*)?\w+([+-](\d+\*)?\w+)*", compact):

@@ -31,27 +31,15 @@ TRANSFORMED = 16_384  # the same of the transform: 8 MB
 
 def surface_energy(
     board: Board,
-    words: NDArray[np.uint32],
-    idle_word: int,
-    low_hz: float = 0.0,
+    words: NDArray[np.uint32],  # (sample,): played with the plate at rest before; empty: a step from `before_word` to `idle_word`
+    idle_word: int,  # played afterwards, and before unless `before_word` is given
+    low_hz: float = 0.0,  # low_hz, high_hz: limits of frequency
     high_hz: float = AUDIBLE_HZ,
     *,
     before_word: int | None = None,
-    modes: Modes | None = None,
+    modes: Modes | None = None,  # those of the board's plate by default
 ) -> float:
-    """Mean over the plate of the squared velocity between two frequencies, over all time, in (m/s)^2 s.
-
-    Parameters
-    ----------
-    words : (sample,) uint32 array
-        Played with the plate at rest before; empty: a step from `before_word` to `idle_word`.
-    idle_word : int
-        Played afterwards, and before unless `before_word` is given.
-    low_hz, high_hz : float
-        Limits of frequency.
-    modes : Modes, optional
-        Those of the board's plate by default.
-    """
+    """Mean over the plate of the squared velocity between two frequencies, over all time, in (m/s)^2 s."""
     _, density, step_hz = surface_spectrum(board, words, idle_word, low_hz, high_hz, before_word=before_word, modes=modes)
     return float(density.sum()) * step_hz
 
@@ -68,16 +56,8 @@ def surface_spectrum(
 ) -> tuple[Floats, Floats, float]:
     """Density of `surface_energy` over frequency.
 
-    Parameters (`board`, `words`, `idle_word`, `low_hz`, `high_hz`, `before_word`, `modes`) as there.
-
-    Returns
-    -------
-    frequency : (n,) array
-        In Hz, evenly spaced, half a step from both limits.
-    density : (n,) array
-        In (m/s)^2 s / Hz, both signs of frequency together.
-    step_hz : float
-        Between the frequencies.
+    The arguments are as there. Returns the frequencies (n,) in Hz, evenly spaced, half a step from both limits; the density (n,) in
+    (m/s)^2 s / Hz, both signs of frequency together; and the step in Hz.
     """
     from scipy.signal import zoom_fft  # noqa: PLC0415 - a second of imports, which a build of a bank does without
 

@@ -73,12 +73,8 @@ def foam_strips(plate: Plate) -> list[Rectangle]:
 def strip_share(modes: Modes, strips: list[Rectangle], shortest_m: float) -> Floats:
     """Share of each mode's mean square that lies in rectangles: (mode,), 1 for the whole plate.
 
-    Parameters
-    ----------
-    strips : list of (x from, x to, y from, y to)
-        In m, without overlap.
-    shortest_m : float
-        Wavelength of the highest mode: Gauss's nodes follow it.
+    Strips are x from, x to, y from, y to in m, without overlap; Gauss's nodes follow `shortest_m`, the wavelength of the highest
+    mode.
     """
     total = np.zeros(modes.count)
     for x_from, x_to, y_from, y_to in strips:

@@ -34,30 +34,15 @@ AROUND_S: Floats = np.arange(-50.0, 51) * 0.1e-6
 
 @dataclass(frozen=True, eq=False)
 class FocusScale:
-    """Where a focus is measured: lengths go with the wavelength in the middle of the band, times with its period.
+    """Where a focus is measured: lengths go with the wavelength in the middle of the band, times with its period."""
 
-    Attributes
-    ----------
-    map_step_m : float
-        Largest distance of the points of a map.
-    outside_m : float
-        Contrast is relative to points farther than this from every focus: 0.95 wavelengths, 10 mm on the paper's plate.
-    line_m : (241,) array
-        Offsets at which the spot is measured: 1.14 wavelengths, 12 mm.
-    crest_m : (33,) array
-        Offsets among which the crest of a spot is searched.
-    around_s : (101,) array
-        Times from T: 0.225 periods before and after, 5 us.
-    wave_m : float
-        The wavelength itself.
-    """
-
-    map_step_m: float = MAP_STEP_M
+    map_step_m: float = MAP_STEP_M  # largest distance of the points of a map
+    # Contrast is relative to points farther than this from every focus: 0.95 wavelengths, 10 mm on the paper's plate
     outside_m: float = OUTSIDE_M
-    line_m: Floats = field(default_factory=LINE_M.copy)
-    crest_m: Floats = field(default_factory=CREST_M.copy)
-    around_s: Floats = field(default_factory=AROUND_S.copy)
-    wave_m: float = WAVELENGTH_M
+    line_m: Floats = field(default_factory=LINE_M.copy)  # (241,): offsets at which the spot is measured: 1.14 wavelengths, 12 mm
+    crest_m: Floats = field(default_factory=CREST_M.copy)  # (33,): offsets among which the crest of a spot is searched
+    around_s: Floats = field(default_factory=AROUND_S.copy)  # (101,): times from T: 0.225 periods before and after, 5 us
+    wave_m: float = WAVELENGTH_M  # the wavelength itself
 
     @property
     def circle_m(self) -> float:
@@ -75,64 +60,32 @@ class FocusScale:
 
 @dataclass(frozen=True)
 class FocusMetrics:
-    """Figures of merit of one focus.
+    """Figures of merit of one focus."""
 
-    Attributes
-    ----------
-    amplitude_m : float
-        Displacement at the focus at T.
-    contrast : float
-        Its size over the rms displacement farther than `FocusScale.outside_m` from every focus: 10 mm on the paper's plate.
-    contrast_all : float
-        The same over all points of the map.
-    spot_m : float
-        Full width at half height, mean over x, y and both diagonals.
-    spot_wavelengths : float
-        The same over the wavelength in the middle of the band.
-    peak_offset_s : float
-        Time of the largest displacement within `FocusScale.around_s` of T, from T: 5 us on the paper's plate.
-    """
-
-    amplitude_m: float
+    amplitude_m: float  # displacement at the focus at T
+    # Its size over the rms displacement farther than `FocusScale.outside_m` from every focus: 10 mm on the paper's plate
     contrast: float
-    contrast_all: float
-    spot_m: float
-    spot_wavelengths: float
-    peak_offset_s: float
+    contrast_all: float  # the same over all points of the map
+    spot_m: float  # full width at half height, mean over x, y and both diagonals
+    spot_wavelengths: float  # the same over the wavelength in the middle of the band
+    peak_offset_s: float  # time of the largest displacement within `FocusScale.around_s` of T, from T: 5 us on the paper's plate
 
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """State of plate and drivers at T, up to the steps of voltage before T.
-
-    Attributes
-    ----------
-    pole_amplitudes : (pole,) complex array
-        Of the plate's free oscillations at T, m.
-    driver_amplitudes : (mode, 2) complex array
-        Of the part that follows the drivers' own settling, m.
-    level : (mode,) array
-        Where the voltages played last would hold each mode, from the rest position, m.
-    near_s : (edge,) array
-        Times of the voltage steps around T, relative to T; those at T or later are not in the state.
-    near_force : (mode, edge) array
-        Their forces on the modes, N.
-    early_driver_amplitudes : (mode, 2) complex array
-        As `driver_amplitudes`, at the first of the times around T, from the steps before that: a driver may forget within
-        nanoseconds, so its state cannot be stepped back from T.
-    scale : FocusScale
-        Where the focus is measured.
-    """
+    """State of plate and drivers at T, up to the steps of voltage before T."""
 
     modes: Modes
     step: StepResponse
-    pole_amplitudes: Complex
-    driver_amplitudes: Complex
-    level: Floats
-    near_s: Floats
-    near_force: Floats
+    pole_amplitudes: Complex  # (pole,): of the plate's free oscillations at T, m
+    driver_amplitudes: Complex  # (mode, 2): of the part that follows the drivers' own settling, m
+    level: Floats  # (mode,): where the voltages played last would hold each mode, from the rest position, m
+    near_s: Floats  # (edge,): times of the voltage steps around T, relative to T; those at T or later are not in the state
+    near_force: Floats  # (mode, edge): their forces on the modes, N
+    # (mode, 2): as `driver_amplitudes`, at the first of the times around T, from the steps before that: a driver may forget
+    # within nanoseconds, so its state cannot be stepped back from T
     early_driver_amplitudes: Complex
-    scale: FocusScale
+    scale: FocusScale  # where the focus is measured
 
     @cached_property
     def modal(self) -> Floats:
@@ -179,10 +132,7 @@ class Field:
     def focus_metrics(self, x_m: float, y_m: float, foci: Sequence[Point] = ()) -> FocusMetrics:
         """Figures of merit of the focus at (x_m, y_m).
 
-        Parameters
-        ----------
-        foci : sequence of (x_m, y_m)
-            All points focused on at this time; contrast is taken outside 10 mm (of the scale) of any. Default: this one.
+        `foci` are all points focused on at this time, by default this one; contrast is taken outside 10 mm (of the scale) of any.
         """
         amplitude = float(self.at((x_m, y_m))[0])
         x, y, u = self.map()

@@ -39,18 +39,10 @@ MODES_AT_ONCE = 256  # 16 MB of resonances
 
 @dataclass(frozen=True)
 class Finger:
-    """A finger's load at a point.
+    """A finger's load at a point."""
 
-    Attributes
-    ----------
-    mass_kg : float
-        Of the pulp that moves with the plate: up to 1e-4 by the paper, 0.7e-4 to 2.3e-4 in the literature.
-    damping_n_s_m, stiffness_n_m : float
-        To the rest of the finger.
-    """
-
-    mass_kg: float
-    damping_n_s_m: float = 0.0
+    mass_kg: float  # of the pulp that moves with the plate: up to 1e-4 by the paper, 0.7e-4 to 2.3e-4 in the literature
+    damping_n_s_m: float = 0.0  # damping_n_s_m, stiffness_n_m: to the rest of the finger
     stiffness_n_m: float = 0.0
 
     def dynamic_stiffness(self, s: Complex) -> Complex:
@@ -61,45 +53,19 @@ class Finger:
 
 @dataclass(frozen=True, eq=False)
 class PointMotion:
-    """What some points of the free plate do in an emission, and how they yield to forces at each other.
+    """What some points of the free plate do in an emission, and how they yield to forces at each other."""
 
-    Attributes
-    ----------
-    s : (frequency,) complex array
-        In 1/s.
-    free : (frequency, point) complex array
-        Displacement without fingers, m s.
-    receptance : (frequency, point, point) complex array
-        Displacement over force, m/N.
-    window_s, end_s : float
-        Window of the transform; T, from the start of the emission.
-    """
-
-    s: Complex
-    free: Complex
-    receptance: Complex
-    window_s: float
+    s: Complex  # (frequency,): in 1/s
+    free: Complex  # (frequency, point): displacement without fingers, m s
+    receptance: Complex  # (frequency, point, point): displacement over force, m/N
+    window_s: float  # window_s, end_s: window of the transform; T, from the start of the emission
     end_s: float
 
     def displacement(self, fingers: Mapping[int, Finger], after_s: ArrayLike = 0.0) -> Floats:
         """Displacement of all points with fingers on some.
 
-        Parameters
-        ----------
-        fingers : mapping of int to Finger
-            By the number of the point under each; empty: the free plate.
-        after_s : (time,) array or float
-            Times from T.
-
-        Returns
-        -------
-        (time, point) array
-            In m, from the rest position at the idle word.
-
-        Raises
-        ------
-        ValueError
-            If a time is after what the motion was computed for.
+        Fingers go by the number of the point under each; none: the free plate. `after_s` (time,) is from T. Returns (time, point)
+        in m, from the rest position at the idle word. Raises ValueError if a time is after what the motion was computed for.
         """
         time = self.end_s + np.atleast_1d(np.asarray(after_s, np.float64))
         if time.max() > self.window_s / WINDOW_LENGTHS * (1 + 1e-9):
@@ -120,28 +86,16 @@ class PointMotion:
 
 def point_motion(
     board: Board,
-    modes: Modes,
-    words: NDArray[np.uint32],
-    points_m: ArrayLike,
+    modes: Modes,  # of its plate
+    words: NDArray[np.uint32],  # (sample,)
+    points_m: ArrayLike,  # (point, 2): x and y in m: where fingers are, and where displacements are wanted
     *,
-    after_s: float = 20e-6,
+    after_s: float = 20e-6,  # last time after T that will be asked for
+    # Whether points under a finger yield by the modes above the highest of `modes` too. A point within half a wavelength of the
+    # highest mode to an edge is taken to yield as others do
     modes_above: bool = True,
 ) -> PointMotion:
-    """Motion of points of a board's plate that is at rest at the idle word, plays `words`, and idles again.
-
-    Parameters
-    ----------
-    modes : Modes
-        Of its plate.
-    words : (sample,) uint32 array
-    points_m : (point, 2) array
-        x and y in m: where fingers are, and where displacements are wanted.
-    after_s : float
-        Last time after T that will be asked for.
-    modes_above : bool
-        Whether points under a finger yield by the modes above the highest of `modes` too. A point within half a wavelength of
-        the highest mode to an edge is taken to yield as others do.
-    """
+    """Motion of points of a board's plate that is at rest at the idle word, plays `words`, and idles again."""
     period_s = board.waveform.bit_period_s
     bits = int(np.ceil(WINDOW_LENGTHS * (len(words) + after_s / period_s)))
     window_s = bits * period_s

@@ -27,39 +27,25 @@ FREQUENCIES = 401
 DIRECTIONS = 91
 SAMPLED = 401  # radii of a spot, and times of a pulse
 MEMORY = 12.0  # of a signal's bits, over one over its bandwidth
-HEARD_CLOCKS, HEARD_FREQUENCIES = 4.0, 4001  # frequencies of bits that heat, up to so many bit clocks
+HEARD_CLOCKS, HEARD_FREQUENCIES = 4.0, 4001  # frequencies of bits that heat, up to that many bit clocks
 
 
 @dataclass(frozen=True, eq=False)
 class FocalSpectrum:
-    """Frequencies of a focus.
-
-    Attributes
-    ----------
-    frequency_hz : (n,) array
-        Evenly from the lower to the upper edge of the band.
-    weight_s : (n,) array
-        w: share of the amplitude per hertz, of integral 1.
-    response_m_per_vs : float
-        Root mean square over all points, times from 0 and channels of the response to 1 V s, at time 0 (it falls as exp(-t / tau)).
-    """
+    """Frequencies of a focus."""
 
     plate: Plate
-    frequency_hz: Floats
-    weight_s: Floats
+    frequency_hz: Floats  # (n,): evenly from the lower to the upper edge of the band
+    weight_s: Floats  # (n,): w: share of the amplitude per hertz, of integral 1
+    # Root mean square over all points, times from 0 and channels of the response to 1 V s, at time 0 (it falls as exp(-t /
+    # tau))
     response_m_per_vs: float
 
     @classmethod
     def of(cls, plate: Plate, driver: Driver, patch_m: float, band_hz: tuple[float, float], bit_clock_hz: float) -> FocalSpectrum:
-        """Spectrum by a square patch and its driver; waves come to it from all directions alike.
+        """Spectrum by a square patch with edges of `patch_m` and its driver; waves come to it from all directions alike.
 
-        Parameters
-        ----------
-        patch_m : float
-            Edge length of a patch.
-        band_hz : (float, float)
-        bit_clock_hz : float
-            Of the words, whose length is a filter too.
+        The length of the words is a filter too.
         """
         frequency_hz: Floats = np.linspace(*band_hz, FREQUENCIES)
         omega = 2 * np.pi * frequency_hz

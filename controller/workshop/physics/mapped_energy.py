@@ -24,10 +24,7 @@ CELLS_A_WAVE = 12
 def mapped_energy(plate: Plate, field: Field, shortest_m: float) -> Energy:
     """Kinetic and bending energy at T, (1,) arrays in J.
 
-    Parameters
-    ----------
-    shortest_m : float
-        Shortest wave there is; a map has `CELLS_A_WAVE` points in it, within 1e-4 of the whole energy.
+    A map has `CELLS_A_WAVE` points in the shortest wave there is (`shortest_m`), within 1e-4 of the whole energy.
     """
     step_m = min(shortest_m / CELLS_A_WAVE, plate.length_m / 16, plate.width_m / 16)
     x_m, y_m = map_axis(plate.length_m, step_m), map_axis(plate.width_m, step_m)

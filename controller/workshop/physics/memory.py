@@ -43,10 +43,7 @@ def focus_bytes(modes: Modes, samples: int, times: int) -> float:
 def require(needed_bytes: float, memory_mb: float | None, what: str) -> float:
     """Refuse what does not fit into `memory_mb`, or `DEFAULT_MB`; the bytes that are left.
 
-    Raises
-    ------
-    ConfigError
-        Saying how much it needs.
+    Raises ConfigError, saying how much it needs.
     """
     needed_mb = needed_bytes / 1e6
     memory_mb = DEFAULT_MB if memory_mb is None else memory_mb

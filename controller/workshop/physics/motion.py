@@ -25,13 +25,7 @@ DERIVATIVE = {"m": 0, "m/s": 1, "m/s^2": 2}
 
 
 class PlateMotion:
-    """A plate at rest at 0 V, moved by its channels.
-
-    Parameters
-    ----------
-    board : Board
-        Its patches and driver.
-    """
+    """A plate at rest at 0 V, moved by its channels."""
 
     def __init__(self, board: Board, modes: Modes) -> None:
         self.modes = modes
@@ -43,22 +37,9 @@ class PlateMotion:
     ) -> NDArray[np.float32]:
         """Motion of points in several emissions.
 
-        Parameters
-        ----------
-        points_m : (point, 2) array
-        step_s : (step,) array
-            Times of the steps of voltage, rising; the same in all emissions.
-        steps_v : (step, channel, emission) array
-            By how much each channel's voltage rises.
-        times_s : (sample,) array
-            Rising.
-        quantity : {"m", "m/s", "m/s^2"}
-            Displacement from the level at 0 V, or what it is derived to.
-
-        Returns
-        -------
-        (point, emission, sample) array
-            In `quantity`.
+        `points_m` are (point, 2). Voltages step at the times `step_s` (step,), rising and the same in all emissions, by `steps_v`
+        (step, channel, emission). `quantity` is "m", the displacement from the level at 0 V, or what it is derived to: "m/s",
+        "m/s^2". Returns it (point, emission, sample) at `times_s` (sample,), which rise.
         """
         shapes = self.modes.shapes(points_m, np.float32)
         emissions = steps_v.shape[2]

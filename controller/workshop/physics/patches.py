@@ -36,23 +36,14 @@ NEGLIGIBLE = 1e-12  # of a quadratic form's largest eigenvalue
 
 @dataclass(frozen=True, eq=False)
 class CombinedModes:
-    """Sums of the modes of another plate (`modes.Modes`).
-
-    Attributes
-    ----------
-    parts : (mode of the base, mode) array
-        The shapes, in those of `base`.
-    angular_frequency, decay_rate, mass_kg : (mode,) array
-    expected_shift : (mode of the base,) array
-        Relative shift of each mode of the base by itself, to first order.
-    """
+    """Sums of the modes of another plate (`modes.Modes`)."""
 
     base: Modes
-    parts: Floats
-    angular_frequency: Floats
+    parts: Floats  # (mode of the base, mode): the shapes, in those of `base`
+    angular_frequency: Floats  # angular_frequency, decay_rate, mass_kg: (mode,)
     decay_rate: Floats
     mass_kg: Floats
-    expected_shift: Floats
+    expected_shift: Floats  # (mode of the base,): relative shift of each mode of the base by itself, to first order
 
     def shift(self, low_hz: float, high_hz: float) -> tuple[float, float]:
         """Mean relative shift of the base's modes between two frequencies by number, and that expected to first order."""
@@ -106,15 +97,8 @@ class CombinedModes:
 def with_patches(bare: Modes, plate: Plate, patches: Patches, places: Sequence[Patch], highest_hz: float) -> CombinedModes:
     """Modes of `plate` with patches up to `highest_hz`.
 
-    Parameters
-    ----------
-    bare : Modes
-        Of the plate without patches, up to `BASIS` times `highest_hz`.
-
-    Raises
-    ------
-    ConfigError
-        If the bare plate has too many modes, or none is left.
+    `bare` are modes of the plate without patches, up to `BASIS` times `highest_hz`. Raises ConfigError if the bare plate has too
+    many modes, or none is left.
     """
     if bare.count > MOST_MODES:
         raise ConfigError(

@@ -61,21 +61,8 @@ class Work:
 class PlateTwin:
     """A simulated plate behind 32 pins.
 
-    Parameters
-    ----------
-    highest_hz : float, optional
-        Modes above are left out; `mode_cut_hz` by default.
-    remembered : int
-        Groups kept (0.1 MB each); the one not used for longest goes first.
-    modes : Modes, optional
-        In place of those of the board's plate.
-
-    Attributes
-    ----------
-    scale : FocusScale
-        Where foci are measured.
-    work : Work
-        Counters.
+    Modes above `highest_hz` are left out, `mode_cut_hz` by default; `modes` take the place of those of the board's plate. Of the
+    `remembered` groups (0.1 MB each) the one not used for longest goes first.
     """
 
     def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256, modes: Modes | None = None) -> None:
@@ -83,8 +70,8 @@ class PlateTwin:
         self.modes = modes_of(board, highest_hz) if modes is None else modes
         self.step = StepResponse.of(self.modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.modes)
-        self.scale = FocusScale.of(board)
-        self.work = Work()
+        self.scale = FocusScale.of(board)  # where foci are measured
+        self.work = Work()  # counters
         self._remembered = remembered
         self._group_states: OrderedDict[bytes, GroupState] = OrderedDict()
         self._table: Floats | None = None
@@ -99,17 +86,8 @@ class PlateTwin:
     def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
         """Displacement of the plate at every focus tick, relative to rest at the board's idle word.
 
-        Parameters
-        ----------
-        capture : Capture
-            From tick 0 on, everything low before its first change.
-        clock_hz : float
-            Of the ticks.
-
-        Yields
-        ------
-        Field
-            In the order of `focus_ticks`. A step at the focus tick itself counts as after it.
+        The capture is from tick 0 on, everything low before its first change. Fields come in the order of `focus_ticks`; a step at
+        the focus tick itself counts as after it.
         """
         ticks = capture.ticks.astype(np.int64)
         words = np.zeros(len(ticks) + 1, np.uint32)  # step i goes from words[i] to words[i + 1]
@@ -267,33 +245,3 @@ def _cuts(ticks: NDArray[np.int64], focus_ticks: NDArray[np.int64], bit_ticks: f
             cuts.append(int(np.searchsorted(ticks, ticks[cuts[-1]] + MAX_GROUP_BITS * bit_ticks, side="left")))
         cuts.append(int(cut))
     return cuts
-
-
-def capture_of_words(
-    words: NDArray[np.uint32], bit_ticks: int, idle_word: int, start_tick: int, period_ticks: int = 0, repetitions: int = 1
-) -> Capture:
-    """Pins that idle from tick 0 on and play `words` from `start_tick` on, without an FPGA.
-
-    Parameters
-    ----------
-    words : (sample,) uint32 array
-    bit_ticks : int
-        Ticks for which a word is held.
-    period_ticks : int
-        Start to start, if there is more than one repetition; between emissions the pins hold `idle_word`.
-    """
-    starts = start_tick + np.arange(repetitions) * period_ticks
-    length = len(words) * bit_ticks
-    emission = np.arange(len(words) + 1) * bit_ticks
-    ticks = np.concatenate([[0], (starts[:, None] + emission).ravel()])
-    played = np.concatenate([[idle_word], np.tile(np.append(words, np.uint32(idle_word)), repetitions)]).astype(np.uint32)
-    last = np.append(ticks[1:] != ticks[:-1], True)  # back to back, the next emission's first word counts
-    ticks, played = ticks[last], played[last]
-    changed = np.append(played[0] != 0, played[1:] != played[:-1])
-    ticks, played = ticks[changed], played[changed]
-    return Capture(
-        ticks=ticks.astype(np.uint64),
-        words=played,
-        hv=np.ones(len(played), np.uint8),
-        focus_ticks=(starts + length).astype(np.uint64),
-    )

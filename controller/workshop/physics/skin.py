@@ -29,46 +29,27 @@ MOST_PHASES = 10_000
 
 @dataclass(frozen=True)
 class Pulp:
-    """Skin and what is behind it.
+    """Skin and what is behind it."""
 
-    Attributes
-    ----------
-    mass_kg, stiffness_n_m, damping_kg_s
-        m, k and c; by default of a finger pad as in Konyo et al.'s simulation of vibrotactile friction
-        (ROBOMECH J. 4, 2017, table 1: 0.1 g, 1 N/mm, 1 N s/m). The paper has 70 to 230 mg from literature, 0 to 100 measured.
-    press_n
-        F, with which the finger presses; 0.5 N is the middle of the paper's fig. 11, and fig. 12 does not tell.
-    """
-
+    # mass_kg, stiffness_n_m, damping_kg_s: m, k and c; by default of a finger pad as in Konyo et al.'s simulation of
+    # vibrotactile friction (ROBOMECH J. 4, 2017, table 1: 0.1 g, 1 N/mm, 1 N s/m). The paper has 70 to 230 mg from literature,
+    # 0 to 100 measured
     mass_kg: float = 1e-4
     stiffness_n_m: float = 1e3
     damping_kg_s: float = 1.0
-    press_n: float = 0.5
+    press_n: float = 0.5  # F, with which the finger presses; 0.5 N is the middle of the paper's fig. 11, and fig. 12 does not tell
 
 
 @dataclass(frozen=True, eq=False)
 class SkinMotion:
-    """Motion of skin and plate, from rest in contact.
+    """Motion of skin and plate, from rest in contact."""
 
-    Attributes
-    ----------
-    time_s : (time,) array
-    skin_m, plate_m : (time,) array
-        From their place at rest, upwards.
-    velocity_m_s : (time,) array
-        Of the skin.
-    force_n : (time,) array
-        Of the contact; never negative, 0 in flight.
-    flights_s : (flight, 2) array
-        When the skin left and when it came back; a last flight that goes on ends with the simulation.
-    """
-
-    time_s: Floats
-    skin_m: Floats
+    time_s: Floats  # (time,)
+    skin_m: Floats  # skin_m, plate_m: (time,): from their place at rest, upwards
     plate_m: Floats
-    velocity_m_s: Floats
-    force_n: Floats
-    flights_s: Floats
+    velocity_m_s: Floats  # (time,): of the skin
+    force_n: Floats  # (time,): of the contact; never negative, 0 in flight
+    flights_s: Floats  # (flight, 2): when the skin left and when it came back; a last flight that goes on ends with the simulation
 
     def longest_flight(self) -> tuple[float, float, float]:
         """Longest flight: duration in s, largest displacement of the skin and largest gap to the plate in it, in m."""
@@ -80,32 +61,15 @@ class SkinMotion:
 
 
 def skin_motion(
-    velocity_m_s: Callable[[float], float],
-    impedance_kg_s: float,
+    velocity_m_s: Callable[[float], float],  # velocity of the free plate at the focus at a time in s; smooth
+    impedance_kg_s: float,  # Z, force over velocity of the plate at a point
     pulp: Pulp,
-    until_s: float,
+    until_s: float,  # end of the simulation
     *,
-    relative_error: float = RELATIVE_ERROR,
+    relative_error: float = RELATIVE_ERROR,  # relative_error, longest_step_s: of the integration
     longest_step_s: float = LONGEST_STEP_S,
 ) -> SkinMotion:
-    """Move the skin from rest at time 0.
-
-    Parameters
-    ----------
-    velocity_m_s : callable
-        Velocity of the free plate at the focus at a time in s; smooth.
-    impedance_kg_s : float
-        Z, force over velocity of the plate at a point.
-    until_s : float
-        End of the simulation.
-    relative_error, longest_step_s : float
-        Of the integration.
-
-    Raises
-    ------
-    RuntimeError
-        If the skin leaves and comes back more than `MOST_PHASES` times.
-    """
+    """Move the skin from rest at time 0; raises RuntimeError if the skin leaves and comes back more than `MOST_PHASES` times."""
     phases = _Phases(velocity_m_s, impedance_kg_s, pulp)
     leaves, lands = _event(phases.push), _event(lambda _t, state: float(state[0] - state[2]))
     now_s, state, contact = 0.0, np.zeros(3), True

@@ -43,10 +43,7 @@ def describe(repository: Repository) -> list[str]:
 def must_be_of_today(repository: Repository, now: datetime) -> None:
     """Check the dates of a draft by the clock of another computer than that it was made on: its signer's.
 
-    Raises
-    ------
-    UpdateError
-        If it was made later than now, or its timestamp has no life left.
+    Raises UpdateError if it was made later than now, or its timestamp has no life left.
     """
     for role in ROLES:
         made = issued(found.signed) if (found := repository.drafted(role)) else None
@@ -60,10 +57,7 @@ def must_be_of_today(repository: Repository, now: datetime) -> None:
 def must_be(repository: Repository, folders: Sequence[Path]) -> None:
     """Check that a draft has just the releases of these folders, which its signer has made; without folders nothing is checked.
 
-    Raises
-    ------
-    UpdateError
-        If it has another release, or other files.
+    Raises UpdateError if it has another release, or other files.
     """
     if not folders:
         return

@@ -24,20 +24,8 @@ PASSPHRASE_LENGTH_MIN: Final = 12
 def new_key(file: Path, passphrase: str) -> Path:
     """Make an ed25519 key: `file` with the private part, encrypted, mode 0600; beside it `*.pub` with the public part.
 
-    Parameters
-    ----------
-    file : Path
-        Its name without the ending is the name of its owner.
-
-    Returns
-    -------
-    Path
-        The public part.
-
-    Raises
-    ------
-    UpdateError
-        If one of the files exists, or the passphrase is too short.
+    The name of `file` without the ending is the name of its owner. Returns the public part. Raises UpdateError if one of the files
+    exists, or the passphrase is too short.
     """
     public = file.with_suffix(PUBLIC)
     if file == public:
@@ -61,10 +49,7 @@ def new_key(file: Path, passphrase: str) -> Path:
 def open_key(file: Path, passphrase: str) -> CryptoSigner:
     """The private part of a key.
 
-    Raises
-    ------
-    UpdateError
-        If the file is no such key, is not encrypted, or the passphrase does not open it.
+    Raises UpdateError if the file is no such key, is not encrypted, or the passphrase does not open it.
     """
     try:
         pem = file.read_bytes()
@@ -84,10 +69,7 @@ def open_key(file: Path, passphrase: str) -> CryptoSigner:
 def read_public(file: Path) -> Key:
     """The public part of a key.
 
-    Raises
-    ------
-    UpdateError
-        If the file is none, or its identifier is not that of its value: one key must not count as two.
+    Raises UpdateError if the file is none, or its identifier is not that of its value: one key must not count as two.
     """
     try:
         said: dict[str, Any] = msgspec.json.decode(file.read_bytes())
@@ -112,12 +94,7 @@ def owner(key: Key) -> str:
 
 
 def check_outside(key: Path, *folders: Path) -> None:
-    """Check that a key lies in no repository.
-
-    Raises
-    ------
-    UpdateError
-    """
+    """Check that a key lies in no repository; raises UpdateError."""
     for folder in folders:
         inside = key.resolve().is_relative_to(folder.resolve())
         if inside and ((folder / "metadata").is_dir() or (folder / "draft").is_dir()):
@@ -129,10 +106,7 @@ def check_outside(key: Path, *folders: Path) -> None:
 def known(root: Root, name: str, repository: Path) -> Key:
     """A key that counts for something in `repository`, by its public part or its owner's name.
 
-    Raises
-    ------
-    UpdateError
-        If none or several keys are the owner's.
+    Raises UpdateError if none or several keys are the owner's.
     """
     if Path(name).exists():
         return read_public(Path(name))

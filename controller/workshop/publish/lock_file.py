@@ -23,28 +23,14 @@ BUILT: Final = frozenset({"cobs", "evdev", "spidev"})  # the registry has their 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """What wheels are for.
+    """What wheels are for."""
 
-    Attributes
-    ----------
-    architecture : str
-        As `platform.machine` has it.
-    minor : int
-        Of Python 3.
-    """
-
-    architecture: str
-    minor: int
+    architecture: str  # as `platform.machine` has it
+    minor: int  # of Python 3
 
     @classmethod
     def of(cls, platform: str) -> Target:
-        """Target of a platform such as `aarch64-cp311`.
-
-        Raises
-        ------
-        UpdateError
-            If it is not written so.
-        """
+        """Target of a platform such as `aarch64-cp311`; raises UpdateError if it is not written so."""
         found = re.fullmatch(r"([0-9a-z_]+)-cp3([0-9]{1,2})", platform)
         if not found:
             raise UpdateError(f"platform {platform!r}: must be like aarch64-cp311 or x86_64-cp311")
@@ -77,18 +63,10 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class Locked:
-    """A package of the lock file.
+    """A package of the lock file."""
 
-    Attributes
-    ----------
-    requirement : Requirement
-        With one exact version.
-    hashes : frozenset of str
-        SHA-256 of its files, whatever the platform.
-    """
-
-    requirement: Requirement
-    hashes: frozenset[str]
+    requirement: Requirement  # with one exact version
+    hashes: frozenset[str]  # SHA-256 of its files, whatever the platform
 
     @property
     def name(self) -> NormalizedName:
@@ -105,10 +83,7 @@ class Locked:
 def read_lock(file: Path) -> list[Locked]:
     """All packages of a lock file, in its order.
 
-    Raises
-    ------
-    UpdateError
-        If it cannot be read, or a package has no exact version or no hash.
+    Raises UpdateError if it cannot be read, or a package has no exact version or no hash.
     """
     try:
         text = file.read_text(encoding="utf-8")
@@ -138,10 +113,7 @@ def wanted(packages: Iterable[Locked], target: Target) -> list[Locked]:
 def choose(packages: Iterable[Locked], target: Target, folder: Path) -> dict[NormalizedName, Path]:
     """The wheel of each package, in a folder, that a target can use best; other files there do not matter.
 
-    Raises
-    ------
-    UpdateError
-        If there is none, or it is not the one that was locked.
+    Raises UpdateError if there is none, or it is not the one that was locked.
     """
     there = wheels_of(folder)
     return {one.name: _choose_one(one, target, [wheel for wheel in there if wheel[1] == one.name], folder) for one in packages}
@@ -150,10 +122,7 @@ def choose(packages: Iterable[Locked], target: Target, folder: Path) -> dict[Nor
 def own_wheel(name: str, target: Target, folder: Path) -> Path | None:
     """This project's wheel for a target, if a folder has one.
 
-    Raises
-    ------
-    UpdateError
-        If it has several, or only those for other targets.
+    Raises UpdateError if it has several, or only those for other targets.
     """
     found = [wheel for wheel in wheels_of(folder) if wheel[1] == canonicalize_name(name)]
     suitable = [path for path, *_, tags in found if not tags.isdisjoint(target.tags())]
@@ -169,10 +138,7 @@ Wheel = tuple[Path, NormalizedName, str, frozenset[Tag]]
 def wheels_of(folder: Path) -> list[Wheel]:
     """Each wheel of a folder: file, name, version, tags.
 
-    Raises
-    ------
-    UpdateError
-        If the folder is absent, or a file is called as no wheel can be.
+    Raises UpdateError if the folder is absent, or a file is called as no wheel can be.
     """
     if not folder.is_dir():
         raise UpdateError(f"{folder}: there is no such folder of wheels")

@@ -27,17 +27,8 @@ LEFT_OVERS: Final = frozenset({"targets", ".draft.new", LOCK})  # of an `init` t
 def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], threshold: int, now: datetime) -> None:
     """Draft a repository without releases.
 
-    Parameters
-    ----------
-    keys : mapping
-        Of each role.
-    threshold : int
-        How many people must sign what is root and targets.
-
-    Raises
-    ------
-    UpdateError
-        If there is a repository already, or fewer keys than the threshold.
+    `keys` are those of each role; `threshold` people must sign what is root and targets. Raises UpdateError if there is a
+    repository already, or fewer keys than the threshold.
     """
     if others := {path.name for path in repository.folder.iterdir()} - LEFT_OVERS:
         raise UpdateError(f"{repository.folder}: holds {min(others)} already: name a new folder, or an empty one")
@@ -62,15 +53,8 @@ def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], thres
 def draft_releases(repository: Repository, folders: Sequence[Path], channel: str, now: datetime) -> list[Manifest]:
     """Put releases into a channel.
 
-    Parameters
-    ----------
-    folders : sequence of Path
-        Releases as `make-release` made them, such as one for each platform.
-
-    Raises
-    ------
-    UpdateError
-        If a release was altered, its counter is not larger than that of the release it follows, or its version is taken.
+    Folders are releases as `make-release` made them, such as one for each platform. Raises UpdateError if a release was altered,
+    its counter is not larger than that of the release it follows, or its version is taken.
     """
     repository.must_have_no_draft()
     if not CHANNEL.fullmatch(channel):
@@ -105,10 +89,7 @@ def draft_keys(
 ) -> None:
     """Change whose keys count; the new root is signed by enough of the old keys and enough of the new ones.
 
-    Raises
-    ------
-    UpdateError
-        If a key to drop does not count, or fewer keys than the threshold would be left.
+    Raises UpdateError if a key to drop does not count, or fewer keys than the threshold would be left.
     """
     repository.must_have_no_draft()
 
@@ -142,13 +123,7 @@ def draft_renewal(repository: Repository, now: datetime) -> None:
 
 
 def check_thresholds(root: Root) -> None:
-    """Check that each role has keys enough.
-
-    Raises
-    ------
-    UpdateError
-        If one has not.
-    """
+    """Check that each role has keys enough; raises UpdateError if one has not."""
     for role, wanted in root.roles.items():
         if not 1 <= wanted.threshold <= len(wanted.keyids):
             people = f"{wanted.threshold} people are to sign, but {len(wanted.keyids)} keys are given"

@@ -41,11 +41,8 @@ LOCK: Final = ".lock"  # a file of the owner's: the folder itself may be locked 
 class Repository:
     """A repository, for as long as nobody else works on it.
 
-    Parameters
-    ----------
-    dated : str, optional
-        A date such as 2027-03-28 that people have looked up: a timestamp of that date is signed however long after the last
-        one, or before it.
+    With `dated`, a date such as 2027-03-28 that people have looked up, a timestamp of that date is signed however long after the
+    last one, or before it.
     """
 
     def __init__(self, folder: Path, dated: str | None = None) -> None:
@@ -58,13 +55,7 @@ class Repository:
     @classmethod
     @contextmanager
     def opened(cls, folder: Path, *, new: bool = False, dated: str | None = None) -> Iterator[Repository]:
-        """Lock a repository, or a new one.
-
-        Raises
-        ------
-        UpdateError
-            If it is none (or there is one), or another process works on it.
-        """
+        """Lock a repository, or a new one; raises UpdateError if it is none (or there is one), or another process works on it."""
         repository = cls(folder, dated)
         if new:
             folder.mkdir(parents=True, exist_ok=True)
@@ -105,17 +96,8 @@ class Repository:
     def changed(self, role: str, now: datetime, edit: Callable[[Any], None] = lambda _: None) -> Metadata[Any]:
         """The next version of what is published of a role, without signatures.
 
-        Parameters
-        ----------
-        now : datetime
-            Its life begins now.
-        edit : callable
-            Changes its content.
-
-        Raises
-        ------
-        UpdateError
-            If nothing of it is published yet; for the timestamp, if now is no time that it can be made at.
+        Its life begins `now`; `edit` changes its content. Raises UpdateError if nothing of it is published yet; for the timestamp,
+        if now is no time that it can be made at.
         """
         found = self.published(role)
         if found is None:
@@ -130,13 +112,7 @@ class Repository:
         return found
 
     def must_have_no_draft(self) -> None:
-        """Check that nothing waits for signatures.
-
-        Raises
-        ------
-        UpdateError
-            If a draft does.
-        """
+        """Check that nothing waits for signatures; raises UpdateError if a draft does."""
         if self.draft.exists():
             raise UpdateError(
                 f"{self.draft}: waits for signatures: {self.lacking() or 'sign once more'}; or give it up: remove this folder"
@@ -161,17 +137,10 @@ class Repository:
         return {key_id: root.get_key(key_id) for root in roots for key_id in root.roles[role].keyids}
 
     def sign(self, signer: CryptoSigner) -> list[str]:
-        """Sign every role of the draft that this key counts for.
+        """Sign every role of the draft that this key counts for; returns the roles.
 
-        Returns
-        -------
-        list of str
-            The roles.
-
-        Raises
-        ------
-        UpdateError
-            If there is no draft, the key counts for nothing of it, or it is dated as no timestamp may be that follows the last.
+        Raises UpdateError if there is no draft, the key counts for nothing of it, or it is dated as no timestamp may be that
+        follows the last.
         """
         roles = [role for role in self._draft_roles() if signer.public_key.keyid in self.signers(role)]
         if not roles:
@@ -186,17 +155,9 @@ class Repository:
         return roles
 
     def take(self, folder: Path) -> list[str]:
-        """Take over signatures from a copy of the draft, which was signed elsewhere.
+        """Take over signatures from a copy of the draft, which was signed elsewhere; returns whose they are.
 
-        Returns
-        -------
-        list of str
-            Whose they are.
-
-        Raises
-        ------
-        UpdateError
-            If it is the copy of another draft, or has a signature that does not hold.
+        Raises UpdateError if it is the copy of another draft, or has a signature that does not hold.
         """
         other, taken = Repository(folder), set()
         if not other.draft.is_dir():
@@ -235,15 +196,8 @@ class Repository:
 
         A copy without `targets/`, in which somebody has signed elsewhere, publishes nothing.
 
-        Returns
-        -------
-        bool
-            Whether it was published.
-
-        Raises
-        ------
-        UpdateError
-            If the draft contradicts what is published, or files of it are missing or altered.
+        Returns whether it was published. Raises UpdateError if the draft contradicts what is published, or files of it are missing
+        or altered.
         """
         if self.lacking() or not self.targets.is_dir():
             return False

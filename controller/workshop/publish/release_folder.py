@@ -30,26 +30,9 @@ def write_release(
 ) -> Manifest:
     """Write the folder of a release; it is there whole, or not at all.
 
-    Parameters
-    ----------
-    out : Path
-        Must not exist.
-    about : Manifest
-        All but the files.
-    contents : mapping
-        Of each file's path in the release: where it is now, or its bytes.
-    pieces : mapping
-        Of each bank's path in the release: offset and length in bytes of what changes as one.
-
-    Returns
-    -------
-    Manifest
-        The files included.
-
-    Raises
-    ------
-    UpdateError
-        If the folder exists, the manifest is not valid, or it cannot be written: nothing is left of it.
+    `about` is all but the files, which the result includes. `contents` has, by each file's path in the release, where it is now, or
+    its bytes; `pieces`, by each bank's path, offset and length in bytes of what changes as one. `out` must not exist. Raises
+    UpdateError if the folder exists, the manifest is not valid, or it cannot be written: nothing is left of it.
     """
     if out.exists():
         raise UpdateError(f"{out}: exists: a release is never overwritten, remove it or name another folder")
@@ -76,10 +59,7 @@ def write_release(
 def read_release(folder: Path) -> Manifest:
     """The manifest of a release, all its files looked at.
 
-    Raises
-    ------
-    UpdateError
-        If a file is missing, another one, or not listed: the release was altered after it was made.
+    Raises UpdateError if a file is missing, another one, or not listed: the release was altered after it was made.
     """
     try:
         data = (folder / MANIFEST).read_bytes()

@@ -33,31 +33,15 @@ License = LicenseExpression | DisjunctiveLicense
 
 def sbom(
     version: str,
-    time_s: int,
-    own: Path,
-    wheels: Iterable[Path],
-    others: Mapping[str, Path],
-    about: Mapping[str, Mapping[str, str]],
+    time_s: int,  # its time, in s since 1970
+    own: Path,  # wheel of this project
+    wheels: Iterable[Path],  # the others
+    others: Mapping[str, Path],  # of each other file's path in the release, where it is
+    about: Mapping[str, Mapping[str, str]],  # of a file's path, what is known of how it was made
 ) -> bytes:
     """The bill of a release: the same bytes for the same files.
 
-    Parameters
-    ----------
-    time_s : int
-        Its time, in s since 1970.
-    own : Path
-        Wheel of this project.
-    wheels : iterable of Path
-        The others.
-    others : mapping
-        Of each other file's path in the release, where it is.
-    about : mapping
-        Of a file's path, what is known of how it was made.
-
-    Raises
-    ------
-    UpdateError
-        If a wheel cannot be read, or tells another version than its name or the release.
+    Raises UpdateError if a wheel cannot be read, or tells another version than its name or the release.
     """
     main = _of_wheel(own, ComponentType.FIRMWARE)
     if main.version != version:

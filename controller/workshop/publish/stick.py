@@ -26,20 +26,8 @@ def export(repository: Repository, stick: Path, signer: CryptoSigner, now: datet
 
     The repository's own timestamp becomes newer than that of the stick, first: a device that has seen the stick goes on with it.
 
-    Parameters
-    ----------
-    signer : CryptoSigner
-        A key that counts for the timestamp.
-
-    Returns
-    -------
-    int
-        Bytes of all files.
-
-    Raises
-    ------
-    UpdateError
-        If a draft waits, the key does not count, a file is altered or cannot be copied, or the stick holds something else.
+    The signer's key counts for the timestamp. Returns the bytes of all files. Raises UpdateError if a draft waits, the key does not
+    count, a file is altered or cannot be copied, or the stick holds something else.
     """
     repository.must_have_no_draft()
     if stick.resolve().is_relative_to(repository.folder.resolve()):

@@ -29,15 +29,8 @@ PIP: Final = ("-m", "pip", "--disable-pip-version-check", "--no-input", "--quiet
 def fetched(packages: Iterable[Locked], target: Target, tools: Path, cache: Path) -> Path:
     """Folder with a wheel of each package: of the registry, or built of its sources; made once.
 
-    Parameters
-    ----------
-    tools : Path
-        Lock file of what wheels are built with.
-
-    Raises
-    ------
-    UpdateError
-        If a package cannot be fetched or built, or must be built for another platform than this computer's.
+    `tools` is the lock file of what wheels are built with. Raises UpdateError if a package cannot be fetched or built, or must be
+    built for another platform than this computer's.
     """
     packages = list(packages)
     built = [one for one in packages if one.name in BUILT]
@@ -64,25 +57,9 @@ def fetched(packages: Iterable[Locked], target: Target, tools: Path, cache: Path
 def built_here(source: Path, time_s: int, tools: Path, cache: Path, folder: Path, *, mypyc: bool, workshop: bool) -> Path:
     """This project's wheel, built from its source.
 
-    Parameters
-    ----------
-    source : Path
-        Folder of pyproject.toml.
-    time_s : int
-        Of its files, in s since 1970.
-    tools : Path
-        Lock file of what wheels are built with.
-    cache, folder : Path
-        `folder` is where it goes.
-    mypyc : bool
-        Compile the loop too.
-    workshop : bool
-        With that wing, which no device needs.
-
-    Raises
-    ------
-    UpdateError
-        If it does not build.
+    `source` is the folder of pyproject.toml; its files get the time `time_s`, in s since 1970; `tools` is the lock file of what
+    wheels are built with; the wheel goes into `folder`. With `mypyc` the loop is compiled too; no device needs the `workshop`.
+    Raises UpdateError if it does not build.
     """
     wanted = {"HAPTIC_PANEL_MYPYC": str(int(mypyc)), "HAPTIC_PANEL_WING": "" if workshop else "device"}
     _run(
@@ -98,10 +75,7 @@ def built_here(source: Path, time_s: int, tools: Path, cache: Path, folder: Path
 def check_wing(wheel: Path, *, workshop: bool) -> None:
     """Check that a wheel of this project has the workshop, or has it not: no device gets code that signs.
 
-    Raises
-    ------
-    UpdateError
-        If it is otherwise.
+    Raises UpdateError if it is otherwise.
     """
     try:
         with zipfile.ZipFile(wheel) as files:
@@ -115,13 +89,7 @@ def check_wing(wheel: Path, *, workshop: bool) -> None:
 
 
 def must_be_here(target: Target, what: str) -> None:
-    """Check that wheels for a target can be built on this computer.
-
-    Raises
-    ------
-    UpdateError
-        If not.
-    """
+    """Check that wheels for a target can be built on this computer; raises UpdateError if not."""
     if target != Target(platform.machine(), sys.version_info[1]):
         here = f"{platform.machine()}-cp3{sys.version_info[1]}"
         raise UpdateError(

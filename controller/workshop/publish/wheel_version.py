@@ -21,13 +21,7 @@ METADATA: Final = re.compile(rb"^Version: \S+$", re.MULTILINE)
 
 
 def check_version(version: str) -> None:
-    """Check that a release's version is one of Python's, in the form that wheels have.
-
-    Raises
-    ------
-    UsageError
-        If not.
-    """
+    """Check that a release's version is one of Python's, in the form that wheels have; raises UsageError if not."""
     try:
         canonical = str(Version(version))
     except InvalidVersion:
@@ -39,15 +33,7 @@ def check_version(version: str) -> None:
 def with_version(wheel: Path, version: str, folder: Path) -> Path:
     """A wheel of this project with another version: in its name, its metadata, its manual and `controller.__version__`.
 
-    Parameters
-    ----------
-    folder : Path
-        Where it goes. The same wheel makes the same bytes.
-
-    Raises
-    ------
-    UpdateError
-        If it is no wheel of this project.
+    It goes into `folder`; the same wheel makes the same bytes. Raises UpdateError if it is no wheel of this project.
     """
     name, old, *tags = wheel.name.split("-")
     parse_wheel_filename(wheel.name)

@@ -36,42 +36,21 @@ COLUMNS: Final = ("time_s", "drift_percent", "sensor_c")
 
 @dataclass(frozen=True, eq=False)
 class Drift:
-    """Relative change of all frequencies of a plate over the time of a recording.
+    """Relative change of all frequencies of a plate over the time of a recording."""
 
-    Attributes
-    ----------
-    time_s : (row,) array
-        Rising; before the first row and after the last the drift stays.
-    drift : (row,) array
-        Relative: 0.005 is 0.5 % higher.
-    sensor_c : (row,) array or None
-        What the sensor says from `time_s` on, in °C, NaN where it fails; None: the temperature that the drift means.
-    """
-
-    time_s: NDArray[np.float64]
-    drift: NDArray[np.float64]
+    time_s: NDArray[np.float64]  # (row,): rising; before the first row and after the last the drift stays
+    drift: NDArray[np.float64]  # (row,): relative: 0.005 is 0.5 % higher
+    # (row,): what the sensor says from `time_s` on, in °C, NaN where it fails; None: the temperature that the drift means
     sensor_c: NDArray[np.float64] | None = None
 
     @classmethod
     def constant(cls, percent: float) -> Drift:
-        """The same drift all the time.
-
-        Raises
-        ------
-        ConfigError
-            If it is more than a plate can have.
-        """
+        """The same drift all the time; raises ConfigError if it is more than a plate can have."""
         return cls(np.zeros(1), np.array([_checked(percent, "--drift-percent") / 100]))
 
     @classmethod
     def read(cls, file: Path) -> Drift:
-        """Drift from a CSV file.
-
-        Raises
-        ------
-        ConfigError
-            Naming file and line.
-        """
+        """Drift from a CSV file; raises ConfigError, naming file and line."""
         try:
             rows = list(csv.reader(read_text(file).splitlines()))
         except (OSError, ValueError, csv.Error) as error:
@@ -118,13 +97,7 @@ class DriftingSensor:
         self._recording_s = recording_s
 
     def read_c(self) -> float:
-        """Temperature in °C now.
-
-        Raises
-        ------
-        OSError
-            Where the drift's file says that the sensor fails.
-        """
+        """Temperature in °C now; raises OSError where the drift's file says that the sensor fails."""
         drift, settings, now_s = self._drift, self._settings, self._recording_s()
         if drift.sensor_c is None:
             coefficient = settings.coefficient_per_k

@@ -20,21 +20,8 @@ MISSES_MM: Final = 4.0  # at most, along x and y
 class FeelingPerson:
     """A `Person`, with the panel that reports its finger.
 
-    Parameters
-    ----------
-    link : SimulatedLink
-        Its captures are consumed.
-    wired : mapping of int to int
-        By output, the actuator's channel that hangs on it, where it is another.
-    dead : collection of int
-        Actuators, by channel, that do not move.
-
-    Attributes
-    ----------
-    panel : GhostlyPanel
-        Reports the finger.
-    felt : list of int
-        Outputs that have moved alone, in order.
+    Captures of the link are consumed. `wired` has, by output, the actuator's channel that hangs on it, where it is another; `dead`
+    are actuators, by channel, that do not move.
     """
 
     def __init__(self, board: Board, link: SimulatedLink, wired: Mapping[int, int], dead: Collection[int], seed: int = 1) -> None:
@@ -43,9 +30,9 @@ class FeelingPerson:
         self._link, self._wired, self._dead = link, wired, dead
         self._random = random.Random(seed)
         self._fingers: list[Finger] = []
-        self.felt: list[int] = []
+        self.felt: list[int] = []  # outputs that have moved alone, in order
         self._says_nothing = False
-        self.panel = GhostlyPanel(board, self._fingers, self._feels, Ghosts(0.0, (1, 1)), until_s=1e6)
+        self.panel = GhostlyPanel(board, self._fingers, self._feels, Ghosts(0.0, (1, 1)), until_s=1e6)  # reports the finger
 
     def fileno(self) -> None:
         """None: it speaks when it is asked."""

@@ -53,10 +53,7 @@ class Evaluated:
 def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Evaluated:
     """Play the captured pins on the plate twin and evaluate every focus where its finger was at T; Ctrl-C ends it early.
 
-    Parameters
-    ----------
-    progress : callable, optional
-        Called with the number of emissions evaluated and of all emissions.
+    `progress` is called with the number of emissions evaluated and of all emissions.
     """
     meant = foci_meant(run)
     evaluated = Evaluated([], None, [], len(meant))

@@ -29,60 +29,27 @@ SLOTS = 64
 
 @dataclass(frozen=True)
 class Ghosts:
-    """How ghosts come and go.
+    """How ghosts come and go."""
 
-    Attributes
-    ----------
-    probability : float
-        Probability of a ghost in a disturbed scan.
-    lives : (int, int)
-        Fewest and most reports of a ghost, uniformly distributed.
-    size_mm : float
-        Contact size of ghosts; 0: the panel reports no sizes.
-    seed : int
-        Seed of the random ghosts.
-    """
-
-    probability: float
-    lives: tuple[int, int]
-    size_mm: float = 0.0
-    seed: int = 0
+    probability: float  # probability of a ghost in a disturbed scan
+    lives: tuple[int, int]  # fewest and most reports of a ghost, uniformly distributed
+    size_mm: float = 0.0  # contact size of ghosts; 0: the panel reports no sizes
+    seed: int = 0  # seed of the random ghosts
 
 
 class GhostlyPanel:
-    """An `EventReader` of simulated fingers and ghosts.
-
-    Parameters
-    ----------
-    board : Board
-        Gives the plate, which the panel covers exactly.
-    fingers : sequence of (begin_s, end_s, place)
-        Real fingers; the place in mm is constant or a function of time.
-    disturbed : callable
-        Called at each scan with its time; returns whether a pin changed since the last call.
-    period_s : float
-        Scan period; each scan is reported at once.
-    protocol : Protocol
-        Multi-touch protocol of the events.
-    from_s, until_s : float
-        Times between which it scans.
-
-    Attributes
-    ----------
-    ghosts : int
-        Number of ghosts so far.
-    """
+    """An `EventReader` of simulated fingers and ghosts."""
 
     def __init__(
         self,
-        board: Board,
-        fingers: Sequence[Finger],
-        disturbed: Callable[[float], bool],
+        board: Board,  # gives the plate, which the panel covers exactly
+        fingers: Sequence[Finger],  # each (begin_s, end_s, place): real fingers; the place in mm is constant or a function of time
+        disturbed: Callable[[float], bool],  # called at each scan with its time; returns whether a pin changed since the last call
         ghosts: Ghosts,
         *,
-        period_s: float = PERIOD_S,
-        protocol: Protocol = Protocol.B,
-        from_s: float = 0.0,
+        period_s: float = PERIOD_S,  # scan period; each scan is reported at once
+        protocol: Protocol = Protocol.B,  # multi-touch protocol of the events
+        from_s: float = 0.0,  # from_s, until_s: between which it scans
         until_s: float = 10.0,
     ) -> None:
         plate = board.plate
@@ -96,7 +63,7 @@ class GhostlyPanel:
             axes[ev.ABS_MT_TOUCH_MAJOR] = AxisInfo(0, round(UNITS_PER_MM * max(self._sides_mm)))
         self.description = DeviceDescription("simulated panel with ghosts", axes=axes)
         self._numbers = protocol is Protocol.B
-        self.ghosts = 0
+        self.ghosts = 0  # number of ghosts so far
         self._random = random.Random(ghosts.seed)
         self._fingers = fingers
         self._disturbed = disturbed
@@ -182,15 +149,7 @@ class GhostlyPanel:
 def pins_of(link: SimulatedLink) -> Callable[[float], bool]:
     """Return the `disturbed` of a panel in front of this link's gateware.
 
-    Parameters
-    ----------
-    link : SimulatedLink
-        Its captures are consumed.
-
-    Returns
-    -------
-    callable
-        Whether a channel pin changed between the last call and a time in s.
+    Captures of the link are consumed. It says whether a channel pin changed between the last call and a time in s.
     """
     ahead: list[int] = []  # changes later than that time: the link computes a frame's whole time on the wire at once
 

@@ -21,17 +21,10 @@ LIMIT_S = 1800.0  # that a simulation may take
 
 @dataclass(frozen=True)
 class Traces:
-    """What a transient simulation computed.
+    """What a transient simulation computed."""
 
-    Attributes
-    ----------
-    time_s : (n,) array
-    values : dict
-        (n,) array in V or A for each saved vector, by the name it was asked for.
-    """
-
-    time_s: Floats
-    values: dict[str, Floats]
+    time_s: Floats  # (n,)
+    values: dict[str, Floats]  # (n,) array in V or A for each saved vector, by the name it was asked for
 
     def __getitem__(self, name: str) -> Floats:
         return self.values[name]
@@ -64,19 +57,8 @@ class Traces:
 def transient(netlist: str, vectors: Sequence[str], step_s: float, end_s: float) -> Traces:
     """Simulate a netlist from its operating point.
 
-    Parameters
-    ----------
-    netlist : str
-        Without its title, analysis and end.
-    vectors : sequence of str
-        What to keep, such as ``v(out)`` and ``i(v1)``.
-    step_s, end_s : float
-        Longest step, and end of the simulation.
-
-    Raises
-    ------
-    ControllerError
-        If there is no ngspice, or it could not simulate this.
+    `netlist` is without its title, analysis and end; `vectors` are such as ``v(out)`` and ``i(v1)``; `step_s` is the longest step.
+    Raises ControllerError if there is no ngspice, or it could not simulate this.
     """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -95,17 +95,7 @@ def _drift(run: Run) -> dict[str, Any] | None:
 def spoiled(counters: Counters, *, real_time: bool) -> str:
     """Explain why the figures of the foci are those of a busy machine and not of the panel.
 
-    Parameters
-    ----------
-    counters : Counters
-        Of the run.
-    real_time : bool
-        Whether it ran in real time; in virtual time a busy machine changes nothing.
-
-    Returns
-    -------
-    str
-        Empty: the figures are those of the panel.
+    Empty: the figures are those of the panel. In virtual time a busy machine changes nothing.
     """
     if not real_time:
         return ""

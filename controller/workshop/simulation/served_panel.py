@@ -48,38 +48,18 @@ DRAIN_S = 1.0  # interval at which the captured pins are discarded
 
 
 class Touched(NamedTuple):
-    """Who touches the panel.
+    """Who touches the panel."""
 
-    Attributes
-    ----------
-    touches : callable
-        Makes the touches of a board's panel before a link, from a time in s of the host's clock on.
-    takes_pins : bool
-        Whether they consume what the pins did.
-    """
-
+    # Makes the touches of a board's panel before a link, from a time in s of the host's clock on
     touches: Callable[[Board, SimulatedLink, float], TouchSource]
-    takes_pins: bool
+    takes_pins: bool  # whether they consume what the pins did
 
 
 def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touched, ready: Callable[[], None]) -> None:
     """Run the simulated panel until SIGTERM or SIGINT.
 
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        Settings of the socket, instead of the board's.
-    bank : Bank
-        Bank of the whole plate.
-    touched : Touched
-        Makes the touches.
-    ready : callable
-        Called once the outputs are on.
-
-    Raises
-    ------
-    ControllerError
-        If scene or socket cannot be opened, or from the event loop.
+    `settings` of the socket take the place of the board's; `bank` is of the whole plate. `ready` is called once the outputs are on.
+    Raises ControllerError if scene or socket cannot be opened, or from the event loop.
     """
     clock = MonotonicClock()
     scene = load_scene(find_scene(board), board)

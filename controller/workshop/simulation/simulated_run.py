@@ -18,6 +18,7 @@ from controller.clocks import MonotonicClock, VirtualClock
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
+from controller.device.fpga.session import Session
 from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.playing.records import Played
 from controller.device.loop.skips import ALL, Skips
@@ -41,20 +42,11 @@ REFERENCE_ROUNDS = 2000
 
 @dataclass(frozen=True)
 class Hardware:
-    """What is simulated behind the loop.
+    """What is simulated behind the loop."""
 
-    Attributes
-    ----------
-    gateware : GatewareFactory
-        Makes the gateware: the model by default, or the compiled Verilog.
-    plate : Board, optional
-        Whose plate and driver are behind the pins, if they are not the board's.
-    drift : Drift, optional
-        Of the plate's frequencies; the board's temperature sensor, if it has one, says the temperature that this means.
-    """
-
-    gateware: GatewareFactory = GatewareModel
-    plate: Board | None = None
+    gateware: GatewareFactory = GatewareModel  # makes the gateware: the model by default, or the compiled Verilog
+    plate: Board | None = None  # whose plate and driver are behind the pins, if they are not the board's
+    # Of the plate's frequencies; the board's temperature sensor, if it has one, says the temperature that this means
     drift: Drift | None = None
 
 
@@ -87,34 +79,15 @@ class Run:
 def play(
     board: Board,
     scene: Scene,
-    bank: Bank,
-    recording: Recording,
+    bank: Bank,  # holds the cells of the scene
+    recording: Recording,  # touches; without any, nothing is played
     *,
-    real_time: bool,
-    ready: Callable[[], None] = lambda: None,
-    skips: Skips = ALL,
+    real_time: bool,  # False: virtual time, as fast as the machine can and deterministic
+    ready: Callable[[], None] = lambda: None,  # called once the outputs are on
+    skips: Skips = ALL,  # what of the loop's work is left out
     hardware: Hardware = MODEL,
 ) -> Run:
-    """Replay a recording through the event loop into the gateware.
-
-    Parameters
-    ----------
-    bank : Bank
-        Holds the cells of the scene.
-    recording : Recording
-        Touches; without any, nothing is played.
-    real_time : bool
-        False: virtual time, as fast as the machine can and deterministic.
-    ready : callable
-        Called once the outputs are on.
-    skips : Skips
-        What of the loop's work is left out.
-
-    Raises
-    ------
-    FaultError, LinkError
-        From the event loop.
-    """
+    """Replay a recording through the event loop into the gateware; raises FaultError or LinkError from the event loop."""
     clock = MonotonicClock() if real_time else VirtualClock()
     link = open_simulated(board, clock.now_s, hardware.gateware)
     session = open_session(link, board, clock.now_s)
@@ -127,10 +100,7 @@ def play(
     source = RecordingSource(recording, axes, start_s)
     contacts = {finger: [track] for finger, track in tracks.items()}
     tracker = tracked(source, board, lambda finger, contact: contacts[finger].append(tracks[contact]))
-    bit_clock = None
-    if hardware.drift is not None and board.temperature is not None:
-        sensor = hardware.drift.sensor(board.temperature, lambda: clock.now_s() - start_s)
-        bit_clock = BitClock(session, Thermometer(board.temperature, sensor), board.temperature.period_s)
+    bit_clock = _bit_clock(board, session, hardware.drift, lambda: clock.now_s() - start_s)
     assembly: Assembly
 
     def progress(now_s: float) -> None:  # what the service's housekeeping does about the temperature
@@ -160,6 +130,13 @@ def play(
         drift=hardware.drift,
         bit_clock=bit_clock,
     )
+
+
+def _bit_clock(board: Board, session: Session, drift: Drift | None, time_s: Callable[[], float]) -> BitClock | None:
+    """What follows the plate's temperature as it drifts, on a board with a sensor of it."""
+    if drift is None or board.temperature is None:
+        return None
+    return BitClock(session, Thermometer(board.temperature, drift.sensor(board.temperature, time_s)), board.temperature.period_s)
 
 
 def copy_and_checksum(size: int) -> LatencyHistogram:

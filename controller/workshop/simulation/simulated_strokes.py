@@ -19,37 +19,20 @@ FINE_S = 0.25e-3  # steps of the finger's path
 
 @dataclass(frozen=True)
 class SimulatedStrokes:
-    """Strokes with which the measurement of latency is tested.
+    """Strokes with which the measurement of latency is tested."""
 
-    Attributes
-    ----------
-    lag_s : float
-        Total latency of the panel's places.
-    smoothed_s : float
-        Part of it that comes from smoothing: time constant of a first-order low-pass.
-    period_s, noise_mm : float
-        Report period of the panel; standard deviation of its noise.
-    mouse_period_s, mouse_age_s : float
-        Report period of the mouse; age of the place that it reports.
-    turned_deg : float
-        Angle of the mouse to the plate; it also turns by 3 degrees and slips by 1 %.
-    strokes_hz, reach_mm, duration_s : float
-        Rate of the strokes, their amplitude, and the length of the recording.
-    seed : int
-        Seed of noise and phases.
-    """
-
-    lag_s: float
-    smoothed_s: float = 0.0
-    period_s: float = 8e-3
+    lag_s: float  # total latency of the panel's places
+    smoothed_s: float = 0.0  # part of it that comes from smoothing: time constant of a first-order low-pass
+    period_s: float = 8e-3  # period_s, noise_mm: report period of the panel; standard deviation of its noise
     noise_mm: float = 0.05
-    mouse_period_s: float = 1e-3
+    mouse_period_s: float = 1e-3  # mouse_period_s, mouse_age_s: report period of the mouse; age of the place that it reports
     mouse_age_s: float = 0.5e-3
-    turned_deg: float = 20.0
+    turned_deg: float = 20.0  # angle of the mouse to the plate; it also turns by 3 degrees and slips by 1 %
+    # strokes_hz, reach_mm, duration_s: rate of the strokes, their amplitude, and the length of the recording
     strokes_hz: float = 2.0
     reach_mm: float = 30.0
     duration_s: float = 20.0
-    seed: int = 0
+    seed: int = 0  # seed of noise and phases
 
     def recording(self, board: Board) -> str:
         """Make a recording, as text in evemu's format, on a panel that covers the board's plate exactly."""

@@ -19,7 +19,7 @@ from controller.device.board.board import load_board
 from controller.device.board.devices import LinkSettings, Realtime, Temperature
 from controller.device.board.lookup import find_board
 from controller.device.board.paths import bank_path
-from controller.device.doctor import doctor
+from controller.device.doctor import doctor, process_limits
 from controller.device.doctor.doctor import look
 from controller.device.doctor.link_examination import arriving_sck_hz, evaluated_sck, examine_link
 from controller.device.fpga.build_parameters import BuildParameters
@@ -133,8 +133,8 @@ def test_the_buffer_of_spidev_is_evaluated(board, monkeypatch, bufsiz, good, tex
 
 @pytest.mark.parametrize("limit", [0, 49, 50, resource.RLIM_INFINITY])
 def test_what_a_user_may_ask_of_the_scheduler_is_evaluated(board, monkeypatch, limit):
-    monkeypatch.setattr(doctor.os, "geteuid", lambda: 1000)
-    monkeypatch.setattr(doctor.resource, "getrlimit", lambda _: (limit, limit))
+    monkeypatch.setattr(process_limits.os, "geteuid", lambda: 1000)
+    monkeypatch.setattr(process_limits.resource, "getrlimit", lambda _: (limit, limit))
     findings = look(with_tables(board, link=SPI), VirtualClock().now_s)
     assert said(findings, "priority")[0] is (limit in (50, resource.RLIM_INFINITY))
     assert said(findings, "locked memory")[0] is (limit == resource.RLIM_INFINITY)
@@ -223,7 +223,7 @@ def test_systemd_that_fails_once_is_asked_again_and_one_that_keeps_failing_is_qu
 
 
 def test_another_user_is_informed_that_the_service_may_do_other_things(panel, monkeypatch):
-    monkeypatch.setattr(doctor.os, "geteuid", lambda: 12345)
+    monkeypatch.setattr(process_limits.os, "geteuid", lambda: 12345)
     (finding,) = [finding for finding in look(panel, VirtualClock().now_s) if finding.about == "user"]
     assert (finding.good, finding.warns) == (True, True)
     assert finding.said == "looked at as 12345; the service runs as haptic-panel, and may do other things"

@@ -26,14 +26,19 @@ def buffers(random, samples, nx, ny, idle_word, block, *, missing=0.0, largest=1
     there = random.random(nx * ny) >= missing
     entries = np.where(there, np.cumsum(there) - 1, -1).astype(np.int32)
     count = max(int(there.sum()), 1)
-    values = (samples + -(-samples // words_twin.REST_SAMPLES)) * 32
+    values = (samples + -(-samples // kernel.REST_SAMPLES)) * 32
     stride = -(-values // 64) * 64
     levels = random.integers(-largest, largest + 1, (count, stride), endpoint=False).astype(np.int8)
     levels[random.random(levels.shape) < quiet] = 0
     scales = (10 ** random.uniform(-11 - scale_decades, -11, count)).astype(np.float32)
-    plan = words_twin.PLAN.pack(samples, stride, nx, ny, count, idle_word, block, PITCH_M, 5e-3, 6e-3)
+    plan = kernel.PLAN.pack(samples, stride, nx, ny, count, idle_word, block, PITCH_M, 5e-3, 6e-3)
     room = bytearray(random.bytes(kernel.room_bytes(samples)))
     return [bytearray(4 * samples), room, plan, entries.tobytes(), scales.tobytes(), bytearray(b"\1" * count), levels.tobytes()]
+
+
+def compose_with(one, given_buffers, points):
+    words, room, *rest = given_buffers
+    return one.compose(words, room, kernel.BankBuffers(*rest), points)
 
 
 def outcome(one, given_buffers, points):
@@ -41,7 +46,7 @@ def outcome(one, given_buffers, points):
     words, room, *rest = given_buffers
     words, room = bytearray(words), bytearray(room)
     try:
-        answer = one.compose(words, room, *rest, points)
+        answer = one.compose(words, room, kernel.BankBuffers(*rest), points)
     except ValueError:
         return ValueError
     return answer, bytes(words)
@@ -99,7 +104,7 @@ def test_it_refuses_what_its_twin_refuses(data):
     numbers[at] = data.draw(st.one_of(st.integers(-(1 << 63), (1 << 63) - 1), st.integers(numbers[at] - 40, numbers[at] + 40)))
     floats = [data.draw(st.sampled_from([PITCH_M, PITCH_M, PITCH_M, 0.0, -1.0, math.nan, math.inf, 1e-310])), 5e-3, 6e-3]
     made = buffers(np.random.default_rng(1), 40, 3, 3, 0, 48)
-    made[2] = words_twin.PLAN.pack(*numbers, *floats)
+    made[2] = kernel.PLAN.pack(*numbers, *floats)
     for index in (0, 1, 3, 4, 5, 6):
         if data.draw(st.integers(0, 9)) == 0:
             made[index] = bytes(made[index][: data.draw(st.integers(0, len(made[index])))])
@@ -112,10 +117,10 @@ def test_it_refuses_what_its_twin_refuses(data):
 def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[5][4] = 0
-    assert one.compose(*made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == 4
+    assert compose_with(one, made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == 4
     assert not any(made[0])
     made[5][4] = 1
-    assert one.compose(*made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == -1
+    assert compose_with(one, made, [(5e-3, 6e-3, 1.0), (8e-3, 8e-3, 1.0)]) == -1
     assert any(made[0])
 
 
@@ -123,9 +128,9 @@ def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
 @pytest.mark.parametrize("samples", [0, -1, 2001, 1 << 40])
 def test_lengths_that_cannot_be_composed_are_refused(one, samples):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
-    made[2] = words_twin.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3)
+    made[2] = kernel.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3)
     with pytest.raises(ValueError, match="samples to compose"):
-        one.compose(*made, [(5e-3, 6e-3, 1.0)])
+        compose_with(one, made, [(5e-3, 6e-3, 1.0)])
     with pytest.raises(ValueError, match="samples to compose"):
         kernel.room_bytes(samples)
 
@@ -136,7 +141,7 @@ def test_a_buffer_that_is_too_short_is_refused(one, which):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[which] = bytearray(made[which])[: 49 * 32 + 5 * 50 * 32 if which == 6 else -1]
     with pytest.raises(ValueError, match=r"fit|room|plan"):
-        one.compose(*made, [(5e-3, 6e-3, 1.0), (5e-3 + 2 * PITCH_M, 6e-3 + PITCH_M, 1.0)])
+        compose_with(one, made, [(5e-3, 6e-3, 1.0), (5e-3 + 2 * PITCH_M, 6e-3 + PITCH_M, 1.0)])
 
 
 @both
@@ -145,7 +150,7 @@ def test_a_scale_that_cannot_be_is_refused(one, scale):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[4] = np.full(6, scale, np.float32).tobytes()
     with pytest.raises(ValueError, match="scale of response 0"):
-        one.compose(*made, [(6e-3, 7e-3, 1.0)])
+        compose_with(one, made, [(6e-3, 7e-3, 1.0)])
 
 
 @both
@@ -154,4 +159,4 @@ def test_a_plan_is_read_only_and_what_is_filled_is_not(one):
     for which in (0, 1):
         wrong = [bytes(some) if index == which else some for index, some in enumerate(made)]
         with pytest.raises((BufferError, TypeError, ValueError)):
-            one.compose(*wrong, [(5e-3, 6e-3, 1.0)])
+            compose_with(one, wrong, [(5e-3, 6e-3, 1.0)])

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller.device import kernel
-from controller.device.kernel import null_twin, words_twin
-from tests.device.kernel.test_compose import buffers, needs_compiled, on_cells, places
+from controller.device.kernel import null_twin
+from tests.device.kernel.test_compose import buffers, compose_with, needs_compiled, on_cells, places
 
 try:
     compiled = importlib.import_module("controller.device.kernel._kernel")
@@ -21,7 +21,7 @@ def outcome(one, given_buffers, points, nulls):
     words, room, *rest = given_buffers
     words, room = bytearray(words), bytearray(room)
     try:
-        answer = one.null_places(words, room, *rest, points, nulls)
+        answer = one.null_places(words, room, kernel.BankBuffers(*rest), points, nulls)
     except ValueError:
         return ValueError
     return answer, bytes(words)
@@ -54,7 +54,7 @@ def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idl
     given_buffers = buffers(random, samples, *size, idle_word, block, **bank)
     given_buffers[0][:] = random.bytes(4 * samples)
     if composed:
-        kernel.compose(*given_buffers, points)
+        compose_with(kernel, given_buffers, points)
     assert outcome(compiled, given_buffers, points, nulls) == outcome(null_twin, given_buffers, points, nulls)
 
 
@@ -84,7 +84,7 @@ def test_refuses_what_compose_refuses_and_leaves_words_alone_without_a_response(
     short[0] = bytearray(396)
     assert outcome(one, short, [here], [there]) is ValueError
     short = [*given_buffers]
-    short[1] = bytearray(words_twin.room_bytes(100) - 1)
+    short[1] = bytearray(kernel.room_bytes(100) - 1)
     assert outcome(one, short, [here], [there]) is ValueError
     given_buffers[5][4] = 0  # the cell in the middle may not be used
     assert outcome(one, given_buffers, [here], [there]) == (4, before)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.outbox import Outbox, TooSlow
-from controller.device.page.requests import FRAME_BYTES, judged
+from controller.device.page.requests import FRAME_BYTES, evaluated
 
 ALL = frozenset({"look", "play", "regions", "operate"})
 PLAYS = frozenset({"look", "play"})
@@ -23,7 +23,7 @@ def full(per_s, burst):
 
 
 def judge(frame, rights=ALL):
-    line, answer = judged(frame, rights, full(1000, 1000), 0.0)
+    line, answer = evaluated(frame, rights, full(1000, 1000), 0.0)
     assert bool(line) != bool(answer)
     return line or json.loads(answer)
 
@@ -34,7 +34,7 @@ def test_a_frame_becomes_one_line():
     assert line.count(b"\n") == 1
 
 
-def test_the_panel_reads_what_was_judged():
+def test_the_panel_reads_what_was_evaluated():
     """Two values of one key, of which either may count: what is passed on has one."""
     assert judge('{"kind": "arm", "kind": "stop"}', PLAYS) == b'{"kind":"stop"}\n'
     assert judge('{"kind": "stop", "kind": "arm", "id": 5}', PLAYS)["outcome"] == "refused"
@@ -96,20 +96,20 @@ def test_ids_come_back_where_they_are_valid():
 
 def test_the_rate_is_refused_beyond_its_burst_and_never_for_a_stop():
     rate = full(10, 3)
-    outcomes = [bool(judged('{"kind": "state"}', ALL, rate, 0.0)[0]) for _ in range(5)]
+    outcomes = [bool(evaluated('{"kind": "state"}', ALL, rate, 0.0)[0]) for _ in range(5)]
     assert outcomes == [True, True, True, False, False]
-    assert judged('{"kind": "stop"}', ALL, rate, 0.0)[0]
-    assert judged('{"kind": "state"}', ALL, rate, 0.1)[0]
-    assert not judged('{"kind": "state"}', ALL, rate, 0.1)[0]
-    assert judged('{"kind": "state"}', ALL, rate, math.inf)[0]
+    assert evaluated('{"kind": "stop"}', ALL, rate, 0.0)[0]
+    assert evaluated('{"kind": "state"}', ALL, rate, 0.1)[0]
+    assert not evaluated('{"kind": "state"}', ALL, rate, 0.1)[0]
+    assert evaluated('{"kind": "state"}', ALL, rate, math.inf)[0]
 
 
 def test_a_long_line_counts_as_several():
     long = json.dumps({"kind": "regions", "regions": ["x" * (3 * LINE_BYTES)]})
     for burst in (3, 4, 5):  # of a smaller one it takes all
         rate = full(1, burst)
-        assert judged(long, ALL, rate, 0.0)[0]
-        assert bool(judged('{"kind": "state"}', ALL, rate, 0.0)[0]) == (burst == 5)
+        assert evaluated(long, ALL, rate, 0.0)[0]
+        assert bool(evaluated('{"kind": "state"}', ALL, rate, 0.0)[0]) == (burst == 5)
 
 
 def touch(finger, x_mm, contact=True):

@@ -13,7 +13,7 @@ from controller.device.board.relations.checked import judge
 from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.device.doctor.finding import Finding
 from controller.device.doctor.way import in_lines, way
-from controller.device.setup.answers import HELD, Answers, glasses
+from controller.device.setup.answers import HELD, SetupAnswers, glasses
 from controller.device.setup.board_folder import write_board
 from controller.errors import ConfigError
 
@@ -27,7 +27,7 @@ TOUCH = {
 
 
 def answers(**more):
-    return as_record("", {**SIZE, **more}, Answers)
+    return as_record("", {**SIZE, **more}, SetupAnswers)
 
 
 def test_a_folder_holds_all_that_the_board_names(tmp_path):

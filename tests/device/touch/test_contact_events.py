@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ContactEvents, ReportedContact, describe
 from controller.device.touch.event_codes import Protocol, protocol_of_device
@@ -77,7 +77,7 @@ contacts = st.builds(
 @given(st.lists(st.lists(contacts, max_size=MAX_CONTACTS, unique_by=lambda contact: contact.number), max_size=20))
 def test_a_decoder_sees_exactly_the_contacts_of_each_report(reports):
     board = load_board(data_folder("boards") / "simulated")
-    decoder = Decoder(Axes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.B)
+    decoder = Decoder(PanelAxes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.B)
     panel = ContactEvents(sized=True)
     for listed in reports:
         events = panel.report(listed, 0.0)

@@ -11,12 +11,12 @@ from tables import each_row
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.touch.associate import assignment
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import MAX_PLAYED, MAX_SLOTS, MAX_UNNAMED, Decoder
 from controller.device.touch.event_codes import Protocol, protocol_of, protocol_of_device
 
 BOARD = load_board(data_folder("boards") / "simulated")
-AXES = Axes(BOARD, AxisRange(0, 2100), AxisRange(0, 1480))  # a tenth of a millimetre each
+AXES = PanelAxes(BOARD, AxisRange(0, 2100), AxisRange(0, 1480))  # a tenth of a millimetre each
 
 SYN, KEY, ABS = 0, 1, 3
 SLOT, MAJOR, X, Y, TOOL, ID, DISTANCE, TOUCH = 0x2F, 0x30, 0x35, 0x36, 0x37, 0x39, 0x3B, 0x14A
@@ -526,7 +526,7 @@ def test_any_stream_gives_fingers_that_begin_move_and_end(protocol, stream):
 def test_positions_off_the_plate_are_counted_and_those_at_its_edge_are_not(x, y, off):
     """Of a panel that reaches 10 and 6 mm beyond the glass: 2 mm beyond the edge are no more than the map is wrong."""
     touch = msgspec.structs.replace(BOARD.touch, x_mm_from_axes=(230.0, 0.0, -10.0), y_mm_from_axes=(0.0, 160.0, -6.0))
-    axes = Axes(msgspec.structs.replace(BOARD, touch=touch), AxisRange(0, 2300), AxisRange(0, 1600))
+    axes = PanelAxes(msgspec.structs.replace(BOARD, touch=touch), AxisRange(0, 2300), AxisRange(0, 1600))
     source = Decoder(axes, Protocol.B)
     ((_, x_mm, y_mm, _),) = play(source, (ID, 1), (X, x), (Y, y), REPORT)
     assert source.counts.off_plate == off

@@ -1,6 +1,6 @@
 """Benchmark: `pytest -o addopts=--import-mode=importlib --benchmark-only tests/device/touch/test_decoder_speed.py`."""
 
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.event_codes import Protocol
 
@@ -15,7 +15,7 @@ def report(moved, *, first=False):
 
 
 def test_a_report_of_four_moving_fingers(benchmark, board):
-    decoder = Decoder(Axes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.B)
+    decoder = Decoder(PanelAxes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.B)
     for event in report(0, first=True):
         decoder.feed(*event, 0.0)
     reports = [report(1), report(2)]
@@ -30,7 +30,7 @@ def test_a_report_of_four_moving_fingers(benchmark, board):
 
 
 def test_a_report_of_ten_moving_fingers_without_identities(benchmark, board):
-    decoder = Decoder(Axes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.A)
+    decoder = Decoder(PanelAxes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.A)
 
     def report_of_ten(moved):
         places = ((100 + 200 * finger + moved, 100 + 100 * finger + moved) for finger in range(10))

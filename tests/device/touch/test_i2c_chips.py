@@ -36,7 +36,9 @@ def test_every_contact_of_an_ft5x06_is_read(held):
     chip = Ft5x06Chip()
     chip.touch(held)
     warnings = Counter()
-    assert ft5x06.contacts_of(ft5x06_report(chip), warnings) == [ReportedContact(number, *place) for number, place in held.items()]
+    assert ft5x06.REPORT.contacts(ft5x06_report(chip), warnings) == [
+        ReportedContact(number, *place) for number, place in held.items()
+    ]
     assert not warnings
 
 
@@ -44,11 +46,11 @@ def test_every_contact_of_an_ft5x06_is_read(held):
 def test_a_short_read_is_enough_or_says_that_it_is_not(held, points):
     chip = Ft5x06Chip()
     chip.touch(held)
-    found = ft5x06.contacts_of(ft5x06_report(chip, points), Counter())
+    found = ft5x06.REPORT.contacts(ft5x06_report(chip, points), Counter())
     assert (found is None) == (points < len(held))
     goodix = Gt911Chip(contacts=10)
     goodix.touch(held)
-    found = gt911.contacts_of(gt911_report(goodix, points), Counter())
+    found = gt911.REPORT.contacts(gt911_report(goodix, points), Counter())
     assert (found is None) == (points < len(held))
 
 
@@ -57,9 +59,9 @@ def test_a_lifted_finger_of_an_ft5x06_is_not_listed_whether_or_not_the_chip_list
     chip.touch({0: (10, 20), 1: (30, 40)})
     chip.touch({1: (30, 40)})
     report = bytearray(ft5x06_report(chip))
-    assert ft5x06.contacts_of(report, Counter()) == [ReportedContact(1, 30, 40)]
+    assert ft5x06.REPORT.contacts(report, Counter()) == [ReportedContact(1, 30, 40)]
     report[2] = 2  # some firmware counts the lifted one
-    assert ft5x06.contacts_of(report, Counter()) == [ReportedContact(1, 30, 40)]
+    assert ft5x06.REPORT.contacts(report, Counter()) == [ReportedContact(1, 30, 40)]
 
 
 def test_the_ghost_at_the_corner_is_counted_and_left_out():
@@ -67,11 +69,11 @@ def test_the_ghost_at_the_corner_is_counted_and_left_out():
     chip.ghosts = 2
     chip.touch({3: (1, 0)})
     warnings = Counter()
-    assert ft5x06.contacts_of(ft5x06_report(chip), warnings) == [ReportedContact(3, 1, 0)]
+    assert ft5x06.REPORT.contacts(ft5x06_report(chip), warnings) == [ReportedContact(3, 1, 0)]
     assert warnings == {"ghost_points": 2}
     goodix = Gt911Chip()
     goodix.touch({0: (0, 0), 1: (0, 1)})
-    assert gt911.contacts_of(gt911_report(goodix), warnings) == [ReportedContact(1, 0, 1, 20)]
+    assert gt911.REPORT.contacts(gt911_report(goodix), warnings) == [ReportedContact(1, 0, 1, 20)]
     assert warnings == {"ghost_points": 3}
 
 
@@ -81,7 +83,7 @@ def test_the_ghost_at_the_corner_is_counted_and_left_out():
 def test_every_contact_of_a_gt911_is_read_with_its_size(held, size):
     chip = Gt911Chip(contacts=10)
     chip.touch(held, size)
-    found = gt911.contacts_of(gt911_report(chip), Counter())
+    found = gt911.REPORT.contacts(gt911_report(chip), Counter())
     assert found == [ReportedContact(number, *place, size) for number, place in held.items()]
 
 
@@ -99,13 +101,13 @@ def test_any_bytes_are_a_report_of_an_m06_or_refused(report):
         ft5x06.contacts_of_m06(body + bytes([checksum ^ 1]), Counter())
 
 
-@pytest.mark.parametrize("contacts_of", [ft5x06.contacts_of, gt911.contacts_of])
+@pytest.mark.parametrize("layout", [ft5x06.REPORT, gt911.REPORT])
 @given(report=st.binary(min_size=100, max_size=100))
-def test_any_bytes_are_contacts_that_can_be_or_refused(contacts_of, report):
+def test_any_bytes_are_contacts_that_can_be_or_refused(layout, report):
     try:
-        found = contacts_of(report, Counter())
+        found = layout.contacts(report, Counter())
     except ValueError:
-        count = report[2 if contacts_of is ft5x06.contacts_of else 0] & 0x0F
+        count = report[layout.count_at] & 0x0F
         assert count > MAX_CONTACTS
         return
     for number, x, y, size in found:

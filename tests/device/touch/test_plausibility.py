@@ -11,7 +11,7 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.event_codes import Protocol
 from controller.device.touch.plausibility import EDGE_M, figures
@@ -31,7 +31,7 @@ class Panel:
 
     def __init__(self, protocol=Protocol.B, *, after=None, **settings):
         board = msgspec.structs.replace(BOARD, touch=msgspec.structs.replace(BOARD.touch, **settings))
-        self.decoder = Decoder(Axes(board, AxisRange(0, 2100), AxisRange(0, 1480)), protocol, after=after)
+        self.decoder = Decoder(PanelAxes(board, AxisRange(0, 2100), AxisRange(0, 1480)), protocol, after=after)
         self.now_s = 1.0
         self.protocol = protocol
 

@@ -12,12 +12,12 @@ from test_panel_process import Ends, Scripted
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.touch import event_codes as ev
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.drivers import screen as kernel_screen
 from controller.device.touch.drivers.contact_events import ContactEvents, ReportedContact, describe
 from controller.device.touch.drivers.panel_process import PanelProcess, serve_panel
-from controller.device.touch.drivers.screen import Screen
+from controller.device.touch.drivers.screen import KernelScreen
 from controller.device.touch.drivers.shared_panel import SharedPanel
 from controller.device.touch.event_codes import Protocol
 from controller.device.touch.event_reader import AxisInfo, DeviceDescription
@@ -41,7 +41,7 @@ class Seen:
         plate = SimpleNamespace(length_m=length_mm * 1e-3, width_m=width_mm * 1e-3)
         touch = msgspec.structs.replace(BOARD.touch, x_mm_from_axes=(length_mm, 0, 0), y_mm_from_axes=(0, width_mm, 0))
         ranges = [AxisRange(0, round(side * kernel_screen.UNITS_PER_MM)) for side in (length_mm, width_mm)]
-        self.decoder = Decoder(Axes(SimpleNamespace(touch=touch, plate=plate), *ranges), Protocol.B, last_slot=9)
+        self.decoder = Decoder(PanelAxes(SimpleNamespace(touch=touch, plate=plate), *ranges), Protocol.B, last_slot=9)
         self.fingers = {}
 
     def report(self, events):
@@ -199,7 +199,7 @@ def test_the_loop_has_a_report_before_other_programs_and_the_screen_goes_with_th
 def test_without_the_kernels_device_the_reason_is_one_line(tmp_path, monkeypatch):
     monkeypatch.setattr(kernel_screen, "NODE", tmp_path / "uinput")
     with pytest.raises(TouchError, match=r"there is no .*uinput: load the kernel module uinput"):
-        Screen("panel", 210, 148)
+        KernelScreen("panel", 210, 148)
     (tmp_path / "uinput").touch()
     with pytest.raises(TouchError, match="makes no touch screen"):
-        Screen("panel", 210, 148)
+        KernelScreen("panel", 210, 148)

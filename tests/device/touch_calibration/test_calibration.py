@@ -14,7 +14,7 @@ from tables import each_row
 from controller.cli import main
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.source import TouchSample
 from controller.device.touch_calibration.calibration import (
     HOLD_S,
@@ -73,8 +73,8 @@ def test_fingertips_put_down_a_millimetre_off_give_a_map_no_farther_off(missed_m
     touches = [touched((x + dx, y + dy), *panel) for (x, y), (dx, dy) in zip(targets, missed_mm, strict=True)]
     found = calibrate(targets, touches, PLATE)
     assert found.rms_mm <= found.worst_mm <= 4.0
-    axes = Axes(_board(found), AxisRange(0, 1 << 20), AxisRange(0, 1 << 20))
-    right = Axes(_board(Calibration(*panel, ())), AxisRange(0, 1 << 20), AxisRange(0, 1 << 20))
+    axes = PanelAxes(_board(found), AxisRange(0, 1 << 20), AxisRange(0, 1 << 20))
+    right = PanelAxes(_board(Calibration(*panel, ())), AxisRange(0, 1 << 20), AxisRange(0, 1 << 20))
     raw = [round(share * (1 << 20)) for share in touched((105, 74), *panel)]
     assert math.dist(axes.position_m(*raw), right.position_m(*raw)) <= math.sqrt(2) * 1e-3
 

@@ -17,8 +17,8 @@ from controller.workshop.physics.design.design_figures import design_figures
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.pictures.focus_series import focus_series
 from controller.workshop.physics.pictures.plot import plot_focus
-from controller.workshop.physics.plate_twin import capture_of_words
 from controller.workshop.physics.responses.modal_history import modal_energy, modal_history
+from controller.workshop.physics.word_capture import capture_of_words
 
 POINT = (0.052, 0.031)
 

@@ -8,7 +8,8 @@ from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.benchmark.fingers_scenes import DRIFT, INNER_M, MARGIN_M, scenes, still
 from controller.workshop.benchmark.focus.focus_figures import emit
-from controller.workshop.benchmark.judge import Judge, bound
+from controller.workshop.benchmark.judge import Judge
+from controller.workshop.benchmark.plate_under_test import bound
 from controller.workshop.physics.audible import surface_energy
 from controller.workshop.physics.plate_twin import PlateTwin
 

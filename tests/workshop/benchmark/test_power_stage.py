@@ -8,8 +8,9 @@ from tables import each_row
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder, find_board
 from controller.errors import ControllerError
-from controller.workshop.benchmark.stage import power_stage, stage_waveforms
-from controller.workshop.benchmark.stage.power_stage import BEGIN, END, WRONG_PARTS, digest, limits, measure, parameters
+from controller.workshop.benchmark.stage import stage_waveforms
+from controller.workshop.benchmark.stage.power_stage import BEGIN, BENCHES, END, WRONG_PARTS, limits, measure
+from controller.workshop.benchmark.stage.stage_circuit import digest, parameters
 from controller.workshop.simulation import ngspice
 
 FOLDER = data_folder("boards") / "stage"
@@ -77,7 +78,7 @@ def test_resistors_coil_and_patch_make_the_driver_of_the_board(ulx3s):
 
 def test_a_wrong_part_is_one_that_there_is_and_another():
     for what, parts, bench in WRONG_PARTS:
-        assert bench in power_stage.BENCHES
+        assert bench in BENCHES
         for name, value in parts.items():
             assert not 0.6 < value / parameters()[name] < 1.5, what
 

@@ -13,7 +13,8 @@ from controller.cli import main
 from controller.commands.benchmark import SKIPS
 from controller.device.loop.skips import ALL, Skips
 from controller.workshop.benchmark.device import skipping
-from controller.workshop.benchmark.device.skipping import CASES, NONE, PlayedContact, SkipCase, exact_bits, figures
+from controller.workshop.benchmark.device.skip_cases import CASES, PlayedContact, SkipCase
+from controller.workshop.benchmark.device.skipping import NONE, exact_bits, figures
 
 OF = {case.name: case for case in CASES}
 SHORT_S = 0.52  # ends in the middle of a beat of the fixed emitters

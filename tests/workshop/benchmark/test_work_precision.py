@@ -13,13 +13,14 @@ from controller.cli import main
 from controller.commands import benchmark as command
 from controller.commands.common.tables import benchmark_table
 from controller.errors import ConfigError
-from controller.workshop.benchmark import baselines, judge
+from controller.workshop.benchmark import baselines, plate_under_test
 from controller.workshop.benchmark import work_precision as module
 from controller.workshop.benchmark.device.interleaved import interleaved
 from controller.workshop.benchmark.fingers_scenes import scenes
 from controller.workshop.benchmark.methods import designs, device, modal_bank, registry
 from controller.workshop.benchmark.methods.laboratory import Laboratory
-from controller.workshop.benchmark.work_precision import Effort, cost, front, work_precision
+from controller.workshop.benchmark.pareto import cost, front
+from controller.workshop.benchmark.work_precision import Effort, work_precision
 from controller.workshop.benchmark.work_precision_diagrams import DIAGRAMS, draw_all
 
 SCHEMA = json.loads(Path(__file__).with_name("work_precision.schema.json").read_text())
@@ -48,7 +49,7 @@ def coarse(small_board):
 def hasty():
     """Neither the bounds of many fingers nor the machine's best rate are the subject here, and both take long."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(judge, "BOUND_STEPS", 5)
+        patched.setattr(plate_under_test, "BOUND_STEPS", 5)
         patched.setattr(baselines, "best_sgemm_rate", lambda: 1e10)
         yield
 

@@ -16,7 +16,7 @@ from controller.device.board.board import Board
 from controller.device.fpga.frames import FRAME_BYTES, PLAY, UPLOAD_BYTES
 from controller.device.fpga.registers import Control, FrameType
 from controller.device.scene.scene import Scene
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.drivers.event_device import INPUT_EVENT
 from controller.device.touch.event_codes import POSITIONS
 from controller.device.touch.event_reader import DeviceDescription
@@ -42,7 +42,7 @@ class Config(ctypes.Structure):
     )
 
 
-class PanelAxes(ctypes.Structure):
+class CAxes(ctypes.Structure):
     _fields_ = (
         ("origin", ctypes.c_double * 6),
         ("size_m", ctypes.c_double),
@@ -144,9 +144,9 @@ class Twin:
         if count and which != self._panel:
             self._panel = which
             x, y = (AxisRange(*self._descriptions[which].axes[code][:2]) for code in POSITIONS)
-            axes = Axes(self._board, x, y)
+            axes = PanelAxes(self._board, x, y)
             from_axes = (ctypes.c_double * 6)(*axes.from_axes)
-            panel = PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum)
+            panel = CAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum)
             self._call("twin_panel", ctypes.byref(panel))
         at = 0
         if count:

@@ -11,7 +11,6 @@ from workshop.calibration.exact_records import BIT_CLOCK_HZ, CHANNELS, NAMES, PO
 
 from controller.errors import CalibrationError
 from controller.workshop.calibration import learning
-from controller.workshop.calibration.deconvolution import RawBins
 from controller.workshop.calibration.learning import learn
 from controller.workshop.calibration.records.measurement_file import (
     ImpulsesDrive,
@@ -22,6 +21,7 @@ from controller.workshop.calibration.records.measurement_file import (
     WordsDrive,
 )
 from controller.workshop.calibration.records.measurement_writer import write_measurement
+from controller.workshop.calibration.transfers import RawBins
 
 RATE_HZ = 200e3
 RECORD = 1400  # samples: 7 ms

@@ -14,7 +14,11 @@ from controller.device.bank.packing import channel_bits
 from controller.device.board.board import load_board
 from controller.errors import CalibrationError, ConfigError
 from controller.workshop.calibration.recording.excitation import drive_words, period_s
-from controller.workshop.calibration.recording.simulated_measurement import Faults, RecordingSettings, simulate_measurement
+from controller.workshop.calibration.recording.simulated_measurement import (
+    Flaws,
+    RecordingSettings,
+    simulate_measurement,
+)
 from controller.workshop.calibration.records.measurements import read_measurement
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.modes.retuned import drifted
@@ -24,7 +28,7 @@ from controller.workshop.physics.responses.impulse_response import ResponseModel
 NAMES = tuple("abcdef")
 POINTS_M = np.array([[0.01, 0.012], [0.03, 0.02], [0.05, 0.04], [0.06, 0.01], [0.02, 0.04], [0.035, 0.03]])
 SHORT = RecordingSettings(record_s=2e-3)
-NOISY = Faults()
+NOISY = Flaws()
 
 
 @cache
@@ -67,8 +71,8 @@ def test_the_motion_of_points_is_the_sum_of_the_banks_responses(tmp_path):
 
 
 def test_a_measurement_holds_what_the_plate_does_and_noise_of_the_level_asked_for(tmp_path):
-    clean = simulated(tmp_path / "clean", Faults(snr_db=200))[2]
-    figures, found, values = simulated(tmp_path / "noisy", Faults(snr_db=30), RecordingSettings(record_s=2e-3, repetitions=3))
+    clean = simulated(tmp_path / "clean", Flaws(snr_db=200))[2]
+    figures, found, values = simulated(tmp_path / "noisy", Flaws(snr_db=30), RecordingSettings(record_s=2e-3, repetitions=3))
     noise = np.array(values) - np.array(clean)
     snr_db = 20 * np.log10(np.sqrt(np.mean(np.square(clean))) / noise.std())
     assert snr_db == pytest.approx(30, abs=1)
@@ -80,18 +84,18 @@ def test_a_measurement_holds_what_the_plate_does_and_noise_of_the_level_asked_fo
 
 def test_the_same_seed_gives_the_same_bytes_and_an_interrupted_simulation_goes_on(tmp_path):
     for name in ("a", "b"):
-        simulated(tmp_path / name, Faults(drift=0.001))
+        simulated(tmp_path / name, Flaws(drift=0.001))
     files = sorted(file.relative_to(tmp_path / "a") for file in (tmp_path / "a").rglob("*") if file.is_file())
     assert len(files) == len(NAMES) + 4
     for lost in ("c", "e"):
         (tmp_path / f"b/records/{lost}.npy").unlink()
     kept = (tmp_path / "b/records/a.npy").stat().st_mtime_ns
-    simulated(tmp_path / "b", Faults(drift=0.001))
+    simulated(tmp_path / "b", Flaws(drift=0.001))
     assert (tmp_path / "b/records/a.npy").stat().st_mtime_ns == kept
     for file in files:
         assert (tmp_path / "a" / file).read_bytes() == (tmp_path / "b" / file).read_bytes(), file
     with pytest.raises(CalibrationError, match="holds a simulation with other options"):
-        simulated(tmp_path / "b", Faults(drift=0.002))
+        simulated(tmp_path / "b", Flaws(drift=0.002))
     (tmp_path / "c").mkdir()
     (tmp_path / "c/mine.txt").write_text("mine")
     with pytest.raises(CalibrationError, match="is not empty, and holds no simulation"):
@@ -101,30 +105,33 @@ def test_the_same_seed_gives_the_same_bytes_and_an_interrupted_simulation_goes_o
 def test_faults_are_what_they_say(tmp_path):
     quiet = {"snr_db": 200.0}
     a, b = (actuator.channel for actuator in board().actuators[:2])
-    clean = np.array(simulated(tmp_path / "clean", Faults(**quiet))[2])
+    clean = np.array(simulated(tmp_path / "clean", Flaws(**quiet))[2])
     only = {
         q: np.array(
-            simulated(tmp_path / f"only{q}", Faults(dead=tuple(x.channel for x in board().actuators if x.channel != q), **quiet))[2]
+            simulated(
+                tmp_path / f"only{q}",
+                Flaws(dead=tuple(x.channel for x in board().actuators if x.channel != q), **quiet),
+            )[2]
         )
         for q in (a, b)
     }
-    dead, inverted = (np.array(simulated(tmp_path / name, Faults(**{name: (a,)}, **quiet))[2]) for name in ("dead", "inverted"))
+    dead, inverted = (np.array(simulated(tmp_path / name, Flaws(**{name: (a,)}, **quiet))[2]) for name in ("dead", "inverted"))
     close = {"rtol": 0, "atol": 1e-4 * np.abs(clean).max()}
     assert np.allclose(clean - dead, only[a], **close)
     assert np.allclose(clean - inverted, 2 * only[a], **close)
-    swapped = np.array(simulated(tmp_path / "swapped", Faults(swapped=((a, b),), **quiet))[2])
+    swapped = np.array(simulated(tmp_path / "swapped", Flaws(swapped=((a, b),), **quiet))[2])
     assert not np.allclose(swapped, clean, **close)
-    clipped = np.array(simulated(tmp_path / "clip", Faults(clip=0.1, **quiet))[2])
+    clipped = np.array(simulated(tmp_path / "clip", Flaws(clip=0.1, **quiet))[2])
     assert np.allclose(clipped, np.clip(clean, clipped.min(), clipped.max()), **close)
-    late = np.array(simulated(tmp_path / "late", Faults(delay_s=40e-6, **quiet))[2])
+    late = np.array(simulated(tmp_path / "late", Flaws(delay_s=40e-6, **quiet))[2])
     assert np.allclose(late[..., :-10], clean[..., 10:], **close), "a record that begins late begins with what comes later"
     settings = json.dumps(msgspec.to_builtins(read_measurement(tmp_path / "late", board()).settings))
     assert '"first_sample_us": null' in settings
-    fast = np.array(simulated(tmp_path / "fast", Faults(clock_ppm=2000, **quiet))[2])
+    fast = np.array(simulated(tmp_path / "fast", Flaws(clock_ppm=2000, **quiet))[2])
     assert np.allclose(fast[..., 500], clean[..., 499], rtol=0, atol=0.05 * np.abs(clean).max())
-    figures, found, _ = simulated(tmp_path / "missing", Faults(missing=0.34))
+    figures, found, _ = simulated(tmp_path / "missing", Flaws(missing=0.34))
     assert figures["missing"] == len(found.missing) == 2
-    assert not np.allclose(np.array(simulated(tmp_path / "drift", Faults(drift=5e-3, **quiet))[2])[-1], clean[-1], **close)
+    assert not np.allclose(np.array(simulated(tmp_path / "drift", Flaws(drift=5e-3, **quiet))[2])[-1], clean[-1], **close)
 
 
 @pytest.mark.parametrize("kind", ["chirp", "noise"])

@@ -18,7 +18,7 @@ from controller.device.board.lookup import find_board
 from controller.device.scene.scene import load_scene
 from controller.errors import ConfigError
 from controller.workshop.clips.ahap import read_ahap
-from controller.workshop.clips.clip import Clip, Curve, Tap, Vibration
+from controller.workshop.clips.clip import Curve, DesignedClip, Tap, Vibration
 from controller.workshop.clips.importing import READERS, imported
 from controller.workshop.clips.lofelt import read_haptic
 from controller.workshop.clips.rhythm import rhythm_of
@@ -34,7 +34,7 @@ def vibrating(end_s, amplitude, sharpness, start_s=0.0):
 
 
 def of(taps=(), vibrations=()):
-    return Clip(tuple(taps), tuple(vibrations), Counter())
+    return DesignedClip(tuple(taps), tuple(vibrations), Counter())
 
 
 def test_a_heartbeat_of_irregular_transients_is_played_at_their_times():

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device.board.board import load_board
-from controller.device.board.layers import Layer
+from controller.device.board.layers import PlateLayer
 from controller.device.board.lookup import find_board
 from controller.device.board.panel import Damping, Foam, Plate
 from controller.device.board.parts import Parts
@@ -230,7 +230,7 @@ def test_a_board_whose_modes_decay_unlike_has_the_decay_of_its_band():
 
 
 def test_layers_count_as_one_plate_until_its_material_or_thickness_is_asked_for():
-    halves = (Layer(thickness_mm=0.25, young_modulus_pa=72.9e9, poisson_ratio=0.208, density_kg_m3=2510.0),) * 2
+    halves = (PlateLayer(thickness_mm=0.25, young_modulus_pa=72.9e9, poisson_ratio=0.208, density_kg_m3=2510.0),) * 2
     names = ("length_mm", "width_mm", "edges", "decay_time_ms")
     layered = msgspec.structs.replace(BOARD, plate=Plate(**{name: getattr(GLASS, name) for name in names}, layers=halves))
     for changes in ({}, {"length_mm": 250}, {"thickness_mm": 0.8}):

@@ -8,7 +8,7 @@ from tables import each_row
 from workshop.physics.lamb import layered_a0, rayleigh_lamb_a0
 
 from controller.device.board.board import load_board
-from controller.device.board.layers import MOST_SHEAR, Layer, laminate
+from controller.device.board.layers import MOST_SHEAR, PlateLayer, laminate
 from controller.device.board.lookup import find_board
 from controller.device.board.panel import Plate
 from controller.device.board.relations.bending_waves import MindlinPlate, bending_stiffness, bending_wavelength_m
@@ -19,7 +19,7 @@ from controller.workshop.physics.modes.plate_modes import modes_of
 BOARD = load_board(find_board("simulated"))
 KIRCHHOFF = BOARD.plate
 PAPER = msgspec.structs.replace(KIRCHHOFF, theory="mindlin")
-GLASS = Layer(thickness_mm=0.5, young_modulus_pa=72.9e9, poisson_ratio=0.208, density_kg_m3=2510.0)
+GLASS = PlateLayer(thickness_mm=0.5, young_modulus_pa=72.9e9, poisson_ratio=0.208, density_kg_m3=2510.0)
 
 
 def kirchhoff_omega(plate, wavenumber):
@@ -82,9 +82,9 @@ def test_one_layer_is_the_plate_itself():
         assert [layered.rotation_kg, layered.shear_n_m] == pytest.approx([single.rotation_kg, single.shear_n_m], rel=1e-13)
 
 
-LAMINATED = (GLASS, Layer(thickness_mm=0.05, young_modulus_pa=3e9, poisson_ratio=0.35, density_kg_m3=1200.0), GLASS)
-ON_ACRYLIC = (GLASS, Layer(thickness_mm=1.0, young_modulus_pa=3e9, poisson_ratio=0.37, density_kg_m3=1190.0))
-ON_STEEL = (GLASS, Layer(thickness_mm=0.3, young_modulus_pa=200e9, poisson_ratio=0.3, density_kg_m3=7800.0))
+LAMINATED = (GLASS, PlateLayer(thickness_mm=0.05, young_modulus_pa=3e9, poisson_ratio=0.35, density_kg_m3=1200.0), GLASS)
+ON_ACRYLIC = (GLASS, PlateLayer(thickness_mm=1.0, young_modulus_pa=3e9, poisson_ratio=0.37, density_kg_m3=1190.0))
+ON_STEEL = (GLASS, PlateLayer(thickness_mm=0.3, young_modulus_pa=200e9, poisson_ratio=0.3, density_kg_m3=7800.0))
 
 
 @each_row("layers", [(GLASS,), LAMINATED, ON_ACRYLIC, ON_STEEL], ids=["glass", "laminated", "acrylic", "steel"])
@@ -107,7 +107,7 @@ def test_waves_in_layers_are_those_of_elasticity(layers):
 
 def test_layers_up_to_the_bound_of_shear_are_right_to_half_a_percent_with_mindlin():
     for modulus_pa, thickness_mm in ((3.8e9, 0.2), (1.1e9, 0.05)):
-        glue = Layer(thickness_mm=thickness_mm, young_modulus_pa=modulus_pa, poisson_ratio=0.4, density_kg_m3=1100.0)
+        glue = PlateLayer(thickness_mm=thickness_mm, young_modulus_pa=modulus_pa, poisson_ratio=0.4, density_kg_m3=1100.0)
         layers = (GLASS, glue, GLASS)
         assert 7 < laminate(layers).shear_flexibility < MOST_SHEAR
         wavenumber = 0.4 / sum(layer.thickness_mm * 1e-3 for layer in layers)

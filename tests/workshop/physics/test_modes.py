@@ -15,8 +15,9 @@ from controller.workshop.physics.memory import entries_bytes
 from controller.workshop.physics.modes.closed_form import SimplySupported
 from controller.workshop.physics.modes.modes import at_points
 from controller.workshop.physics.modes.plate_modes import modes_of
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import POINTS_PER_GEMM, ResponseModel
+from controller.workshop.physics.word_capture import capture_of_words
 
 BOARD = load_board(find_board("simulated"))
 IDLE = BOARD.idle_word

@@ -15,10 +15,11 @@ from controller.workshop.physics.audible import surface_energy
 from controller.workshop.physics.field import AROUND_S, LINE_M, half_width
 from controller.workshop.physics.focusing import balanced_weights, focus
 from controller.workshop.physics.modes.plate_modes import modes_of
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.step_response import StepResponse
+from controller.workshop.physics.word_capture import capture_of_words
 
 BOARD = load_board(find_board("simulated"))
 IDLE = BOARD.idle_word

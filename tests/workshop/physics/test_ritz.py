@@ -23,10 +23,11 @@ from controller.workshop.physics.modes.mode_count import edge_term, mode_count
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.modes.ritz import PlateShape
 from controller.workshop.physics.modes.ritz_modes import RitzModes, plate_shape
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
+from controller.workshop.physics.word_capture import capture_of_words
 
 BOARD = load_board(find_board("simulated"))
 PAPER = BOARD.plate

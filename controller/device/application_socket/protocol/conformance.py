@@ -63,13 +63,7 @@ class Conversation(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def steps_of(file: Path) -> tuple[Step, ...]:
-    """Steps of a conversation.
-
-    Raises
-    ------
-    ControllerError
-        If the file cannot be read.
-    """
+    """Steps of a conversation; raises ControllerError if the file cannot be read."""
     try:
         return msgspec.json.decode(read_regular(file, BYTES_MAX), type=Conversation).steps
     except (OSError, ValueError) as error:  # msgspec's among them
@@ -79,12 +73,8 @@ def steps_of(file: Path) -> tuple[Step, ...]:
 def held(path: str, steps: tuple[Step, ...]) -> Iterator[str]:
     """Hold a conversation; each step in words, once it was as recorded.
 
-    Raises
-    ------
-    LinkError
-        If there is no panel, or it does not answer.
-    ControllerError
-        If it answers otherwise than recorded, with step, answer and what was recorded.
+    Raises LinkError if there is no panel, or it does not answer; ControllerError if it answers otherwise than recorded, with step,
+    answer and what was recorded.
     """
     names: dict[str, Any] = {}
     try:

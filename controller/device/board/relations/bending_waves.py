@@ -23,24 +23,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MindlinPlate:
-    """Constants of a plate per unit of its area.
+    """Constants of a plate per unit of its area."""
 
-    Attributes
-    ----------
-    mass_kg_m2 : float
-        Mass.
-    stiffness_nm : float
-        Bending stiffness D.
-    rotation_kg : float
-        Rotary inertia, rho h^3 / 12 of one layer.
-    shear_n_m : float
-        Shear stiffness, kappa G h of one layer.
-    """
-
-    mass_kg_m2: float
-    stiffness_nm: float
-    rotation_kg: float
-    shear_n_m: float
+    mass_kg_m2: float  # mass
+    stiffness_nm: float  # bending stiffness D
+    rotation_kg: float  # rotary inertia, rho h^3 / 12 of one layer
+    shear_n_m: float  # shear stiffness, kappa G h of one layer
 
     @classmethod
     def of(cls, plate: Plate) -> MindlinPlate:

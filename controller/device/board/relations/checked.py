@@ -25,18 +25,10 @@ RELATIONS = tuple(relation for part in PARTS for relation in part.RELATIONS)
 
 
 class BoardProblems(NamedTuple):
-    """What is wrong with a board as a whole, one line each.
+    """What is wrong with a board as a whole, one line each."""
 
-    Attributes
-    ----------
-    refused : tuple of str
-        Unsafe or impossible.
-    odd : tuple of str
-        Works, but hardly as it is meant.
-    """
-
-    refused: tuple[str, ...]
-    odd: tuple[str, ...]
+    refused: tuple[str, ...]  # unsafe or impossible
+    odd: tuple[str, ...]  # works, but hardly as it is meant
 
 
 def judge(board: Board, without: Collection[Relation] = ()) -> BoardProblems:

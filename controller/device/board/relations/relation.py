@@ -13,24 +13,12 @@ Broken = Callable[["Board"], Iterator[str]]
 
 
 class Relation(NamedTuple):
-    """What must hold of some keys together.
+    """What must hold of some keys together."""
 
-    Attributes
-    ----------
-    keys : str
-        The keys, as the reference shows them.
-    rule : str
-        What must hold, as a sentence for the reference.
-    refuses : bool
-        Whether a board that breaks it is refused, since it would be unsafe or could not work; else it is warned of.
-    broken : callable
-        Yields what is broken: one line each that names the keys with their values, and what to do.
-    """
-
-    keys: str
-    rule: str
-    refuses: bool
-    broken: Broken
+    keys: str  # the keys, as the reference shows them
+    rule: str  # what must hold, as a sentence for the reference
+    refuses: bool  # whether a board that breaks it is refused, since it would be unsafe or could not work; else it is warned of
+    broken: Broken  # yields what is broken: one line each that names the keys with their values, and what to do
 
 
 def relation(keys: str, broken: Broken, *, refuses: bool) -> Relation:

@@ -10,22 +10,12 @@ Row = tuple[float, float, float]
 
 
 class Reached(NamedTuple):
-    """What the panel's whole range reaches.
+    """What the panel's whole range reaches."""
 
-    Attributes
-    ----------
-    x_mm, y_mm : (lowest, highest)
-        Of its corners.
-    area_mm2 : float
-        Of the whole range; 0: all touches fall onto one line or point.
-    on_plate_mm2 : float
-        Of its part on the plate.
-    """
-
-    x_mm: tuple[float, float]
+    x_mm: tuple[float, float]  # x_mm, y_mm: (lowest, highest): of its corners
     y_mm: tuple[float, float]
-    area_mm2: float
-    on_plate_mm2: float
+    area_mm2: float  # of the whole range; 0: all touches fall onto one line or point
+    on_plate_mm2: float  # of its part on the plate
 
 
 def reached(x_row: Row, y_row: Row, length_mm: float, width_mm: float) -> Reached:

@@ -26,17 +26,8 @@ LINE_VALUES: Final = struct.Struct("=QQ")  # struct gpio_v2_line_values: values,
 class GpioLines:
     """Trigger, run permit and `configured` of one panel, held until `close`, which withdraws the permit.
 
-    Parameters
-    ----------
-    settings : LinkSettings
-        Label of the GPIO chip and names or numbers of the lines; permit and configured are optional.
-    now_s : callable
-        The loop's clock.
-
-    Raises
-    ------
-    LinkError
-        If the chip or a line is absent or held by another program, or two lines are the same.
+    Permit and configured are optional. Raises LinkError if the chip or a line is absent or held by another program, or two lines
+    are the same.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
@@ -61,15 +52,7 @@ class GpioLines:
     def pulse(self) -> float:
         """Pulse the trigger line: two system calls, much longer than the 4 clocks that the gateware needs.
 
-        Returns
-        -------
-        float
-            Time in s on the loop's clock, read directly after the rising edge.
-
-        Raises
-        ------
-        LinkError
-            If the line fails.
+        Returns the loop's clock, read directly after the rising edge. Raises LinkError if the line fails.
         """
         try:
             fcntl.ioctl(self._fd, SET_VALUES, self._high)  # a bytearray: anything else is first tried as one, and copied twice
@@ -80,13 +63,7 @@ class GpioLines:
         return edge_s
 
     def permit(self, *, given: bool) -> None:
-        """Give (`given`) or withdraw the run permit, if the board has a line for it.
-
-        Raises
-        ------
-        LinkError
-            If the line fails.
-        """
+        """Give (`given`) or withdraw the run permit, if the board has a line for it; raises LinkError if the line fails."""
         if self._permit:
             try:
                 self._request.set_value(self._numbers[self._permit], Value.ACTIVE if given else Value.INACTIVE)
@@ -96,10 +73,7 @@ class GpioLines:
     def configured(self) -> bool:
         """Whether the FPGA is configured and out of reset; True if the board has no such line.
 
-        Raises
-        ------
-        LinkError
-            If the line fails.
+        Raises LinkError if the line fails.
         """
         if not self._configured:
             return True

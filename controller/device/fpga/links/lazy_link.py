@@ -11,12 +11,7 @@ from controller.errors import LinkError
 class LazyLink:
     """`Link` that is opened by the first exchange for which the device is there.
 
-    Parameters
-    ----------
-    open_link : callable
-        Returns the open link, or raises LinkError.
-    now_s : callable
-        The loop's clock.
+    `open_link` returns the open link, or raises LinkError.
     """
 
     def __init__(self, open_link: Callable[[], Link], now_s: Callable[[], float]) -> None:
@@ -42,10 +37,7 @@ class LazyLink:
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames and store the answers; opens the link first if necessary. Parameters as in `Link.exchange`.
 
-        Raises
-        ------
-        LinkError
-            If the device is not there yet, or fails.
+        Raises LinkError if the device is not there yet, or fails.
         """
         if self._link is None:
             self._link = self._open()
@@ -54,10 +46,7 @@ class LazyLink:
     def trigger(self) -> float:
         """Pulse the trigger pin; returns the time of its edge in s, on the loop's clock.
 
-        Raises
-        ------
-        LinkError
-            If the link is not open yet.
+        Raises LinkError if the link is not open yet.
         """
         if self._link is None:
             raise LinkError("the link to the FPGA is not open yet")

@@ -24,19 +24,8 @@ class Link(Protocol):
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames, each under its own chip select, and store the answers.
 
-        Parameters
-        ----------
-        sent : memoryview of bytes
-            The frames, back to back from 0 on.
-        lengths : sequence of int
-            Bytes of each frame.
-        received : memoryview of bytes
-            As large as `sent`; the answer to each frame is stored at the frame's offset.
-
-        Raises
-        ------
-        LinkError
-            If the device fails.
+        The frames, of these lengths in bytes, lie back to back in `sent` from 0 on; the answer to each is stored in `received`,
+        which is as large, at the frame's offset. Raises LinkError if the device fails.
         """
 
     def trigger(self) -> float:

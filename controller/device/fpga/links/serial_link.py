@@ -43,21 +43,8 @@ def on_wire(frame: ReadableBuffer) -> bytes:
 class SerialLink:
     """`Link` to a panel at a serial port.
 
-    Parameters
-    ----------
-    device : str
-        Path of the port, such as /dev/ttyUSB0, or better one below /dev/serial/by-id.
-    baud : int
-        Baud rate that the gateware was built for.
-    now_s : callable
-        The loop's clock.
-    latency_s : float
-        Longest delay of an answer beyond its time on the wire.
-
-    Raises
-    ------
-    LinkError
-        If the port cannot be opened.
+    `device` is a path such as /dev/ttyUSB0, or better one below /dev/serial/by-id; `baud` is what the gateware was built for;
+    `latency_s` is the longest delay of an answer beyond its time on the wire. Raises LinkError if the port cannot be opened.
     """
 
     def __init__(self, device: str, baud: int, now_s: Callable[[], float], latency_s: float = LATENCY_S) -> None:
@@ -79,10 +66,7 @@ class SerialLink:
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames and store each answer at the frame's offset, with zeros after it; parameters as in `Link.exchange`.
 
-        Raises
-        ------
-        LinkError
-            If an answer is missing or damaged, or the port fails; the next call opens a failed port again.
+        Raises LinkError if an answer is missing or damaged, or the port fails; the next call opens a failed port again.
         """
         started_ns = time.perf_counter_ns()
         if not self._port.is_open:
@@ -113,15 +97,8 @@ class SerialLink:
     def trigger(self) -> float:
         """Send a TRIGGER command; its answer is read with the next message.
 
-        Returns
-        -------
-        float
-            When its last bit is sent, on the loop's clock; a USB bridge may add a millisecond.
-
-        Raises
-        ------
-        LinkError
-            If the port fails.
+        Returns when its last bit is sent, on the loop's clock; a USB bridge may add a millisecond. Raises LinkError if the port
+        fails.
         """
         # half the range away from the next message, so that it is never taken for one of that message's frames
         sequence = (self._message + 0x80) & 0xFF

@@ -45,30 +45,16 @@ def read_bufsiz() -> int:
 class SpiLink:
     """`Link` to an FPGA on SPI, with its trigger and permit lines.
 
-    Parameters
-    ----------
-    settings : LinkSettings
-        Of kind "spi".
-    now_s : callable
-        The loop's clock.
-
-    Attributes
-    ----------
-    sck_hz : float
-        Actual SCK, computed from `settings.spi_source_hz` where that is given; otherwise the SCK that spidev was asked for.
-    wire_ns, blocked_ns : int
-        Both are the time spent in the kernel, which returns after the last bit.
-
-    Raises
-    ------
-    LinkError
-        If the device or a line is absent, in use or unsuitable, or the FPGA is not configured.
+    `settings` is of kind "spi". Raises LinkError if the device or a line is absent, in use or unsuitable, or the FPGA is not
+    configured.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
         self.bytes_sent = 0
-        self.wire_ns = 0
+        self.wire_ns = 0  # wire_ns, blocked_ns: both are the time spent in the kernel, which returns after the last bit
         self.blocked_ns = 0
+        # actual SCK, computed from `settings.spi_source_hz` where that is given; otherwise the SCK that spidev was asked
+        # for
         self.sck_hz = 0.0
         self.bufsiz = read_bufsiz()
         self._settings = settings
@@ -94,11 +80,8 @@ class SpiLink:
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames and store the answers; parameters as in `Link.exchange`.
 
-        Raises
-        ------
-        LinkError
-            If the bus fails, or the device was removed; the next call opens it again. The run permit is withdrawn until
-            a message succeeds, since nothing else may reach the FPGA.
+        Raises LinkError if the bus fails, or the device was removed; the next call opens it again. The run permit is withdrawn
+        until a message succeeds, since nothing else may reach the FPGA.
         """
         messages = self._messages
         if messages is None or messages.sent is not sent or messages.received is not received:
@@ -137,24 +120,9 @@ class SpiLink:
         return 8e9 * self.bytes_sent / self.wire_ns if self.wire_ns else 0.0
 
     def set_sck_hz(self, sck_hz: int) -> float:
-        """Set SCK.
+        """Set SCK, at most the board's; returns the actual SCK in Hz.
 
-        Parameters
-        ----------
-        sck_hz : int
-            At most the board's.
-
-        Returns
-        -------
-        float
-            Actual SCK in Hz.
-
-        Raises
-        ------
-        ValueError
-            If it is outside 1 to the board's.
-        LinkError
-            If the controller refuses it.
+        Raises ValueError if it is outside 1 to the board's; LinkError if the controller refuses it.
         """
         if not 0 < sck_hz <= self._settings.sck_hz:
             raise ValueError(f"sck_hz = {sck_hz} is not 1 to the board's {self._settings.sck_hz}")

@@ -24,24 +24,9 @@ def message_request(transfers: int) -> int:
 
 
 def split(lengths: Sequence[int], bufsiz: int) -> list[int]:
-    """Distribute frames over messages that each fit the kernel's buffer.
+    """Distribute frames over messages that each fit the kernel's buffer, all in bytes; returns the frames in each message.
 
-    Parameters
-    ----------
-    lengths : sequence of int
-        Bytes of each frame.
-    bufsiz : int
-        spidev's buffer in bytes.
-
-    Returns
-    -------
-    list of int
-        Frames in each message.
-
-    Raises
-    ------
-    LinkError
-        If one frame alone does not fit.
+    Raises LinkError if one frame alone does not fit.
     """
     counts = [0]
     used = 0
@@ -63,12 +48,7 @@ def split(lengths: Sequence[int], bufsiz: int) -> list[int]:
 class SpiMessages:
     """ioctl arguments for two buffers, made once for each pattern of frame lengths.
 
-    Parameters
-    ----------
-    sent, received : memoryview
-        Writable buffers; kept alive, because the arguments hold their addresses.
-    bufsiz : int
-        spidev's buffer in bytes.
+    Both buffers are writable, and kept alive, because the arguments hold their addresses; `bufsiz` is spidev's buffer in bytes.
     """
 
     def __init__(self, sent: memoryview, received: memoryview, bufsiz: int) -> None:
@@ -83,22 +63,8 @@ class SpiMessages:
     def for_lengths(self, lengths: Sequence[int]) -> tuple[tuple[int, bytearray, int], ...]:
         """Messages for frames that lie back to back from 0 on.
 
-        Parameters
-        ----------
-        lengths : sequence of int
-            Bytes of each frame.
-
-        Returns
-        -------
-        tuple of (int, bytearray, int)
-            For each message the request number, the transfers as bytes, and the bytes on the wire.
-
-        Raises
-        ------
-        LinkError
-            If a frame does not fit spidev's buffer.
-        ValueError
-            If the frames reach beyond the buffers.
+        Lengths are in bytes. Each message has a request number, the transfers as bytes, and the bytes on the wire. Raises LinkError
+        if a frame does not fit spidev's buffer; ValueError if the frames reach beyond the buffers.
         """
         pattern = tuple(lengths)
         known = self._known.get(pattern)

@@ -39,22 +39,10 @@ def select_batch(
     within `duration_s` of it, and whose focus is farther than `SEPARATION_M` from those chosen before that have another
     amplitude, and in no crowd: more than `MAX_NEIGHBOURS` within `CROWD_M` and not nearer than `MERGE_RADIUS_M`.
 
-    Parameters
-    ----------
-    due : sequence of Emission
-        At least one, in the order in which their owners began to wait. An emission that replaces an older one of its owner
-        takes its place in the order: if they were ordered by their own times, one train could delay another for ever.
-    duration_s : float
-        Length of an emission.
-    max_foci : int
-        Foci of one waveform.
-    wave_scale : float
-        Of the plate (`Bank.wave_scale`).
-
-    Returns
-    -------
-    chosen, rest : tuple of Emission
-        Both in the order given. The rest is to be given again, before what begins to wait later.
+    `due`, at least one, are in the order in which their owners began to wait. An emission that replaces an older one of its owner
+    takes its place in the order: if they were ordered by their own times, one train could delay another for ever. `duration_s` is
+    the length of an emission, `wave_scale` that of the plate (`Bank.wave_scale`). Returns what is chosen and the rest, both in the
+    order given; the rest is to be given again, before what begins to wait later.
     """
     first = due[0]
     if first.alternate or len(due) == 1:

@@ -39,10 +39,7 @@ class RunningPercentile:
     In the long run one record of a hundred exceeds it, whatever their distribution. One record, however long, raises it by a
     factor of `UP`, at first of `QUICK_UP`, at most.
 
-    Parameters
-    ----------
-    prior_s, least_s, most_s : float
-        Before the first record, and bounds, all above 0.
+    It is `prior_s` before the first record, and stays within `least_s` and `most_s`, all above 0.
     """
 
     __slots__ = ("_least_s", "_most_s", "_quick", "value_s")
@@ -69,17 +66,7 @@ class RunningPercentile:
 class DeliveryTime:
     """Time from the decision to play something to the arrival of its last bit; for uploads, or for play commands alone.
 
-    Parameters
-    ----------
-    bits_s : float
-        Time of its bits on the wire: the least that it takes.
-
-    Attributes
-    ----------
-    expected_s : float
-        Its mean.
-    promised_s : float
-        It will take no longer, but for one in some hundred times: what is asked for after this time is not too late.
+    Its bits take `bits_s` on the wire: the least that it takes.
     """
 
     __slots__ = ("_bits_s", "_mean_s", "_percentile", "expected_s", "promised_s")
@@ -88,7 +75,8 @@ class DeliveryTime:
         self._bits_s = bits_s
         self._mean_s = 0.0
         self._percentile = RunningPercentile()
-        self.expected_s = bits_s
+        self.expected_s = bits_s  # its mean
+        # It will take no longer, but for one in some hundred times: what is asked for after this time is not too late
         self.promised_s = bits_s + HANDOVER_S
 
     def record(self, duration_s: float) -> None:
@@ -104,19 +92,8 @@ class DeliveryTime:
 class HostTiming:
     """What the schedule knows of its host.
 
-    Parameters
-    ----------
-    upload_s, command_s : float
-        Bits of an upload with its play command, and of a play command alone, on the wire.
-    plate_s : float
-        Least time from emission to emission that the plate allows.
-
-    Attributes
-    ----------
-    decided_s : float
-        To be set: from the beginning of the turn to the newest decision for an emission.
-    lead_s : float
-        A pulse is handed over this long before it is due.
+    `upload_s` and `command_s` are the bits of an upload with its play command, and of a play command alone, on the wire; `plate_s`
+    is the least time from emission to emission that the plate allows.
     """
 
     __slots__ = ("_decide_s", "_plate_s", "_uploads", "_woken", "command", "decided_s", "lead_s", "upload", "upload_bits_s")
@@ -127,9 +104,10 @@ class HostTiming:
         self.upload_bits_s = upload_s
         self._plate_s = plate_s
         self._woken = RunningPercentile()
+        # To be set: from the beginning of the turn to the newest decision for an emission
         self.decided_s = self._decide_s = 0.0  # the newest, and their mean
         self._uploads = 0
-        self.lead_s = upload_s + PULSE_LEAD_S
+        self.lead_s = upload_s + PULSE_LEAD_S  # a pulse is handed over this long before it is due
 
     @property
     def uploads_hz(self) -> float:

@@ -29,27 +29,7 @@ class Repetition(NamedTuple):
 class Occupancy:
     """Until when the plate is occupied by what was started.
 
-    Parameters
-    ----------
-    clock_estimate : ClockEstimate
-        The FPGA's clock on the host's.
-    duration_s : float
-        Length of an emission at the board's bit clock.
-    max_duty : float
-        Share of the time that may be emission, above 0 and at most 1.
-
-    Attributes
-    ----------
-    duration_s : float
-        Length of an emission at the present bit clock.
-    free_s : float
-        Host time from which the plate may play again; -inf before the first emission.
-    last_start_s : float
-        Host time at which the newest play starts. Until then no other is handed over, or plays would pile up in the FPGA.
-    repetition : Repetition or None
-        What the FPGA repeats by itself.
-    repeating : bool
-        Whether it does, or will once what was accepted is started.
+    `max_duty` is the share of the time that may be emission, above 0 and at most 1.
     """
 
     __slots__ = (
@@ -85,17 +65,10 @@ class Occupancy:
         self._free_fpga_s = FpgaTime(-NEVER)  # `free_s` in FPGA time: what the FPGA started by itself is known there to the clock
 
     def started(self, start_s: float, fpga_s: FpgaTime, *, by_clock: bool) -> None:
-        """An emission starts.
+        """An emission starts at the host time `start_s`, which is `fpga_s`.
 
-        Parameters
-        ----------
-        start_s : float
-            When, in host time.
-        fpga_s : FpgaTime
-            The same moment.
-        by_clock : bool
-            Whether the FPGA starts it at `fpga_s`; else the trigger pin rises at `start_s`. The other one is known to
-            within the error of the clock estimate.
+        `by_clock`: the FPGA starts it at `fpga_s`; else the trigger pin rises at `start_s`. The other one is known to within the
+        error of the clock estimate.
         """
         error_s = self._clock_estimate.error_s
         self.last_start_s = start_s
@@ -119,12 +92,9 @@ class Occupancy:
         return self._busy_s + MARGIN_S
 
     def free_from_s(self, arrived_s: FpgaTime) -> FpgaTime:
-        """Earliest start that the plate allows.
+        """Earliest start that the plate allows to a play command that has arrived at a time.
 
-        Parameters
-        ----------
-        arrived_s : FpgaTime
-            When the play command has arrived. It stops a repetition, whose last emission then sounds to its end.
+        It stops a repetition, whose last emission then sounds to its end.
         """
         free_s = self._free_fpga_s
         if self.repetition is not None:
@@ -132,25 +102,14 @@ class Occupancy:
         return free_s + MARGIN_S
 
     def earliest_start_s(self, arrived_s: FpgaTime, at_s: FpgaTime | None = None) -> FpgaTime:
-        """Earliest start of an emission.
-
-        Parameters
-        ----------
-        arrived_s : FpgaTime
-            When its play command has arrived.
-        at_s : FpgaTime, optional
-            Not before this time.
-        """
+        """Earliest start of an emission, whose play command has arrived at a time; not before `at_s`."""
         start_s = max(arrived_s, self.free_from_s(arrived_s))
         return start_s if at_s is None else max(start_s, at_s)
 
     def free_after_next_s(self, now_s: float, upload_s: float, promised_s: float) -> float:
         """Host time from which a start can be promised, if another emission is uploaded now and played first.
 
-        Parameters
-        ----------
-        upload_s, promised_s : float
-            Time from now to the arrival of an upload, as expected and as promised.
+        `upload_s` and `promised_s` are the time from now to the arrival of an upload, as expected and as promised.
         """
         start_s = max(now_s + upload_s, self.free_s + MARGIN_S)
         return start_s + max(self._busy_s, promised_s) + 2 * MARGIN_S

@@ -32,14 +32,8 @@ class Planner:
 
         An upload starts later, and so meets a moving finger elsewhere: there another waveform may be resident.
 
-        Parameters
-        ----------
-        begun_s : float
-            Host time from which it goes out.
-        predicted : bool
-            Meet fingers where they will be; otherwise, where they were.
-        points : list of Point or None
-            Where to focus, if that has been decided.
+        It goes out from the host time `begun_s` on. Fingers are met where they will be if `predicted`, otherwise where they were,
+        or at `points`, if these have been decided.
         """
         sender, emissions = self._sender, batch.emissions
         start_s, missed = self._start(batch, begun_s, self._timing.command)

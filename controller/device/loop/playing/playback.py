@@ -25,36 +25,19 @@ from controller.log import Event, log
 
 
 class Playback:
-    """What plays on an armed FPGA.
-
-    Parameters
-    ----------
-    sender : Sender
-        Its slots.
-    occupancy : Occupancy
-        When the plate is free.
-    timing : HostTiming
-        How long uploads and play commands take on this host; each is recorded.
-    played : callable, optional
-        Called with every start.
-
-    Attributes
-    ----------
-    accepted : Accepted or None
-        What `trigger` is to start.
-    """
+    """What plays on an armed FPGA."""
 
     def __init__(
         self,
         context: LoopContext,
-        sender: Sender,
-        occupancy: Occupancy,
-        timing: HostTiming,
-        played: Callable[[Played], None] | None = None,
+        sender: Sender,  # its slots
+        occupancy: Occupancy,  # when the plate is free
+        timing: HostTiming,  # how long uploads and play commands take on this host; each is recorded
+        played: Callable[[Played], None] | None = None,  # called with every start
     ) -> None:
         self.sender = sender
         self.occupancy = occupancy
-        self.accepted: Accepted | None = None
+        self.accepted: Accepted | None = None  # what `trigger` is to start
         self.timing = timing
         self._session = context.session
         self._clock_estimate = context.clock_estimate
@@ -80,21 +63,9 @@ class Playback:
         Fingers are met where they will be; where the bank has nothing there, where they were. A pulse that comes too late is played
         on arrival, and what a slot has lost is uploaded again.
 
-        Parameters
-        ----------
-        started_ns : int
-            When the work for it began (perf_counter_ns).
-
-        Returns
-        -------
-        Accepted or Outcome
-            What was accepted has started, or is started by the FPGA, unless it is `accepted`. SKIPPED: the bank lacks what it
-            needs. REFUSED: by the FPGA.
-
-        Raises
-        ------
-        LinkError, FaultError
-            As the session says; nothing is left to play then.
+        The work for it began at `started_ns` (perf_counter_ns). What was accepted has started, or is started by the FPGA, unless it
+        is `accepted`. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA. Raises LinkError or FaultError as the session
+        says; nothing is left to play then.
         """
         link, predicted = self._session.link, True
         points: list[Point] | None = None
@@ -129,23 +100,14 @@ class Playback:
     def stop(self) -> None:
         """End an endless repetition with the emission that sounds, or before its first one.
 
-        Raises
-        ------
-        LinkError, FaultError
-            As the session says.
+        Raises LinkError or FaultError as the session says.
         """
         if self.occupancy.repetition is not None:
             self._session.stop()
             self.occupancy.stop_repetition(self._session.earliest_trigger_s())
 
     def trigger(self) -> None:
-        """Start what was accepted, now.
-
-        Raises
-        ------
-        LinkError
-            If the trigger line cannot be driven.
-        """
+        """Start what was accepted, now; raises LinkError if the trigger line cannot be driven."""
         accepted = self.accepted
         if accepted is None:
             return

@@ -17,24 +17,14 @@ PREFETCH_AFTER_HITS: Final = (
 class PrefetchRecord:
     """The newest prediction, how many came true, and which slots hold waveforms that were sent ahead.
 
-    Parameters
-    ----------
-    counters : Counters
-        `prefetched` and `prefetch_wasted` are counted here.
-
-    Attributes
-    ----------
-    predicted : tuple of int and Key, or None
-        The newest prediction: finger, and the waveform that it will ask for.
-    unplayed : set of int
-        Slots whose waveform was sent ahead, and has not been played.
+    `prefetched` and `prefetch_wasted` are counted.
     """
 
     def __init__(self, counters: Counters) -> None:
         self._counters = counters
-        self.predicted: tuple[int, Key] | None = None
+        self.predicted: tuple[int, Key] | None = None  # the newest prediction: finger, and the waveform that it will ask for
         self._hits = 0  # in a row
-        self.unplayed: set[int] = set()
+        self.unplayed: set[int] = set()  # slots whose waveform was sent ahead, and has not been played
 
     def predict(self, finger: int, key: Key, selection: Selection, fingers: int) -> bool:
         """Take note of a prediction; whether the record is good enough to send its waveform ahead, with this many fingers down."""

@@ -21,40 +21,22 @@ from controller.errors import BankError
 
 
 class Sender:
-    """The slots of an armed FPGA, and what is sent into them.
-
-    Parameters
-    ----------
-    slots : int
-        Waveforms that the FPGA keeps.
-
-    Attributes
-    ----------
-    selection : Selection
-        Drive words for points.
-    slots : SlotCache
-        What is resident.
-    """
+    """The slots of an armed FPGA, and what is sent into them."""
 
     def __init__(self, context: LoopContext, selection: Selection, occupancy: Occupancy, slots: int, skips: Skips) -> None:
-        self.selection = selection
+        self.selection = selection  # drive words for points
         self._session = context.session
         self._counters = context.counters
         self._occupancy = occupancy
         self._skips = skips
-        self.slots = self._new_slots(slots)
+        self.slots = self._new_slots(slots)  # what is resident
         self._prefetch = PrefetchRecord(context.counters)
         self._last_slot: int | None = None  # of the newest play
 
     def send(self, plan: Plan) -> None:
         """Have a plan's waveform accepted for playing, uploaded before if it is not resident.
 
-        Raises
-        ------
-        BankError
-            If the bank lacks what it needs.
-        LinkError, FaultError, Refused
-            As the session says.
+        Raises BankError if the bank lacks what it needs; LinkError or FaultError or Refused as the session says.
         """
         if self._prefetch.predicted is not None:
             self._prefetch.compare(plan.batch.emissions, plan.key, self.selection)
@@ -67,24 +49,9 @@ class Sender:
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float, *, steady: bool = True, fingers: int = 1) -> bool:
         """Upload the waveform of a predicted emission without playing it, if predictions have come true of late.
 
-        Parameters
-        ----------
-        x_m, y_m, amplitude : float
-            Predicted focus.
-        steady : bool
-            The finger's last report was where it had been predicted: it has not turned or stopped.
-        fingers : int
-            Fingers that are down: what one asks for may be composed with what another does.
-
-        Returns
-        -------
-        bool
-            Whether it was sent: not if it is resident already, or the bank or the FPGA cannot serve it.
-
-        Raises
-        ------
-        LinkError, FaultError
-            As the session says.
+        `steady`: the finger's last report was where it had been predicted: it has not turned or stopped. `fingers` are down: what
+        one asks for may be composed with what another does. Returns whether it was sent: not if it is resident already, or the bank
+        or the FPGA cannot serve it. Raises LinkError or FaultError as the session says.
         """
         key = self.selection.key(((x_m, y_m, amplitude),))
         if not (self._skips.ahead and self._skips.resident):

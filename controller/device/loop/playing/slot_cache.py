@@ -18,21 +18,9 @@ class SlotCache:
 
     Each slot holds one waveform or none, and no two slots hold the same one.
 
-    Parameters
-    ----------
-    slots : int
-        Number of slots of the FPGA.
-    single_focus : callable
-        x_m, y_m and amplitude step of a key with one focus; None for a key with several.
-    near_m : float
-        A resident waveform for a place at most this far away is used as well, if its amplitude is the same; negative: none is.
-    reuses : bool
-        False: what a slot holds is never found, so that everything is uploaded each time (`loop.skips`).
-
-    Attributes
-    ----------
-    held : OrderedDict
-        Every slot, the next one to be taken first, with the key of its waveform; None: it holds none.
+    `single_focus` gives x_m, y_m and amplitude step of a key with one focus, None for a key with several. A resident waveform for a
+    place at most `near_m` away is used as well, if its amplitude is the same; negative: none is. Unless `reuses`, what a slot holds
+    is never found, so that everything is uploaded each time (`loop.skips`).
     """
 
     def __init__(
@@ -42,6 +30,7 @@ class SlotCache:
         self._reuses = reuses
         self._single_focus = single_focus
         self._near_m = near_m
+        # every slot, the next one to be taken first, with the key of its waveform; None: it holds none
         self.held: OrderedDict[int, Key | None] = OrderedDict()
         self._slot_of: dict[Key, int] = {}
         self._single_focus_of: dict[int, tuple[Key, float, float, int]] = {}  # what a slot holds, if that is one focus
@@ -74,10 +63,7 @@ class SlotCache:
     def take(self, spared: int | None = None) -> int:
         """Empty the least recently used slot; until `keep` it is the next one to be taken.
 
-        Parameters
-        ----------
-        spared : int, optional
-            This slot is taken only if there is no other.
+        The slot `spared` is taken only if there is no other.
         """
         chosen = None
         for slot, key in self.held.items():

@@ -25,21 +25,11 @@ PROGRAM = (
 class HelperProcess:
     """One helper at a time; another one can be started in its place.
 
-    Parameters
-    ----------
-    what : str
-        What it prepares: a word that `scene_helper_process` knows.
-    limit_s : float
-        Time limit of one preparation, in s.
-
-    Attributes
-    ----------
-    pid : int
-        Process id of the last one started; 0: there was none.
+    `what` it prepares is a word that `scene_helper_process` knows; `limit_s` is the time limit of one preparation.
     """
 
     def __init__(self, what: str, limit_s: float) -> None:
-        self.pid = 0
+        self.pid = 0  # process id of the last one started; 0: there was none
         self.socket: socket.socket | None = None
         self._arguments = (what, repr(limit_s))
         self._cpus = os.sched_getaffinity(0)

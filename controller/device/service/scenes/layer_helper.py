@@ -33,10 +33,7 @@ class _TooLong(Exception):
 class LayerChecker:
     """Checks layers against a board and its bank.
 
-    Parameters
-    ----------
-    setup : LayerSetup
-        Its `checked` cells are not checked again, nor are those that were checked for a layer before.
+    Cells that the setup has as `checked`, or that were checked for a layer before, are not checked again.
     """
 
     def __init__(self, setup: LayerSetup) -> None:
@@ -49,13 +46,7 @@ class LayerChecker:
         self._points_m, self._pitch_m = grid.points(), grid.pitch_m
 
     def answer(self, line: bytes, placement: Placement) -> bytes:
-        """The answer to a request: the layer as a message.
-
-        Raises
-        ------
-        ControllerError
-            If the layer as a whole is refused.
-        """
+        """The answer to a request: the layer as a message; raises ControllerError if the layer as a whole is refused."""
         layer = self._with_waveforms(read_layer(line, self._board), placement)
         regions = layer.regions
         return pack_layer(regions, SpatialIndex.of(regions), off_plate(regions, placement, self._board), layer.refused)
@@ -100,12 +91,7 @@ class LayerChecker:
 def serve_layers(loop: socket.socket, limit_s: float) -> None:
     """Answer requests until the other end of the socket is closed.
 
-    Parameters
-    ----------
-    loop : socket
-        Stream, to the loop; the first message is the setup.
-    limit_s : float
-        Time limit of one request, in s.
+    `loop` is a stream to the loop, whose first message is the setup; `limit_s` is the time limit of one request.
     """
     signal.signal(signal.SIGALRM, _too_long)
     checker: LayerChecker | None = None

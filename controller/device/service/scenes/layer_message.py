@@ -99,13 +99,7 @@ def pack_setup(board: Board, bank: Path, checked_cells: bytes) -> bytes:
 
 
 def unpack_setup(message: bytes) -> LayerSetup:
-    """The loop's first message.
-
-    Raises
-    ------
-    MessageError
-        If it does not fit.
-    """
+    """The loop's first message; raises MessageError if it does not fit."""
     setup = data_of(message, _setups)
     require_own(setup.software)
     return LayerSetup(setup.software, board_of(setup.board), setup.bank, setup.checked)
@@ -117,24 +111,12 @@ def pack_request(line: bytes, placement: Placement) -> bytes:
 
 
 def unpack_request(message: bytes) -> LayerRequest:
-    """The request in a message.
-
-    Raises
-    ------
-    MessageError
-        If it does not fit.
-    """
+    """The request in a message; raises MessageError if it does not fit."""
     return data_of(message, _requests)
 
 
 def pack_layer(regions: tuple[Region, ...], index: SpatialIndex, off_plate: int, refused: tuple[RefusedRegion, ...]) -> bytes:
-    """Message with a layer; of what was refused the first `REFUSED_MOST`.
-
-    Raises
-    ------
-    MessageError
-        If it is too large.
-    """
+    """Message with a layer; of what was refused the first `REFUSED_MOST`; raises MessageError if it is too large."""
     numbers: dict[tuple[int, ...], int] = {}  # of styles, by what they are made of, which regions share
     styles: list[_Style] = []
     places = []
@@ -164,13 +146,7 @@ def pack_refusal(reason: str) -> bytes:
 
 
 def unpack_layer(message: bytes) -> AcceptedLayer | str:
-    """The layer in a message, or why it was refused.
-
-    Raises
-    ------
-    MessageError
-        If the message does not fit.
-    """
+    """The layer in a message, or why it was refused; raises MessageError if the message does not fit."""
     reply = data_of(message, _replies)
     if reply.index is None:
         return reply.reason or "no reason given"

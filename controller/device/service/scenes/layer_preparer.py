@@ -22,14 +22,7 @@ GRACE_S = 5.0  # after that, until the helper counts as hanging: it may still be
 class LayerPreparer:
     """A `LayerPreparation` that starts and uses a helper process, which is warm from its start on.
 
-    Parameters
-    ----------
-    bank : Bank
-        The bank in use.
-    checked : iterable of int
-        Its cells whose waveforms were checked.
-    limit_s : float
-        Time limit of one layer, in s.
+    `checked` are cells of the bank in use whose waveforms were checked; `limit_s` is the time limit of one layer.
     """
 
     def __init__(self, board: Board, bank: Bank, checked: Iterable[int], limit_s: float = LIMIT_S) -> None:

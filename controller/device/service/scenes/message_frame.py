@@ -39,10 +39,7 @@ encoder = msgspec.msgpack.Encoder(enc_hook=str)  # of a Path
 def length(header: bytes | bytearray) -> int:
     """Length of a message after its header, in bytes.
 
-    Raises
-    ------
-    MessageError
-        If the header is invalid, of another version, or of a message that is too large.
+    Raises MessageError if the header is invalid, of another version, or of a message that is too large.
     """
     if len(header) < HEADER.size:
         raise MessageError("the message is cut off")
@@ -57,13 +54,7 @@ def length(header: bytes | bytearray) -> int:
 
 
 def data_of(message: bytes, decoder: msgspec.msgpack.Decoder[T]) -> T:
-    """What is in a message.
-
-    Raises
-    ------
-    MessageError
-        If it is not whole, damaged, or something else.
-    """
+    """What is in a message; raises MessageError if it is not whole, damaged, or something else."""
     try:
         return decoder.decode(_checked(message))
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
@@ -76,25 +67,13 @@ def unfit(problem: Exception | str) -> MessageError:
 
 
 def require_within(index: SpatialIndex, regions: int) -> None:
-    """Refuse an index of more regions than there are.
-
-    Raises
-    ------
-    MessageError
-        If it is one.
-    """
+    """Refuse an index of more regions than there are; raises MessageError if it is one."""
     if max(chain.from_iterable(index.candidates), default=-1) >= regions:
         raise unfit("its spatial index names a region that it does not have")
 
 
 def board_of(packed: Raw) -> Board:
-    """The board in a message.
-
-    Raises
-    ------
-    MessageError
-        If it is none.
-    """
+    """The board in a message; raises MessageError if it is none."""
     try:
         tables = msgspec.msgpack.decode(packed, type=dict[str, Any])
         folder = Path(str(tables.pop("folder", "")))
@@ -114,13 +93,7 @@ def framed(data: bytes) -> bytes:
 
 
 def _checked(message: bytes) -> memoryview:
-    """The data of a message.
-
-    Raises
-    ------
-    MessageError
-        If it is not whole, or damaged.
-    """
+    """The data of a message; raises MessageError if it is not whole, or damaged."""
     data = memoryview(message)[HEADER.size :]
     if len(data) != length(message):
         raise MessageError("the message is cut off, or has more than it says")
@@ -130,12 +103,6 @@ def _checked(message: bytes) -> memoryview:
 
 
 def require_own(software: str) -> None:
-    """Refuse a message of another version of the software.
-
-    Raises
-    ------
-    MessageError
-        If it is one.
-    """
+    """Refuse a message of another version of the software; raises MessageError if it is one."""
     if software != __version__:
         raise MessageError(f"the message is of version {software!r} of the software, this is {__version__!r}: restart the service")

@@ -20,10 +20,7 @@ from controller.errors import BankError
 def prepare(board: Board, name: str, bank_file: Path) -> Scene:
     """A scene that this board can play from this bank.
 
-    Raises
-    ------
-    ConfigError, BankError
-        If it cannot be meant, or the bank has not all it can ask for.
+    Raises ConfigError or BankError if it cannot be meant, or the bank has not all it can ask for.
     """
     scene_file = find_scene(board, name)
     scene = load_scene(scene_file, board)
@@ -33,25 +30,10 @@ def prepare(board: Board, name: str, bank_file: Path) -> Scene:
 
 
 def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) -> int:
-    """Read and check what a scene can ask of a bank.
+    """Read and check what a scene, `called` so in errors, can ask of a bank; returns the number of cells.
 
-    Parameters
-    ----------
-    called : str
-        Name of the scene, for errors.
-    responses : bool
-        Also the responses from which waveforms are composed: nine tenths of a bank. Otherwise they are read and checked when they
-        are used.
-
-    Returns
-    -------
-    int
-        Cells.
-
-    Raises
-    ------
-    BankError
-        If the bank lacks one, or one is damaged.
+    With `responses` also those from which waveforms are composed: nine tenths of a bank. Otherwise they are read and checked when
+    they are used. Raises BankError if the bank lacks one, or one is damaged.
     """
     cells = cells_of(bank, scene, called)
     if not bank.composes and (needs_responses(scene, bank.wave_scale) or not _emitters_composed(bank, scene)):
@@ -76,13 +58,7 @@ def _emitters_composed(bank: Bank, scene: Scene) -> bool:
 
 
 def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:
-    """Cells that a scene can ask for; parameters as of `populate`.
-
-    Raises
-    ------
-    BankError
-        If the bank lacks one.
-    """
+    """Cells that a scene can ask for; parameters as of `populate`; raises BankError if the bank lacks one."""
     wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m, wave_scale=bank.wave_scale)
     missing = int((wanted & ~bank.cells).sum())
     if missing:

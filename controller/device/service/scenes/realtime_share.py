@@ -19,11 +19,6 @@ class RealtimeShare:
 
     It is so only while the loop has a higher priority, and this process may be (`LimitRTPRIO=` of the unit). It stays so between
     two spans, since what has to be quick is waking up.
-
-    Parameters
-    ----------
-    loop : int
-        Process id of the loop.
     """
 
     def __init__(self, loop: int) -> None:

@@ -19,15 +19,8 @@ SAVED_MAX: Final = 64  # of a board
 def save_scene(board: Board, name: str, toml: str) -> None:
     """Keep a scene; one that was saved under this name before is replaced.
 
-    Parameters
-    ----------
-    name : str
-        A plain name, as `messages.PlainName`.
-
-    Raises
-    ------
-    ConfigError, BankError
-        If the board has a file of this name itself, the scene is refused or too large, there are too many, or it cannot be written.
+    `name` is a plain name, as `messages.PlainName`. Raises ConfigError or BankError if the board has a file of this name itself,
+    the scene is refused or too large, there are too many, or it cannot be written.
     """
     own = next((file for file in own_scenes(board, name) if file.exists()), None)
     if own is not None:

@@ -32,12 +32,7 @@ CHUNK_BYTES = 1 << 16
 def serve(loop: socket.socket, limit_s: float) -> None:
     """Answer requests until the other end of the socket is closed.
 
-    Parameters
-    ----------
-    loop : socket
-        Stream, to the loop.
-    limit_s : float
-        Time limit of one preparation, in s.
+    `loop` is a stream to the loop; `limit_s` is the time limit of one preparation.
     """
     while (request := receive(loop)) is not None:
         pid, pipe = _begin(request, loop, limit_s)
@@ -103,10 +98,7 @@ def _work(request: bytes, limit_s: float) -> bytes:
 def limit_memory(bank: Path, file_bytes: int = 0) -> None:
     """Limit memory and files of this process to what it needs; when memory runs out, the kernel ends this process first.
 
-    Parameters
-    ----------
-    file_bytes : int
-        Of the largest file that it may write.
+    `file_bytes` are those of the largest file that it may write.
     """
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")

@@ -14,15 +14,7 @@ NICE = 5
 
 
 def main(what: str, limit_s: float) -> None:
-    """Serve the socket on standard input.
-
-    Parameters
-    ----------
-    what : str
-        "scenes" or "layers": what is prepared.
-    limit_s : float
-        Time limit of one preparation, in s.
-    """
+    """Serve the socket on standard input: "scenes" or "layers" are prepared, each within `limit_s`."""
     # Meant for the loop, with which this process ends.
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
         signal.signal(number, signal.SIG_IGN)

@@ -66,28 +66,12 @@ _replies = msgspec.msgpack.Decoder(_Reply)
 
 
 def pack_request(board: Board, scene: str, bank: Path, toml: str | None = None) -> bytes:
-    """Message that requests a scene, or that one is saved.
-
-    Parameters
-    ----------
-    scene : str
-        Name or path.
-    bank : Path
-        Bank that it will be played from.
-    toml : str, optional
-        What is to be saved.
-    """
+    """Message that requests a scene, by name or path, to be played from a bank, or that one (`toml`) is saved."""
     return framed(encoder.encode(SceneRequest(__version__, board, scene, str(bank), toml)))
 
 
 def pack_scene(scene: Scene) -> bytes:
-    """Message with a scene.
-
-    Raises
-    ------
-    MessageError
-        If it is too large.
-    """
+    """Message with a scene; raises MessageError if it is too large."""
     data = encoder.encode(_Reply(__version__, scene=_Scene(scene.regions, dict(scene.effects), scene.index)))
     if len(data) > MOST_BYTES:
         raise MessageError(f"the scene is too large: {len(data):,} bytes with its {len(scene.regions)} regions, of {MOST_BYTES:,}")
@@ -105,26 +89,14 @@ def pack_refusal(reason: str) -> bytes:
 
 
 def unpack_request(message: bytes) -> SceneRequest:
-    """The request in a message.
-
-    Raises
-    ------
-    MessageError
-        If the message does not fit.
-    """
+    """The request in a message; raises MessageError if the message does not fit."""
     request = data_of(message, _requests)
     require_own(request.software)
     return SceneRequest(request.software, board_of(request.board), request.scene, request.bank, request.toml)
 
 
 def unpack_scene(message: bytes) -> Scene | str:
-    """The scene in a message, or why it was refused; empty if it was saved.
-
-    Raises
-    ------
-    MessageError
-        If the message does not fit.
-    """
+    """The scene in a message, or why it was refused; empty if it was saved; raises MessageError if the message does not fit."""
     reply = data_of(message, _replies)
     require_own(reply.software)
     if reply.scene is None:

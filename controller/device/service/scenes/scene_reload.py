@@ -28,19 +28,8 @@ GRACE_S = 5.0  # after that limit, until the helper itself counts as hanging
 class SceneChanger:
     """A `SceneChange` that starts and uses a helper process.
 
-    Parameters
-    ----------
-    name : str
-        Name or path of the scene in force.
-    bank : Bank
-        The bank in use.
-    limit_s : float
-        Time limit of one preparation, in s.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such scene.
+    `name` is the name or path of the scene in force; `limit_s` is the time limit of one preparation. Raises ConfigError if there is
+    no such scene.
     """
 
     def __init__(self, board: Board, name: str, bank: Bank, limit_s: float = LIMIT_S) -> None:
@@ -73,10 +62,7 @@ class SceneChanger:
     def begin(self, name: str | None, ticket: int) -> None:
         """Prepare a scene; None: read the scene in force again.
 
-        Raises
-        ------
-        ConfigError
-            If another scene is being prepared; a reload (ticket 0) is instead deferred until that is done.
+        Raises ConfigError if another scene is being prepared; a reload (ticket 0) is instead deferred until that is done.
         """
         if self._wanted is not None and not ticket:
             self._again = True
@@ -84,13 +70,7 @@ class SceneChanger:
         self._ask(self._name if name is None else name, ticket, None)
 
     def save(self, name: str, toml: str, ticket: int) -> None:
-        """Save a scene for this board, to be found by `begin`.
-
-        Raises
-        ------
-        ConfigError
-            If a scene is being prepared or saved.
-        """
+        """Save a scene for this board, to be found by `begin`; raises ConfigError if a scene is being prepared or saved."""
         self._ask(name, ticket, toml)
 
     def _ask(self, name: str, ticket: int, toml: str | None) -> None:

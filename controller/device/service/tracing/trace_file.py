@@ -32,15 +32,7 @@ FLAGS: Final = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC | os.O_NOFOL
 
 
 def events_of(record: TurnRecord | StartRecord, origin_s: float, emission_s: float) -> Iterator[str]:
-    """Events of a record as JSON.
-
-    Parameters
-    ----------
-    origin_s : float
-        Host time at which the trace begins.
-    emission_s : float
-        Length of an emission.
-    """
+    """Events of a record as JSON, in a trace that begins at the host time `origin_s`; `emission_s` is the length of an emission."""
     if isinstance(record, TurnRecord):
         args = f'"due":{record.due},"report_age_us":{record.report_age_s * 1e6:.1f},"started":{str(record.started).lower()}'
         yield _event("turn", TURNS, record.began_s - origin_s, record.ended_s - record.began_s, args)
@@ -80,14 +72,7 @@ END: Final = "\n]}\n"
 class TraceFile(SpareTime):
     """Writes the ring of a loop when that is asked for: a copy at first, then its records, a few between two turns.
 
-    Parameters
-    ----------
-    folder : Path or None
-        In memory (tmpfs): nothing waits for a disk. None: nothing is written.
-    board : str
-        Name of the board.
-    emission_s : float
-        Length of an emission.
+    The folder is in memory (tmpfs): nothing waits for a disk; None: nothing is written. `emission_s` is the length of an emission.
     """
 
     def __init__(self, folder: Path | None, board: str, emission_s: float) -> None:

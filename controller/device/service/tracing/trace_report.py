@@ -59,7 +59,7 @@ class Span(msgspec.Struct, frozen=True):
     due: int
 
 
-class Start(msgspec.Struct, frozen=True):
+class EmissionStart(msgspec.Struct, frozen=True):
     """One start of an emission, in us from the trace's beginning; for the rest see `trace_ring.StartRecord`."""
 
     start_us: float
@@ -85,17 +85,11 @@ class Trace(msgspec.Struct, frozen=True):
     board: str
     release: str
     turns: tuple[Span, ...]
-    starts: tuple[Start, ...]
+    starts: tuple[EmissionStart, ...]
 
 
 def read_trace(file: Path) -> Trace:
-    """Read a trace.
-
-    Raises
-    ------
-    ConfigError
-        If it cannot be read, or is no trace of a panel.
-    """
+    """Read a trace; raises ConfigError if it cannot be read, or is no trace of a panel."""
     try:
         read = msgspec.json.decode(read_text(file, BYTES_MAX), type=_File)
         turns, starts = [], []
@@ -108,7 +102,7 @@ def read_trace(file: Path) -> Trace:
                 args = msgspec.json.decode(event.args, type=_Args)
                 host_us = args.decide_us + args.frame_us
                 starts.append(
-                    Start(
+                    EmissionStart(
                         event.ts,
                         args.due_us,
                         args.late_us,
@@ -153,7 +147,7 @@ def figures_of(trace: Trace) -> dict[str, Any]:
     }
 
 
-def parts_of(trace: Trace, start: Start) -> dict[str, float]:
+def parts_of(trace: Trace, start: EmissionStart) -> dict[str, float]:
     """The parts of a delay in ms, by cause; their sum is how late it was, unless its command was there in time.
 
     What it took beyond what others of its kind take (resident or not) is the host's, or the wire's. What is left before it was

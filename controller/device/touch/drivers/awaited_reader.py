@@ -18,21 +18,13 @@ NO_DEVICE: Final = DeviceDescription("no device yet", axes=dict.fromkeys(ev.POSI
 class AwaitedReader:
     """An `EventReader` that opens another one, at once or later.
 
-    Parameters
-    ----------
-    open_reader : callable
-        Opens the driver without blocking, or raises TouchError.
-
-    Attributes
-    ----------
-    warnings : Counter of str
-        Anomalies found by the driver, by kind.
+    `open_reader` opens the driver without blocking, or raises TouchError.
     """
 
     def __init__(self, open_reader: Callable[[], EventReader]) -> None:
         self._open = open_reader
         self._reader: EventReader | None = None
-        self.warnings: Counter[str] = Counter()
+        self.warnings: Counter[str] = Counter()  # anomalies found by the driver, by kind
         self._open_error = ""
         self._retry_s = 0.0
 

@@ -26,16 +26,7 @@ class ReportedContact(NamedTuple):
 def describe(name: str, version: int, width: int, height: int, *, sized: bool, remark: str = "") -> DeviceDescription:
     """Description of a panel on I2C with `MAX_CONTACTS` contacts, as a kernel driver would give it.
 
-    Parameters
-    ----------
-    name, version : str, int
-        Of the device; of its firmware.
-    width, height : int
-        Largest raw x and y; the smallest are 0.
-    sized : bool
-        Whether the panel reports sizes of contacts.
-    remark : str
-        See `DeviceDescription`.
+    `version` is that of the firmware; `width` and `height` are the largest raw x and y, the smallest are 0.
     """
     extents = (width, height)
     axes = {ev.ABS_MT_SLOT: AxisInfo(0, MAX_CONTACTS - 1), ev.ABS_MT_TRACKING_ID: AxisInfo(0, MAX_TRACKING_ID)}
@@ -55,16 +46,6 @@ class ContactEvents:
 
     The slot of a contact is the panel's number for it; each new contact gets a new tracking id. As the kernel does, it sends
     only values that differ from the last ones of the slot; a new object starts without last values.
-
-    Parameters
-    ----------
-    sized : bool
-        Whether the panel reports sizes of contacts.
-
-    Attributes
-    ----------
-    down : int
-        Contacts of the last report.
     """
 
     def __init__(self, *, sized: bool) -> None:
@@ -75,22 +56,12 @@ class ContactEvents:
         self._report = 0
         self._slot = -1
         self._next_id = 0
-        self.down = 0
+        self.down = 0  # contacts of the last report
 
     def report(self, contacts: Sequence[ReportedContact], time_s: float) -> list[Event]:
-        """Events of a report.
+        """Events of a report of all contacts that are down, SYN_REPORT last; empty without a change.
 
-        Parameters
-        ----------
-        contacts : sequence of ReportedContact
-            All contacts that are down, with numbers below `MAX_CONTACTS`; of two with one number the last counts.
-        time_s : float
-            Of the events.
-
-        Returns
-        -------
-        list of Event
-            SYN_REPORT last; empty without a change.
+        Their numbers are below `MAX_CONTACTS`; of two with one number the last counts.
         """
         events: list[Event] = []
         self._report += 1

@@ -39,17 +39,9 @@ class LinuxInput:
     After a loss of events in the kernel's buffer (SYN_DROPPED) the device's state is read and given as a report. Events
     still in the buffer are older than that state and are discarded first, as libevdev does.
 
-    Parameters
-    ----------
-    device : str
-        Path, best below /dev/input/by-path, or the name that the device reports.
-    grab : bool
-        Whether other programs stop receiving its events.
-
-    Raises
-    ------
-    TouchError
-        If it is absent, cannot be opened or is no touch panel, or if several panels have this name.
+    `device` is a path, best below /dev/input/by-path, or the name that the device reports; with `grab` other programs stop
+    receiving its events. Raises TouchError if it is absent, cannot be opened or is no touch panel, or if several panels have this
+    name.
     """
 
     def __init__(self, device: str, *, grab: bool = False) -> None:
@@ -205,17 +197,7 @@ class LinuxInput:
 
 
 def release_report(protocol: Protocol, slots: int, time_s: float) -> list[Event]:
-    """Report that lifts every contact.
-
-    Parameters
-    ----------
-    protocol : Protocol
-        Of the device.
-    slots : int
-        Number of slots, for protocol B.
-    time_s : float
-        Of the events.
-    """
+    """Report that lifts every contact; `slots` is the number of slots, for protocol B."""
     events: list[Event] = []
     if protocol is Protocol.B:
         for slot in range(slots):

@@ -7,6 +7,7 @@ import ctypes
 import errno
 import fcntl
 from collections import Counter
+from collections.abc import Iterator
 from typing import Any, Final
 
 from controller.errors import TouchError
@@ -28,22 +29,20 @@ def write_message(address: int, data: bytes) -> Any:
     return smbus2.i2c_msg.write(address, data)
 
 
+@contextlib.contextmanager
+def unless_refused() -> Iterator[None]:
+    """Go on behind the block if the device does not acknowledge; raises OSError if the bus fails in another way."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno not in REFUSED_ERRNOS:
+            raise
+
+
 class Transfer:
     """A read of consecutive registers, with its buffer, made once and used for every report.
 
-    Parameters
-    ----------
-    address : int
-        Of the device on the bus.
-    register : bytes
-        Address of the first register, as it is sent.
-    size_bytes : int
-        How many bytes to read.
-
-    Attributes
-    ----------
-    data : memoryview of bytes
-        As read last.
+    `register` is the address of the first register, as it is sent.
     """
 
     def __init__(self, address: int, register: bytes, size_bytes: int) -> None:
@@ -51,23 +50,14 @@ class Transfer:
 
         self.messages: tuple[Any, Any] = (write_message(address, register), smbus2.i2c_msg.read(address, size_bytes))
         start = ctypes.addressof(self.messages[1].buf.contents)  # the message keeps its buffer alive
-        self.data = memoryview((ctypes.c_uint8 * size_bytes).from_address(start)).cast("B")
+        self.data = memoryview((ctypes.c_uint8 * size_bytes).from_address(start)).cast("B")  # as read last
 
 
 class I2cBus:
     """An open bus.
 
-    Parameters
-    ----------
-    path : str
-        Of the bus, such as /dev/i2c-1.
-    warnings : Counter of str
-        Counts `bus_retried`.
-
-    Raises
-    ------
-    TouchError
-        If it cannot be opened, or its adapter has no combined messages.
+    `path` is such as /dev/i2c-1; `warnings` counts `bus_retried`. Raises TouchError if it cannot be opened, or its adapter has no
+    combined messages.
     """
 
     def __init__(self, path: str, warnings: Counter[str]) -> None:
@@ -86,28 +76,11 @@ class I2cBus:
             fcntl.ioctl(self._bus.fd, I2C_TIMEOUT, TIMEOUT_10MS)
 
     def fetch(self, transfer: Transfer) -> None:
-        """Read into the buffer of a `transfer`.
-
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
-        """
+        """Read into the buffer of a `transfer`; raises OSError if the last attempt fails."""
         self._run(transfer.messages)
 
     def read(self, address: int, register: bytes, size_bytes: int) -> bytes:
-        """Read registers once.
-
-        Parameters
-        ----------
-        address, register, size_bytes
-            As of `Transfer`.
-
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
-        """
+        """Read registers once; raises OSError if the last attempt fails."""
         transfer = Transfer(address, register, size_bytes)
         self.fetch(transfer)
         return bytes(transfer.data)
@@ -115,69 +88,28 @@ class I2cBus:
     def ask(self, address: int, register: bytes, size_bytes: int) -> bytes | None:
         """Read registers that the device may lack; None if it does not acknowledge them.
 
-        Parameters
-        ----------
-        address, register, size_bytes
-            As of `Transfer`.
-
-        Raises
-        ------
-        OSError
-            If the bus fails in another way.
+        Raises OSError if the bus fails in another way.
         """
-        try:
+        with unless_refused():
             return self.read(address, register, size_bytes)
-        except OSError as error:
-            if error.errno not in REFUSED_ERRNOS:
-                raise
-            return None
+        return None
 
     def offer(self, address: int, data: bytes) -> bool:
         """Write registers that the device may lack; False if it does not acknowledge them.
 
-        Parameters
-        ----------
-        address, data
-            As of `write`.
-
-        Raises
-        ------
-        OSError
-            If the bus fails in another way.
+        Raises OSError if the bus fails in another way.
         """
-        try:
+        with unless_refused():
             self.write(address, data)
-        except OSError as error:
-            if error.errno not in REFUSED_ERRNOS:
-                raise
-            return False
-        return True
+            return True
+        return False
 
     def send(self, message: Any) -> None:
-        """Send a `message` made with `write_message`.
-
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
-        """
+        """Send a `message` made with `write_message`; raises OSError if the last attempt fails."""
         self._run((message,))
 
     def write(self, address: int, data: bytes) -> None:
-        """Write registers.
-
-        Parameters
-        ----------
-        address : int
-            Of the device on the bus.
-        data : bytes
-            Register address and values.
-
-        Raises
-        ------
-        OSError
-            If the last attempt fails.
-        """
+        """Write registers: `data` is the register's address and the values; raises OSError if the last attempt fails."""
         self.send(write_message(address, data))
 
     def close(self) -> None:

@@ -31,43 +31,17 @@ RETRY_S: Final = 0.5  # between attempts to start a lost chip
 
 
 class Chip(Protocol):
-    """A touch controller: its start sequence, and how a report is read.
+    """A touch controller: its start sequence, and how a report is read."""
 
-    Attributes
-    ----------
-    name : str
-        In messages.
-    scan_s : float
-        Time between its scans for contacts, as far as known; another one perhaps after each start.
-    marks_reports : bool
-        `fetch` gives a report once, and None as long as there is no other; else it gives the state, again and again.
-    """
-
-    name: str
-    scan_s: float
+    name: str  # in messages
+    scan_s: float  # time between its scans for contacts, as far as known; another one perhaps after each start
+    # `fetch` gives a report once, and None as long as there is no other; else it gives the state, again and again
     marks_reports: bool
 
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
-        """Reset and identify the chip.
+        """Reset and identify the chip; yields the time in s to wait before the next step.
 
-        Parameters
-        ----------
-        bus : I2cBus
-            Where it answers.
-        lines : PanelLines
-            Its interrupt and reset lines.
-
-        Yields
-        ------
-        float
-            Time in s to wait before the next step.
-
-        Raises
-        ------
-        OSError
-            If it does not answer.
-        TouchError
-            If another device answers.
+        Raises OSError if it does not answer; TouchError if another device answers.
         """
 
     @property
@@ -79,43 +53,17 @@ class Chip(Protocol):
         """Whether the interrupt line rises to signal a report; else it falls."""
 
     def fetch(self, bus: I2cBus) -> Sequence[ReportedContact] | None:
-        """Read the newest report.
+        """Read the newest report: all contacts that are down.
 
-        Parameters
-        ----------
-        bus : I2cBus
-            Where the chip answers.
-
-        Returns
-        -------
-        sequence of ReportedContact, or None
-            All contacts that are down; None if there is no new report, or none that can be believed.
-
-        Raises
-        ------
-        OSError
-            If it does not answer.
-        ValueError
-            If the report has impossible content.
+        None if there is no new report, or none that can be believed. Raises OSError if it does not answer; ValueError if the report
+        has impossible content.
         """
 
 
 class I2cReader:
     """An `EventReader` of a chip on a bus.
 
-    Parameters
-    ----------
-    settings : I2cTouch
-        Bus and lines.
-    chip : Chip
-        Start sequence and report format.
-    warnings : Counter of str
-        Counts anomalies; shared with the chip.
-
-    Raises
-    ------
-    TouchError
-        If bus, lines or chip are absent.
+    `settings` gives bus and lines; `warnings` is shared with the chip. Raises TouchError if bus, lines or chip are absent.
     """
 
     def __init__(self, settings: I2cTouch, chip: Chip, warnings: Counter[str]) -> None:

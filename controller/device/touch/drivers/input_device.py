@@ -22,17 +22,9 @@ EVIOCSCLOCKID: Final = 0x400445A0  # _IOW('E', 0xa0, int)
 def open_touch_device(device: str, *, grab: bool) -> tuple[evdev.InputDevice[str], DeviceDescription]:
     """Open the event device of a touch panel.
 
-    Parameters
-    ----------
-    device : str
-        Path, best below /dev/input/by-path, or the name that the device reports.
-    grab : bool
-        Whether other programs stop receiving its events.
-
-    Raises
-    ------
-    TouchError
-        If it is absent, cannot be opened or is no touch panel, or if several panels have this name.
+    `device` is a path, best below /dev/input/by-path, or the name that the device reports; with `grab` other programs stop
+    receiving its events. Raises TouchError if it is absent, cannot be opened or is no touch panel, or if several panels have this
+    name.
     """
     path = device if device.startswith("/") else _path_of(device)
     try:
@@ -56,10 +48,7 @@ def open_touch_device(device: str, *, grab: bool) -> tuple[evdev.InputDevice[str
 def use_monotonic_clock(fd: int) -> None:
     """Have the kernel stamp the events of an open event device `fd` on CLOCK_MONOTONIC.
 
-    Raises
-    ------
-    OSError
-        If the file is no event device.
+    Raises OSError if the file is no event device.
     """
     fcntl.ioctl(fd, EVIOCSCLOCKID, struct.pack("i", CLOCK_MONOTONIC))
 
@@ -100,10 +89,7 @@ def _axes(device: evdev.InputDevice[str]) -> dict[int, AxisInfo]:
 def _describe(device: evdev.InputDevice[str]) -> DeviceDescription:
     """Description that the device of a touch panel reports.
 
-    Raises
-    ------
-    ValueError
-        If it is no touch panel, or has an axis without a range.
+    Raises ValueError if it is no touch panel, or has an axis without a range.
     """
     description = _described(device)
     if lacking := what_is_lacking(description):

@@ -23,14 +23,9 @@ class _Line(Enum):
 
 
 class InterruptWatch:
-    """Judges the interrupt line of one chip.
+    """Checks the interrupt line of one chip; counts `interrupt_silent` and `interrupt_noisy`.
 
-    Parameters
-    ----------
-    warnings : Counter of str
-        Counts `interrupt_silent` and `interrupt_noisy`.
-    wired : bool
-        Whether there is a line; without one the chip is polled, and nothing is counted.
+    If it is not `wired` the chip is polled, and nothing is counted.
     """
 
     def __init__(self, warnings: Counter[str], *, wired: bool) -> None:
@@ -55,15 +50,10 @@ class InterruptWatch:
         self._edges, self._second_s = 0, -1.0
 
     def report(self, *, announced: bool, edge_meanwhile: bool = False) -> None:
-        """Take in a new report.
+        """Take in a new report; it was `announced` if an edge came before the chip was read.
 
-        Parameters
-        ----------
-        announced : bool
-            An edge came before the chip was read.
-        edge_meanwhile : bool
-            An edge came while it was being read: that of the report, which was made in just this moment, or, of a line with
-            the other polarity, that of having read it. Where such reports are all that a trusted line gives, it is the latter.
+        An `edge_meanwhile` came while it was being read: that of the report, which was made in just this moment, or, of a line with
+        the other polarity, that of having read it. Where such reports are all that a trusted line gives, it is the latter.
         """
         if self.ignored:
             return

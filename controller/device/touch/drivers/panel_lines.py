@@ -20,30 +20,14 @@ MAX_READS: Final = 64  # calls at a time: a line with noise has edges faster tha
 class PanelLines:
     """Interrupt line and reset line of one panel, both optional.
 
-    Parameters
-    ----------
-    chip_label : str
-        Label of the GPIO chip, such as pinctrl-bcm2711; empty without lines.
-    interrupt, reset : str
-        Names or numbers of lines of that chip; empty: there is none.
-
-    Attributes
-    ----------
-    has_interrupt, has_reset : bool
-        Whether there is such a line.
-    edges : int
-        Edges of the interrupt line that were consumed so far.
-
-    Raises
-    ------
-    TouchError
-        If there is no such chip or line, or a line is in use.
+    `chip_label` is such as pinctrl-bcm2711, empty without lines; `interrupt` and `reset` are names or numbers of lines of that
+    chip, empty: there is none. Raises TouchError if there is no such chip or line, or a line is in use.
     """
 
     def __init__(self, chip_label: str, interrupt: str, reset: str = "") -> None:
-        self.has_interrupt = bool(interrupt)
+        self.has_interrupt = bool(interrupt)  # has_interrupt, has_reset: whether there is such a line
         self.has_reset = bool(reset)
-        self.edges = 0
+        self.edges = 0  # edges of the interrupt line that were consumed so far
         self._interrupt = interrupt
         self._reset = reset
         self._listening: gpiod.LineRequest | None = None
@@ -70,10 +54,7 @@ class PanelLines:
     def listen(self, edge: Edge) -> None:
         """Detect rising or falling edges (`edge`) of the interrupt line from now on, if there is one.
 
-        Raises
-        ------
-        TouchError
-            If the line is in use.
+        Raises TouchError if the line is in use.
         """
         self._release(self._interrupt)
         if self.has_interrupt:
@@ -85,13 +66,7 @@ class PanelLines:
         return self._listening.fd if self._listening else None
 
     def interrupt_high(self) -> bool | None:
-        """Level of the interrupt line; None while it is not listened to.
-
-        Raises
-        ------
-        OSError
-            If its chip fails.
-        """
+        """Level of the interrupt line; None while it is not listened to; raises OSError if its chip fails."""
         if self._listening is None:
             return None
         return bool(self._listening.get_value(self._offsets[self._interrupt]) is Value.ACTIVE)

@@ -73,30 +73,13 @@ def _warnings_message(warnings: Mapping[str, int]) -> bytes:
 
 
 class PanelProcess:
-    """The loop's end: an `EventReader` of a panel that may be absent.
-
-    Parameters
-    ----------
-    worker : Worker
-        Process that runs `serve_panel`.
-
-    Attributes
-    ----------
-    warnings : Counter of str
-        Anomalies found by the driver, by kind.
-    description : DeviceDescription
-        Of the device as it was opened last; `NO_DEVICE` before.
-    present : bool
-        Whether the panel was connected when the process last reported it.
-    cause : str
-        Why it is not connected; empty while it is, and before the first attempt to open it.
-    """
+    """The loop's end: an `EventReader` of a panel that may be absent; `worker` runs `serve_panel`."""
 
     def __init__(self, worker: Worker) -> None:
-        self.warnings: Counter[str] = Counter()
-        self.description: DeviceDescription = NO_DEVICE
-        self.present = False
-        self.cause = ""
+        self.warnings: Counter[str] = Counter()  # anomalies found by the driver, by kind
+        self.description: DeviceDescription = NO_DEVICE  # of the device as it was opened last; `NO_DEVICE` before
+        self.present = False  # whether the panel was connected when the process last reported it
+        self.cause = ""  # why it is not connected; empty while it is, and before the first attempt to open it
         self._worker = worker
         self._hangs_s = math.inf  # when the process is taken to hang unless it has sent a message
 
@@ -110,10 +93,7 @@ class PanelProcess:
     def read(self, now_s: float) -> Sequence[Event]:
         """Events of at most one report received by `now_s`; see `EventReader.read`.
 
-        Raises
-        ------
-        WorkerEnded
-            If the process has ended: no behaviour of a panel ends it.
+        Raises WorkerEnded if the process has ended: no behaviour of a panel ends it.
         """
         message = self._worker.receive()
         if message is None:
@@ -143,14 +123,8 @@ class PanelProcess:
 def serve_panel(open_reader: Callable[[], EventReader], loop: socket.socket, shared: SharedPanel | None = None) -> None:
     """Read a panel and send what it reports, until the loop closes its end.
 
-    Parameters
-    ----------
-    open_reader : callable
-        Opens the driver, or raises TouchError; it may block.
-    loop : socket
-        The other end of `Worker`.
-    shared : SharedPanel, optional
-        Hands the contacts on to other programs, once the loop has them.
+    `open_reader` opens the driver, or raises TouchError; it may block. `loop` is the other end of `Worker`. `shared` hands the
+    contacts on to other programs, once the loop has them.
     """
     try:
         _serve(open_reader, loop, shared)

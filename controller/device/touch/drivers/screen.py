@@ -31,20 +31,11 @@ def why_not() -> str:
     return ""
 
 
-class Screen(evdev.UInput):
+class KernelScreen(evdev.UInput):
     """A touch screen.
 
-    Parameters
-    ----------
-    name : str
-        Under which other programs see it.
-    length_mm, width_mm : float
-        Sides of the plate; its axes are as long, in units of 0.01 mm.
-
-    Raises
-    ------
-    TouchError
-        If the kernel refuses it.
+    `name` is what other programs see; the axes are as long as the sides of the plate, in units of 0.01 mm. Raises TouchError if the
+    kernel refuses it.
     """
 
     def __init__(self, name: str, length_mm: float, width_mm: float) -> None:
@@ -68,10 +59,7 @@ class Screen(evdev.UInput):
     def report(self, events: Sequence[Event]) -> None:
         """Send the events of a report, SYN_REPORT last, by one system call; the kernel gives them their time.
 
-        Raises
-        ------
-        OSError
-            If the kernel does not take them.
+        Raises OSError if the kernel does not take them.
         """
         os.write(self.fd, b"".join([INPUT_EVENT.pack(0, 0, kind, code, value) for kind, code, value, _ in events]))
 

@@ -16,7 +16,7 @@ from typing import Final, Protocol
 from controller.device.board.touch_panels import TouchPanel
 from controller.device.touch.drivers.awaited_reader import NO_DEVICE
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ContactEvents, ReportedContact
-from controller.device.touch.drivers.screen import UNITS_PER_MM, Screen
+from controller.device.touch.drivers.screen import UNITS_PER_MM, KernelScreen
 from controller.device.touch.event_reader import DeviceDescription, Event
 from controller.device.touch.live_source import LiveSource
 from controller.device.touch.source import TouchSample
@@ -62,7 +62,7 @@ class _Fed:
 
 
 class TouchScreen(Protocol):
-    """What `Screen` does."""
+    """What `KernelScreen` does."""
 
     def report(self, events: Sequence[Event]) -> None:
         """Send the events of a report; OSError if that fails."""
@@ -72,27 +72,16 @@ class TouchScreen(Protocol):
 
 
 class SharedPanel:
-    """Hands the contacts of one panel on.
-
-    Parameters
-    ----------
-    touch : TouchPanel
-        The board's [touch].
-    length_m, width_m : float
-        Sides of the plate.
-    open_screen : callable
-        Makes the touch screen, by name and sides in mm, or raises TouchError.
-
-    Attributes
-    ----------
-    warnings : Counter of str
-        Counts `share_lost`.
-    """
+    """Hands the contacts of one panel on. `open_screen` makes the touch screen, by name and sides in mm, or raises TouchError."""
 
     def __init__(
-        self, touch: TouchPanel, length_m: float, width_m: float, open_screen: Callable[[str, float, float], TouchScreen] = Screen
+        self,
+        touch: TouchPanel,
+        length_m: float,
+        width_m: float,
+        open_screen: Callable[[str, float, float], TouchScreen] = KernelScreen,
     ) -> None:
-        self.warnings: Counter[str] = Counter()
+        self.warnings: Counter[str] = Counter()  # counts `share_lost`
         self._sides_mm = (length_m * 1e3, width_m * 1e3)
         self._open_screen = open_screen
         self._screen: TouchScreen | None = None

@@ -11,13 +11,7 @@ from controller.device.touch.event_reader import DeviceDescription
 
 
 def what_is_lacking(device: DeviceDescription) -> str:
-    """What a device lacks to be a touch panel, and what it is taken for; empty: nothing.
-
-    Parameters
-    ----------
-    device : DeviceDescription
-        With the codes that it declares.
-    """
+    """What a device lacks to be a touch panel, and what it is taken for; empty: nothing."""
     axes = set(device.axes)
     keys = set(device.codes.get(ev.EV_KEY, ()))
     direct = ev.INPUT_PROP_DIRECT in device.properties

@@ -13,9 +13,6 @@ from controller.device.touch.event_reader import EventReader
 def open_panel(settings: TouchPanel) -> EventReader:
     """Open the driver of a panel, which is in the module of its record.
 
-    Raises
-    ------
-    TouchError
-        If the panel is absent, or the settings are those of a recording.
+    Raises TouchError if the panel is absent, or the settings are those of a recording.
     """
     return cast(EventReader, import_module(type(settings).__module__).open_panel(settings))

@@ -7,14 +7,15 @@ EDT's M06 has no register map; it answers the commands 0xBB with its name and 0x
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from functools import reduce
+from collections.abc import Container, Iterator, Sequence
+from functools import partial, reduce
 from operator import xor
 from typing import TYPE_CHECKING, Final
 
 from controller.device.board.touch_panels import Address, Extent, I2cTouch
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ReportedContact, describe
-from controller.device.touch.drivers.i2c_bus import REFUSED_ERRNOS, I2cBus, Transfer
+from controller.device.touch.drivers.counted_report import CountedReads, CountedReport, contacts_at
+from controller.device.touch.drivers.i2c_bus import I2cBus, Transfer
 from controller.device.touch.event_reader import DeviceDescription
 from controller.errors import TouchError
 
@@ -26,7 +27,6 @@ DEVICE_MODE: Final = b"\x00"  # 0: working; reports begin here
 STATUS: Final = 2  # TD_STATUS: number of contacts in bits 3:0
 FIRST_POINT: Final = 3
 POINT_BYTES: Final = 6  # event flag and x, number and y (high byte first), weight, area
-SHORT_POINTS: Final = 2  # read at once; the rest only when there are more contacts
 INTERRUPT_MODE: Final = 0xA4  # G_MODE, 1: a pulse for each report
 CHIP_ID: Final = b"\xa3"
 FIRMWARE: Final = b"\xa6"
@@ -63,90 +63,36 @@ class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft
     height: Extent
 
 
-def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[ReportedContact] | None:
-    """Decode a report.
-
-    Parameters
-    ----------
-    report : bytes
-        Registers from 0 on, as far as read.
-    warnings : Counter of str
-        Counts `ghost_points`.
-    in_part : bool
-        Decode what was read of a report with more contacts.
-
-    Returns
-    -------
-    list of ReportedContact, or None
-        None if the report has more contacts than were read, unless `in_part`.
-
-    Raises
-    ------
-    ValueError
-        If the report has more than `MAX_CONTACTS` contacts.
-    """
-    count = report[STATUS] & 0x0F
-    if count > MAX_CONTACTS:
-        raise ValueError(f"{count} contacts")
-    if len(report) < FIRST_POINT + count * POINT_BYTES:
-        if not in_part:
-            return None
-        count = (len(report) - FIRST_POINT) // POINT_BYTES
-    starts = range(FIRST_POINT, FIRST_POINT + count * POINT_BYTES, POINT_BYTES)
-    return _contacts(report, starts, (LIFTED, RESERVED), warnings)
-
-
 def contacts_of_m06(report: Sequence[int], warnings: Counter[str]) -> list[ReportedContact]:
-    """Decode a report of an EDT M06.
+    """Decode the answer of an EDT M06 to `M06_REPORT`; counts `ghost_points`.
 
-    Parameters
-    ----------
-    report : bytes
-        Answer to `M06_REPORT`, `M06_BYTES` long.
-    warnings : Counter of str
-        Counts `ghost_points`.
-
-    Raises
-    ------
-    ValueError
-        If its header or its checksum is wrong.
+    Raises ValueError if its header or its checksum is wrong.
     """
     if bytes(report[: len(M06_HEADER)]) != M06_HEADER:
         raise ValueError("no header of a report")
     if reduce(xor, report):
         raise ValueError("wrong checksum")
     starts = range(M06_FIRST_POINT, M06_BYTES - 1, M06_POINT_BYTES)
-    return _contacts(report, starts, (PUT_DOWN, LIFTED, RESERVED), warnings)  # positions of contacts just put down are wrong
+    skipped = PUT_DOWN, LIFTED, RESERVED  # positions of contacts just put down are wrong
+    return contacts_at(report, starts, partial(_point, skipped=skipped), warnings)
 
 
-def _contacts(report: Sequence[int], starts: range, skipped: tuple[int, ...], warnings: Counter[str]) -> list[ReportedContact]:
-    """Contacts of the points that begin at `starts`, without those whose event flag is `skipped`."""
-    contacts = []
-    for start in starts:
-        number = report[start + 2] >> 4
-        if report[start] >> 6 in skipped or number >= MAX_CONTACTS:
-            continue
-        x = (report[start] & 0x0F) << 8 | report[start + 1]
-        y = (report[start + 2] & 0x0F) << 8 | report[start + 3]
-        if x == 0 and y == 0:
-            warnings["ghost_points"] += 1
-            continue
-        contacts.append(ReportedContact(number, x, y))
-    return contacts
+def _point(report: Sequence[int], start: int, skipped: Container[int] = (LIFTED, RESERVED)) -> ReportedContact | None:
+    """Contact of the point that begins there, unless its event flag is `skipped`."""
+    if report[start] >> 6 in skipped:
+        return None
+    x = (report[start] & 0x0F) << 8 | report[start + 1]
+    y = (report[start + 2] & 0x0F) << 8 | report[start + 3]
+    return ReportedContact(report[start + 2] >> 4, x, y)
+
+
+REPORT: Final = CountedReport(DEVICE_MODE, STATUS, FIRST_POINT, POINT_BYTES, _point)
 
 
 def edt_model(answer: bytes) -> tuple[str, bool]:
-    """Identify an EDT module.
+    """Identify an EDT module by its answer to `EDT_NAME`.
 
-    Parameters
-    ----------
-    answer : bytes
-        To `EDT_NAME`.
-
-    Returns
-    -------
-    (str, bool)
-        Model, empty if it is no EDT module; whether it has the firmware of an M06.
+    Returns the model, empty if it is no EDT module, and whether it has the firmware of an M06.
     """
     for start, m06 in ((0, False), (1, True)):
         if answer[start : start + len(EDT_MODEL)].upper() == EDT_MODEL:
@@ -160,12 +106,7 @@ class Ft5x06:
     The first reports after a start may be from before it: reports are skipped until they change or are empty. A chip has to answer
     the registers of its report; there are boards that imitate one and refuse all others.
 
-    Parameters
-    ----------
-    settings : Ft5x06Touch
-        Address and extents.
-    warnings : Counter of str
-        Counts `ghost_points`, `stale_reports` and `points_refused`.
+    Counts `ghost_points`, `stale_reports` and `points_refused`.
     """
 
     def __init__(self, settings: Ft5x06Touch, warnings: Counter[str]) -> None:
@@ -217,32 +158,13 @@ class Ft5x06:
                 self._warnings["stale_reports"] += 1
                 return None
             self._stale = None
-        contacts = self._contacts_of(self._short.data, self._warnings)
-        return self._rest(bus) if contacts is None else contacts
-
-    def _rest(self, bus: I2cBus) -> list[ReportedContact] | None:
-        """All contacts of a report with more than `SHORT_POINTS`; those read already, if the chip refuses the others."""
-        longer = self._longer[(self._short.data[STATUS] & 0x0F) - SHORT_POINTS - 1]
-        try:
-            bus.fetch(longer)
-        except OSError as error:
-            if error.errno not in REFUSED_ERRNOS:
-                raise
-            self._warnings["points_refused"] += 1
-            return contacts_of(self._short.data, self._warnings, in_part=True)
-        return contacts_of(longer.data, self._warnings, in_part=True)  # in part: a contact may have come in between
+        return self._reads.contacts(bus) if self._reads else contacts_of_m06(self._short.data, self._warnings)
 
     def _use(self, *, m06: bool) -> None:
         """Choose the transfers and the report format of the firmware."""
         address = self._settings.address
-        self._contacts_of: Callable[[Sequence[int], Counter[str]], list[ReportedContact] | None]
-        if m06:
-            self._short = Transfer(address, M06_REPORT, M06_BYTES)
-            self._contacts_of = contacts_of_m06
-        else:
-            counts = range(SHORT_POINTS, MAX_CONTACTS + 1)
-            self._short, *self._longer = [Transfer(address, DEVICE_MODE, FIRST_POINT + count * POINT_BYTES) for count in counts]
-            self._contacts_of = contacts_of
+        self._reads = None if m06 else CountedReads(REPORT, address, self._warnings)
+        self._short = self._reads.short if self._reads else Transfer(address, M06_REPORT, M06_BYTES)
 
     def _identity(self, bus: I2cBus) -> tuple[str, int, list[int]]:
         """Number of the chip and of its firmware, and the registers of both that it refuses.
@@ -265,19 +187,13 @@ class Ft5x06:
 
     def _holds_contacts(self) -> bool:
         try:
-            return self._contacts_of(self._short.data, Counter()) != []
+            return (REPORT.contacts if self._reads else contacts_of_m06)(self._short.data, Counter()) != []
         except ValueError:
             return False
 
 
 def open_panel(settings: Ft5x06Touch) -> I2cReader:
-    """Start the panel of a board with these `settings`.
-
-    Raises
-    ------
-    TouchError
-        If bus, lines or chip are absent.
-    """
+    """Start the panel of a board with these `settings`; raises TouchError if bus, lines or chip are absent."""
     warnings: Counter[str] = Counter()
     from controller.device.touch.drivers.i2c_reader import I2cReader
 

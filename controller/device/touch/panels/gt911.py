@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from controller.device.board.touch_panels import I2cTouch
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ReportedContact, describe
-from controller.device.touch.drivers.i2c_bus import REFUSED_ERRNOS, I2cBus, Transfer, write_message
+from controller.device.touch.drivers.counted_report import CountedReads, CountedReport
+from controller.device.touch.drivers.i2c_bus import REFUSED_ERRNOS, I2cBus, write_message
 from controller.device.touch.event_reader import DeviceDescription
 from controller.errors import TouchError
 
@@ -29,7 +30,6 @@ PRODUCTS: Final = ("911", "9110", "9111", "912", "9147", "927", "9271", "928", "
 STATUS: Final = b"\x81\x4e"  # bit 7: a report is ready, bits 3:0: its contacts, which follow
 READY: Final = 0x80
 POINT_BYTES: Final = 8  # number, x, y, size (2 bytes each), reserved
-SHORT_POINTS: Final = 2  # read at once; the rest only when there are more contacts
 RISING_INTERRUPT: Final = (0, 3)  # of module switch 1, bits 1:0; 1 and 2: falling edge, low level
 
 HIGH_ADDRESS, LOW_ADDRESS = 0x14, 0x5D  # selected by the level of the interrupt line at the end of the reset
@@ -53,62 +53,16 @@ class Gt911Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="gt9
     address: Literal[0x14, 0x5D] = 0x5D
 
 
-def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[ReportedContact] | None:
-    """Decode a report.
+def _point(report: Sequence[int], start: int) -> ReportedContact:
+    number, x_low, x_high, y_low, y_high, size_low, size_high = report[start : start + 7]
+    return ReportedContact(number & 0x0F, x_low | x_high << 8, y_low | y_high << 8, size_low | size_high << 8)
 
-    Parameters
-    ----------
-    report : bytes
-        Registers from `STATUS` on, as far as read.
-    warnings : Counter of str
-        Counts `ghost_points`.
-    in_part : bool
-        Decode what was read of a report with more contacts.
 
-    Returns
-    -------
-    list of ReportedContact, or None
-        None if the report has more contacts than were read, unless `in_part`.
-
-    Raises
-    ------
-    ValueError
-        If the report has more than `MAX_CONTACTS` contacts.
-    """
-    count = report[0] & 0x0F
-    if count > MAX_CONTACTS:
-        raise ValueError(f"{count} contacts")
-    if len(report) < 1 + count * POINT_BYTES:
-        if not in_part:
-            return None
-        count = (len(report) - 1) // POINT_BYTES
-    contacts = []
-    for start in range(1, 1 + count * POINT_BYTES, POINT_BYTES):
-        number = report[start] & 0x0F
-        x = report[start + 1] | report[start + 2] << 8
-        y = report[start + 3] | report[start + 4] << 8
-        if x == 0 and y == 0:
-            warnings["ghost_points"] += 1
-        elif number < MAX_CONTACTS:
-            contacts.append(ReportedContact(number, x, y, report[start + 5] | report[start + 6] << 8))
-    return contacts
+REPORT: Final = CountedReport(STATUS, 0, 1, POINT_BYTES, _point)
 
 
 def product_of(identity: bytes, bus: str) -> str:
-    """Product number of a chip.
-
-    Parameters
-    ----------
-    identity : bytes
-        Registers from `PRODUCT_ID` on.
-    bus : str
-        In the message.
-
-    Raises
-    ------
-    TouchError
-        If it is not one of `PRODUCTS`.
-    """
+    """Product number of a chip, from its registers from `PRODUCT_ID` on; raises TouchError if it is not one of `PRODUCTS`."""
     name = identity[:4].rstrip(b"\0")
     if name.decode("ascii", "replace") in PRODUCTS:
         return name.decode("ascii")
@@ -131,12 +85,7 @@ class Gt911:
 
     It has to answer the registers of its report; the others are used where it has them.
 
-    Parameters
-    ----------
-    settings : Gt911Touch
-        Address, and extents if they overrule the chip's.
-    warnings : Counter of str
-        Counts `ghost_points` and `points_refused`.
+    The extents of `settings` overrule the chip's. Counts `ghost_points` and `points_refused`.
     """
 
     def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:
@@ -173,28 +122,13 @@ class Gt911:
 
     def fetch(self, bus: I2cBus) -> Sequence[ReportedContact] | None:
         """Read the report that is ready from `bus` and clear it, which lets the chip make the next; see `Chip.fetch`."""
-        bus.fetch(self._short)
-        if not self._short.data[0] & READY:
+        bus.fetch(self._reads.short)
+        if not self._reads.short.data[0] & READY:
             return None
         try:
-            contacts = contacts_of(self._short.data, self._warnings)
-            if contacts is None:
-                contacts = self._rest(bus)
+            return self._reads.contacts(bus)
         finally:
             bus.send(self._clear)
-        return contacts
-
-    def _rest(self, bus: I2cBus) -> list[ReportedContact] | None:
-        """All contacts of a report with more than `SHORT_POINTS`; those read already, if the chip refuses the others."""
-        longer = self._longer[(self._short.data[0] & 0x0F) - SHORT_POINTS - 1]
-        try:
-            bus.fetch(longer)
-        except OSError as error:
-            if error.errno not in REFUSED_ERRNOS:
-                raise
-            self._warnings["points_refused"] += 1
-            return contacts_of(self._short.data, self._warnings, in_part=True)
-        return contacts_of(longer.data, self._warnings, in_part=True)
 
     @property
     def _other(self) -> int:
@@ -220,8 +154,7 @@ class Gt911:
 
     def _use(self, address: int) -> None:
         self._address = address
-        counts = range(SHORT_POINTS, MAX_CONTACTS + 1)
-        self._short, *self._longer = [Transfer(address, STATUS, 1 + count * POINT_BYTES) for count in counts]
+        self._reads = CountedReads(REPORT, address, self._warnings)
         self._clear = write_message(address, STATUS + b"\x00")
 
     def _find(self, bus: I2cBus, addresses: Sequence[int]) -> bytes | None:
@@ -229,12 +162,7 @@ class Gt911:
 
         Without an interrupt line to select it, the address is the one of the level at power-up.
 
-        Raises
-        ------
-        OSError
-            If no chip answers.
-        TouchError
-            If what answers is no report.
+        Raises OSError if no chip answers; TouchError if what answers is no report.
         """
         for address in addresses:
             product = bus.ask(address, PRODUCT_ID, PRODUCT_BYTES)
@@ -270,13 +198,7 @@ class Gt911:
 
 
 def open_panel(settings: Gt911Touch) -> I2cReader:
-    """Start the panel of a board with these `settings`.
-
-    Raises
-    ------
-    TouchError
-        If bus, lines or chip are absent.
-    """
+    """Start the panel of a board with these `settings`; raises TouchError if bus, lines or chip are absent."""
     warnings: Counter[str] = Counter()
     from controller.device.touch.drivers.i2c_reader import I2cReader
 

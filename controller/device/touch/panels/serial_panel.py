@@ -41,16 +41,10 @@ class EloTouch(SerialTouch, frozen=True, kw_only=True, tag_field="kind", tag="se
 
 
 class SmartSetParser:
-    """Finds packets in a stream of bytes; after invalid bytes it synchronises with the next valid packet.
-
-    Attributes
-    ----------
-    skipped_bytes : int
-        Bytes so far that belong to no packet.
-    """
+    """Finds packets in a stream of bytes; after invalid bytes it synchronises with the next valid packet."""
 
     def __init__(self) -> None:
-        self.skipped_bytes = 0
+        self.skipped_bytes = 0  # bytes so far that belong to no packet
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> None:
@@ -83,15 +77,7 @@ class SmartSetParser:
 class SerialPanel:
     """An `EventReader` of a SmartSet panel: one finger, by BTN_TOUCH, ABS_X and ABS_Y.
 
-    Parameters
-    ----------
-    settings : EloTouch
-        Port and baud rate.
-
-    Raises
-    ------
-    TouchError
-        If the port cannot be opened.
+    Raises TouchError if the port cannot be opened.
     """
 
     def __init__(self, settings: EloTouch) -> None:
@@ -236,11 +222,5 @@ def _open_error(settings: EloTouch, error: Exception) -> str:
 
 
 def open_panel(settings: EloTouch) -> SerialPanel:
-    """Open the panel of a board with these `settings`.
-
-    Raises
-    ------
-    TouchError
-        If the port cannot be opened.
-    """
+    """Open the panel of a board with these `settings`; raises TouchError if the port cannot be opened."""
     return SerialPanel(settings)

@@ -19,15 +19,7 @@ FIRST_SLOT = re.compile(r"^#\s+Event code 47 [^\n]*\n#\s+Value\s+(\d{1,3})\s*$",
 
 
 def read_evemu(text: str, warnings: Counter[str]) -> list[RecordedDevice]:
-    """The device of a recording; none if no line is evemu text.
-
-    Parameters
-    ----------
-    text : str
-        Any text.
-    warnings : Counter of str
-        Counts `garbage_lines`, `value_absurd` and `unknown_version`.
-    """
+    """The device of a recording; none if no line is evemu text. Counts `garbage_lines`, `value_absurd` and `unknown_version`."""
     device = RecordedDevice()
     valid = False
     for raw_line in text.split("\n"):

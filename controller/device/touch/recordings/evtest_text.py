@@ -31,12 +31,7 @@ PROPERTY = re.compile(r"Property\s+type (\d{1,5}) .*", re.ASCII)
 def read_evtest(text: str, warnings: Counter[str]) -> list[RecordedDevice]:
     """The devices of one or several calls of evtest.
 
-    Parameters
-    ----------
-    text : str
-        Any text.
-    warnings : Counter of str
-        Counts `garbage_lines` (of events alone: people store what else a terminal shows) and `value_absurd`.
+    Counts `garbage_lines` (of events alone: people store what else a terminal shows) and `value_absurd`.
     """
     device = RecordedDevice()
     devices = [device]

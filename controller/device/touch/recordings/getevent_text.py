@@ -31,15 +31,7 @@ VALUES: Final = {"UP": 0, "DOWN": 1, "REPEAT": 2, "MT_TOOL_FINGER": 0, "MT_TOOL_
 
 
 def read_getevent(text: str, warnings: Counter[str]) -> tuple[list[RecordedDevice], int]:
-    """The devices, and how many events have no time.
-
-    Parameters
-    ----------
-    text : str
-        Any text.
-    warnings : Counter of str
-        Counts `garbage_lines`.
-    """
+    """The devices, and how many events have no time; counts `garbage_lines`."""
     devices: dict[str, RecordedDevice] = {}
     device = RecordedDevice()  # of whose head the lines are, or that is alone
     untimed = 0

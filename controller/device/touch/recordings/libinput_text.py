@@ -30,13 +30,8 @@ VALUE = re.compile(r"#\s*Value\s+(\d{1,3})", re.ASCII)
 def read_libinput(text: str, warnings: Counter[str]) -> list[RecordedDevice]:
     """The devices of a recording, each with its own events.
 
-    Parameters
-    ----------
-    text : str
-        Any text.
-    warnings : Counter of str
-        Counts `garbage_lines` (of events alone: descriptors and libinput's own events are not needed), `value_absurd` and
-        `unknown_version`.
+    Counts `garbage_lines` (of events alone: descriptors and libinput's own events are not needed), `value_absurd` and
+    `unknown_version`.
     """
     devices: list[RecordedDevice] = []
     device = RecordedDevice()

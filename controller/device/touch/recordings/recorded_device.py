@@ -18,28 +18,14 @@ MAX_DIGITS: Final = 20  # Python refuses to parse numbers of thousands of digits
 
 @dataclass(slots=True, eq=False)
 class RecordedDevice:
-    """A device and its events.
+    """A device and its events."""
 
-    Attributes
-    ----------
-    name : str
-        As the device reports it, or its path; empty: unknown.
-    axes : dict of int to AxisRange
-        Declared ranges by code of EV_ABS.
-    keys, properties : set of int
-        Codes of EV_KEY and of INPUT_PROP that it declares.
-    slot : int
-        Current slot at the start.
-    events : list of (type, code, value, time_s)
-        As recorded; times of any origin.
-    """
-
-    name: str = ""
-    axes: dict[int, AxisRange] = field(default_factory=dict)
-    keys: set[int] = field(default_factory=set)
+    name: str = ""  # as the device reports it, or its path; empty: unknown
+    axes: dict[int, AxisRange] = field(default_factory=dict)  # declared ranges by code of EV_ABS
+    keys: set[int] = field(default_factory=set)  # keys, properties: codes of EV_KEY and of INPUT_PROP that it declares
     properties: set[int] = field(default_factory=set)
-    slot: int = 0
-    events: list[Event] = field(default_factory=list)
+    slot: int = 0  # current slot at the start
+    events: list[Event] = field(default_factory=list)  # each (type, code, value, time_s): as recorded; times of any origin
 
     def declare(self, code: int, minimum: int, maximum: int) -> None:
         """Take in the range of an axis; one that no position can have is left out."""

@@ -52,17 +52,7 @@ def event_line(kind: int, code: int, value: int, microseconds: int) -> str:
 class EvemuWriter:
     """Writes a recording; the file ends with a complete line at any time.
 
-    Parameters
-    ----------
-    file : FileIO
-        Unbuffered, so that an error shows at the report that causes it.
-    description : DeviceDescription
-        Of the device.
-
-    Raises
-    ------
-    OSError
-        If the disk is full or gone.
+    `file` is unbuffered, so that an error shows at the report that causes it. Raises OSError if the disk is full or gone.
     """
 
     def __init__(self, file: FileIO, description: DeviceDescription) -> None:
@@ -73,19 +63,9 @@ class EvemuWriter:
         self._append(head(description))
 
     def write(self, events: Iterable[Event], time_s: float) -> None:
-        """Append a report.
+        """Append a report; the time of all its events is written to a microsecond.
 
-        Parameters
-        ----------
-        events : iterable of Event
-            Of one report.
-        time_s : float
-            Of all of them, written to a microsecond.
-
-        Raises
-        ------
-        OSError
-            If the disk is full or gone; earlier reports stay in the file.
+        Raises OSError if the disk is full or gone; earlier reports stay in the file.
         """
         if self._first_s is None:
             self._first_s = time_s
@@ -111,25 +91,13 @@ class EvemuWriter:
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """Summary of a finished recording.
+    """Summary of a finished recording."""
 
-    Attributes
-    ----------
-    device : str
-        Name of the panel.
-    events, reports : int
-        Written; each part of a long report counts.
-    duration_s : float
-        From the start to the last look.
-    warnings : list of str
-        Anomalies, one line a kind.
-    """
-
-    device: str
-    events: int
+    device: str  # name of the panel
+    events: int  # events, reports: written; each part of a long report counts
     reports: int
-    duration_s: float
-    warnings: list[str]
+    duration_s: float  # from the start to the last look
+    warnings: list[str]  # anomalies, one line a kind
 
 
 def record(reader: EventReader, file: FileIO, seconds: float | None) -> Recorded:
@@ -137,19 +105,7 @@ def record(reader: EventReader, file: FileIO, seconds: float | None) -> Recorded
 
     A panel that is disconnected and comes back continues the same recording.
 
-    Parameters
-    ----------
-    reader : EventReader
-        Driver of the panel.
-    file : FileIO
-        From `open_recording`.
-    seconds : float or None
-        How long to record; None: until a signal.
-
-    Raises
-    ------
-    TouchError
-        If the disk is full, or another panel takes the place of this one.
+    `seconds` None: until a signal. Raises TouchError if the disk is full, or another panel takes the place of this one.
     """
     description = reader.description
     clock = ReportClock(reader.warnings)
@@ -180,17 +136,7 @@ def record(reader: EventReader, file: FileIO, seconds: float | None) -> Recorded
 def open_recording(path: Path) -> FileIO:
     """Create the file of a new recording; an existing recording is overwritten, any other file is refused.
 
-    Parameters
-    ----------
-    path : Path
-        Of the recording.
-
-    Raises
-    ------
-    TouchError
-        If the file cannot be created.
-    ConfigError
-        If a file that is no recording has this name.
+    Raises TouchError if the file cannot be created; ConfigError if a file that is no recording has this name.
     """
     try:
         if path.is_file():

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.device.touch import event_codes as ev
-from controller.device.touch.axes import Axes, AxisRange
+from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.event_codes import Protocol, protocol_of
 from controller.device.touch.recordings.recorded_device import INT32_MAX, INT32_MIN, RecordedDevice
@@ -35,18 +35,10 @@ CLOCK_SET_EVENTS = 50  # if this many events later the times are still off, the 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """Reported positions of one finger from its first report to its last.
+    """Reported positions of one finger from its first report to its last."""
 
-    Attributes
-    ----------
-    finger : int
-        Number in the touch samples.
-    time_s, x_m, y_m : (report,) float64 arrays
-        One entry for each report while the finger was down.
-    """
-
-    finger: int
-    time_s: NDArray[np.float64]
+    finger: int  # number in the touch samples
+    time_s: NDArray[np.float64]  # time_s, x_m, y_m: (report,): one entry for each report while the finger was down
     x_m: NDArray[np.float64]
     y_m: NDArray[np.float64]
 
@@ -75,60 +67,34 @@ class Track:
 class Recording:
     """One parsed recording.
 
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    name : str
-        Name in messages.
-    path : str
-        Of the file, in errors; left out: the name.
-
-    Attributes
-    ----------
-    events : tuple of (type, code, value, time_s)
-        Time in s from the first event, never decreasing.
-    x, y : AxisRange
-        Ranges of the positions: as declared, else the smallest and largest value in the recording.
-    protocol : Protocol
-        As the device declares it or the stream shows it.
-    warnings : Counter of str
-        Anomalies in the text, by kind.
-    valid : bool
-        Whether at least one line is of a recording.
-
-    Raises
-    ------
-    ConfigError
-        See `read_recording`.
+    `text` is the content of the file; `name` stands in messages, `path` in errors (left out: the name). Raises ConfigError as
+    `read_recording`.
     """
 
     def __init__(self, text: str, name: str = "recording", path: str = "") -> None:
         self.name = name
-        self.warnings: Counter[str] = Counter()
+        self.warnings: Counter[str] = Counter()  # anomalies in the text, by kind
         device = read_recording(text, self.warnings, path or name)
-        self.valid = device is not None
+        self.valid = device is not None  # whether at least one line is of a recording
         device = device or RecordedDevice()
         self._declared = device.axes
         self._first_slot = device.slot
         times = rebased([event[3] for event in device.events], self.warnings)
+        # each (type, code, value, time_s): time in s from the first event, never decreasing
         self.events: tuple[Event, ...] = tuple(
             [(kind, code, value, time_s) for (kind, code, value, _), time_s in zip(device.events, times, strict=True)]
         )
+        # As the device declares it or the stream shows it
         self.protocol = protocol_of(self._declared, {(kind, code) for kind, code, _, _ in self.events})
         codes = ev.POSITIONS_SINGLE if self.protocol is Protocol.SINGLE else ev.POSITIONS
+        # Ranges of the positions: as declared, else the smallest and largest value in the recording
         self.x, self.y = (self._range(code, single) for code, single in zip(codes, ev.POSITIONS_SINGLE, strict=True))
 
     @classmethod
     def open(cls, path: Path) -> Recording:
         """Read the recording in the file `path`, at most `MAX_BYTES` long.
 
-        Raises
-        ------
-        TouchError
-            If the file cannot be read.
-        ConfigError
-            If it is no recording, holds no event, or see `read_recording`.
+        Raises TouchError if the file cannot be read; ConfigError if it is no recording, holds no event, or see `read_recording`.
         """
         try:
             data = read_regular(path, MAX_BYTES, links=True)
@@ -155,24 +121,19 @@ class Recording:
         """Time from the first event to the last."""
         return self.events[-1][3] if self.events else 0.0
 
-    def axes(self, board: Board) -> Axes:
+    def axes(self, board: Board) -> PanelAxes:
         """Map from the recording's axes to the plate of `board`."""
-        return Axes(board, self.x, self.y)
+        return PanelAxes(board, self.x, self.y)
 
-    def decoder(self, axes: Axes) -> Decoder:
+    def decoder(self, axes: PanelAxes) -> Decoder:
         """Decoder in the state at the recording's start, with `axes` from `self.axes`."""
         slots = self._declared.get(ev.ABS_MT_SLOT)
         return Decoder(axes, self.protocol, slot=self._first_slot, last_slot=slots.maximum if slots else None)
 
-    def tracks(self, axes: Axes, start_s: float = 0.0) -> dict[int, Track]:
+    def tracks(self, axes: PanelAxes, start_s: float = 0.0) -> dict[int, Track]:
         """Track of each finger by its number in a replay, with a position at every report while it is down.
 
-        Parameters
-        ----------
-        axes : Axes
-            From `self.axes`.
-        start_s : float
-            Start of the replay: a decision at the very time of a report falls as in that replay.
+        A decision at the very time of a report falls as in the replay that starts at `start_s`.
         """
         decoder = self.decoder(axes)
         points: dict[int, list[tuple[float, float, float]]] = {}
@@ -202,12 +163,7 @@ def rebased(raw_s: Sequence[float], warnings: Counter[str]) -> list[float]:
     An event earlier than the one before, or more than a minute later, or with a time that is not a number, takes the time
     of the one before. If the events after it stay off, the clock was set while recording: they keep their intervals.
 
-    Parameters
-    ----------
-    raw_s : sequence of float
-        As recorded, in s; any values.
-    warnings : Counter of str
-        Counts `time_backwards` and `time_absurd`.
+    Counts `time_backwards` and `time_absurd`.
     """
     times: list[float] = []
     offset_s = 0.0

@@ -41,20 +41,7 @@ UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")  # what PowerShell makes of a redirec
 
 
 def decoded(data: bytes, name: str) -> tuple[str, int]:
-    """Text of a file, and how many of its lines have bytes that are no text.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-    name : str
-        In the message.
-
-    Raises
-    ------
-    ConfigError
-        If it is compressed.
-    """
+    """Text of a file, and how many of its lines have bytes that are no text; raises ConfigError if it is compressed."""
     for sign, program in PACKED.items():
         if data.startswith(sign):
             raise ConfigError(f"{name}: is compressed ({program}): unpack it first")
@@ -69,20 +56,9 @@ def decoded(data: bytes, name: str) -> tuple[str, int]:
 def read_recording(text: str, warnings: Counter[str], name: str) -> RecordedDevice | None:
     """The touch panel of a recording with its events; None if no line is of a recording.
 
-    Parameters
-    ----------
-    text : str
-        evemu text, versions 1.0 to 1.3; YAML of libinput record; what evtest or getevent has printed.
-    warnings : Counter of str
-        Counts what was skipped or clamped.
-    name : str
-        In messages.
-
-    Raises
-    ------
-    ConfigError
-        If it is of another program, lacks what it takes to know where fingers are and when they are lifted, or holds no touch panel
-        or several; the message says how to go on.
+    `text` is evemu text, versions 1.0 to 1.3, YAML of libinput record, or what evtest or getevent has printed; `warnings` counts
+    what was skipped or clamped. Raises ConfigError if it is of another program, lacks what it takes to know where fingers are and
+    when they are lifted, or holds no touch panel or several; the message says how to go on.
     """
     sign = SIGNS.search(text)
     program = sign.lastgroup if sign else "evemu"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from controller.device.touch import event_codes as ev
-from controller.device.touch.axes import Axes
+from controller.device.touch.axes import PanelAxes
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.source import Counts, TouchSample
 
@@ -15,26 +15,12 @@ class RecordingSource:
 
     Fingers still down at the end are released then.
 
-    Parameters
-    ----------
-    recording : Recording
-        Gives the events.
-    axes : Axes
-        From `recording.axes(board)`.
-    start_s : float
-        Time of its first event on the loop's clock.
-
-    Attributes
-    ----------
-    counts : Counts
-        Reports, contacts and fingers replayed so far.
-    touched : bool
-        See `TouchSource.touched`.
+    The first event is at `start_s` on the loop's clock.
     """
 
-    def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:
+    def __init__(self, recording: Recording, axes: PanelAxes, start_s: float) -> None:
         self._decoder = recording.decoder(axes)
-        self.counts: Counts = self._decoder.counts
+        self.counts: Counts = self._decoder.counts  # reports, contacts and fingers replayed so far
         self._events = recording.events
         self._start_s = start_s
         self._next = 0  # first event not yet fed
@@ -42,7 +28,7 @@ class RecordingSource:
         self._report = 0
         self._warnings = recording.warnings
         self._ended = not self._events
-        self.touched = False
+        self.touched = False  # see `TouchSource.touched`
         self._end_warnings: Counter[str] = Counter()
 
     @property

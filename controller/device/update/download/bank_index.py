@@ -46,18 +46,10 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class BankIndex:
-    """Pieces of a file.
+    """Pieces of a file."""
 
-    Attributes
-    ----------
-    runs : tuple of (int, int)
-        How many pieces of which length in bytes follow each other.
-    digests : bytes
-        `DIGEST_BYTES` of each piece.
-    """
-
-    runs: tuple[tuple[int, int], ...]
-    digests: bytes
+    runs: tuple[tuple[int, int], ...]  # how many pieces of which length in bytes follow each other
+    digests: bytes  # `DIGEST_BYTES` of each piece
 
     @property
     def size_bytes(self) -> int:
@@ -80,15 +72,8 @@ class BankIndex:
 def write_index(file: Path, pieces: Iterable[tuple[int, int]]) -> bytes:
     """Index of a file; what lies between the pieces, and what is longer than `PIECE_BYTES_MAX`, is cut into pieces too.
 
-    Parameters
-    ----------
-    pieces : iterable of (int, int)
-        Offset and length in bytes of what changes as one, such as the entry of a cell; by offset, none over another.
-
-    Raises
-    ------
-    UpdateError
-        If the pieces do not lie one after the other within the file, or are too many.
+    `pieces` are offset and length in bytes of what changes as one, such as the entry of a cell; by offset, none over another.
+    Raises UpdateError if the pieces do not lie one after the other within the file, or are too many.
     """
     size = file.stat().st_size
     cuts: list[int] = []
@@ -108,18 +93,7 @@ def write_index(file: Path, pieces: Iterable[tuple[int, int]]) -> bytes:
 
 
 def read_index(data: bytes, origin: str) -> BankIndex:
-    """An index from its bytes.
-
-    Parameters
-    ----------
-    origin : str
-        What it is called in errors.
-
-    Raises
-    ------
-    UpdateError
-        If it is not one.
-    """
+    """An index from its bytes. `origin` is what it is called in errors. Raises UpdateError if it is not one."""
     if len(data) < HEADER.size or len(data) > INDEX_BYTES_MAX or not data.startswith(MAGIC):
         raise UpdateError(f"{origin}: is no index of a bank")
     _, size, count = HEADER.unpack_from(data)
@@ -147,17 +121,9 @@ def found_pieces(file: BinaryIO, cut_as: BankIndex) -> Iterator[Piece]:
 
 
 def missing_ranges(index: BankIndex, known: Container[bytes]) -> list[tuple[int, int]]:
-    """What is to be fetched of a file: ranges of bytes, nearer ones than `GAP_BYTES` joined.
+    """What is to be fetched of a file: ranges of bytes, nearer ones than `GAP_BYTES` joined; first byte, and one after the last.
 
-    Parameters
-    ----------
-    known : container of bytes
-        Hashes of pieces that are at hand.
-
-    Returns
-    -------
-    list of (int, int)
-        First byte, and the byte after the last.
+    `known` has the hashes of pieces that are at hand.
     """
     ranges: list[tuple[int, int]] = []
     for piece in index:

@@ -30,39 +30,19 @@ RESERVE_BYTES: Final = 32_000_000  # left free for what else the device writes
 
 @dataclass(slots=True)
 class TransferStatistics:
-    """What a fetch cost.
+    """What a fetch cost."""
 
-    Attributes
-    ----------
-    release_bytes : int
-        Of all files of the release.
-    kept_bytes : int
-        Of those that were there already.
-    reused_bytes : int
-        Copied from older banks.
-    fetched_bytes : int
-        Read from the repository, metadata and indexes included.
-    """
-
-    release_bytes: int = 0
-    kept_bytes: int = 0
-    reused_bytes: int = 0
-    fetched_bytes: int = 0
+    release_bytes: int = 0  # of all files of the release
+    kept_bytes: int = 0  # of those that were there already
+    reused_bytes: int = 0  # copied from older banks
+    fetched_bytes: int = 0  # read from the repository, metadata and indexes included
 
 
 def check(layout: Layout, settings: UpdateSettings, source: str = "", now: datetime | None = None) -> tuple[Offer, int]:
     """What a repository offers this device, and how many bytes of it are not there yet.
 
-    Parameters
-    ----------
-    source : str
-        http(s) address or folder; empty: that of the settings.
-    now : datetime, optional
-        What the clock says; for tests.
-
-    Raises
-    ------
-    UpdateError
+    `source` is an http(s) address or a folder, empty: that of the settings; `now` is what the clock says, for tests. Raises
+    UpdateError.
     """
     origin = source_of(source or settings.source, settings.total_s, settings.bytes_per_s)
     with trusted(layout, origin, _built_s(layout), now) as repository:
@@ -75,30 +55,17 @@ def check(layout: Layout, settings: UpdateSettings, source: str = "", now: datet
 def fetch(
     layout: Layout,
     settings: UpdateSettings,
-    source: str,
-    progress: Callable[[int, int], None],
-    now: datetime | None = None,
-    figures: TransferStatistics | None = None,
+    source: str,  # http(s) address or folder; empty: that of the settings
+    progress: Callable[[int, int], None],  # called with bytes done and all bytes of the release
+    now: datetime | None = None,  # what the clock says; for tests
+    figures: TransferStatistics | None = None,  # what it cost is written here
 ) -> Manifest:
     """Fetch the release that is offered: all its files into the store, then its manifest to `download/release.json`.
 
     If the release in use is offered, nothing is fetched.
 
-    Parameters
-    ----------
-    source : str
-        http(s) address or folder; empty: that of the settings.
-    progress : callable
-        Called with bytes done and all bytes of the release.
-    now : datetime, optional
-        What the clock says; for tests.
-    figures : TransferStatistics, optional
-        What it cost is written here.
-
-    Raises
-    ------
-    UpdateError
-        If the release is refused, or cannot be fetched. What came of it is kept for the next time; the store has whole files only.
+    Raises UpdateError if the release is refused, or cannot be fetched. What came of it is kept for the next time; the store has
+    whole files only.
     """
     origin = source_of(source or settings.source, settings.total_s, settings.bytes_per_s)
     with trusted(layout, origin, _built_s(layout), now) as repository:
@@ -194,10 +161,7 @@ class _Fetching:
 def source_of(text: str, total_s: float, bytes_per_s: float) -> Source:
     """The source that a user names: an http(s) address or a folder.
 
-    Raises
-    ------
-    UpdateError
-        If nothing is named, or nothing can be there.
+    Raises UpdateError if nothing is named, or nothing can be there.
     """
     if not text:
         raise UpdateError("no repository is set: set `source` in /etc/haptic-panel/update.toml, or give --from URL or FOLDER")

@@ -25,29 +25,17 @@ class Broken(DownloadError):
 
 
 class HttpSource(Source):
-    """A repository at an http(s) address; whatever is not this address's own answer is refused.
-
-    Parameters
-    ----------
-    total_s : float
-        Longest time of everything that is read by this object, in s.
-    bytes_per_s : float
-        Most that is read in a second; 0: no limit.
-    gap_s : float
-        Longest silence of the server, in s.
-    now_s, wait_s : callable
-        Monotonic time in s; waits for some seconds.
-    """
+    """A repository at an http(s) address; whatever is not this address's own answer is refused."""
 
     def __init__(
         self,
         address: str,
-        total_s: float,
-        bytes_per_s: float = 0.0,
+        total_s: float,  # longest time of everything that is read by this object, in s
+        bytes_per_s: float = 0.0,  # most that is read in a second; 0: no limit
         *,
-        gap_s: float = GAP_S,
+        gap_s: float = GAP_S,  # longest silence of the server, in s
         retries: int = RETRIES,
-        now_s: Callable[[], float] = time.monotonic,
+        now_s: Callable[[], float] = time.monotonic,  # now_s, wait_s: monotonic time in s; waits for some seconds
         wait_s: Callable[[float], None] = time.sleep,
     ) -> None:
         super().__init__(address)

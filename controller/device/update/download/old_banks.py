@@ -26,10 +26,7 @@ SEARCHED: Final = 3  # banks that are searched for pieces of a new one
 class OldBanks:
     """Banks of the releases that are installed or fetched, with their indexes.
 
-    Parameters
-    ----------
-    repository : DeviceUpdater
-        From which indexes come that were not kept, and what no old bank has.
+    From `repository` come indexes that were not kept, and what no old bank has.
     """
 
     def __init__(self, layout: Layout, repository: DeviceUpdater) -> None:
@@ -41,26 +38,9 @@ class OldBanks:
     def rebuilt(self, file: ReleaseFile, target: TargetFile, whole: Path) -> int | None:
         """Make a bank of old ones where that is worth it.
 
-        Parameters
-        ----------
-        file : ReleaseFile
-            The new bank.
-        target : TargetFile
-            What was signed about it.
-        whole : Path
-            Where it is then, checked and synced. What was begun has the same name with `.rebuilt`.
-
-        Returns
-        -------
-        int or None
-            Bytes that were not fetched; None if the whole bank has to be.
-
-        Raises
-        ------
-        DownloadError
-            If something did not come; what came is kept for the next time.
-        OSError
-            If it cannot be written; nothing is left of it.
+        `whole` is where the bank is then, checked and synced; what was begun has the same name with `.rebuilt`. Returns how many
+        bytes were not fetched; None if the whole bank has to be. Raises DownloadError if something did not come; what came is kept
+        for the next time. Raises OSError if it cannot be written; nothing is left of it.
         """
         index, part = self._index(file, keep=True), whole.with_name(f"{whole.name}.rebuilt")
         if index is None or index.size_bytes != file.size_bytes:

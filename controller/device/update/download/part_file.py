@@ -17,23 +17,10 @@ from controller.device.update.trust.trust import DeviceUpdater
 def complete(part: Path, repository: DeviceUpdater, target: TargetFile, tell: Callable[[int], None]) -> None:
     """Fetch a file of a repository, or what is missing of it; fetch it again if it is then not the signed one.
 
-    Parameters
-    ----------
-    part : Path
-        The file, checked and synced when this returns.
-    target : TargetFile
-        What was signed about it.
-    tell : callable
-        Called with the bytes that came, or with a negative count if some are of no use.
-
-    Raises
-    ------
-    DownloadError
-        If not all of it came; what came is there.
-    LengthOrHashMismatchError
-        If it is not the signed one; nothing is there.
-    OSError
-        If it cannot be written; nothing is there, so that a full disk does not stay full.
+    `part` is the file, checked and synced when this returns; `tell` is called with the bytes that came, or with a negative count if
+    some are of no use. Raises DownloadError if not all of it came; what came is there. Raises LengthOrHashMismatchError if it is
+    not the signed one; nothing is there. Raises OSError if it cannot be written; nothing is there, so that a full disk does not
+    stay full.
     """
     while True:
         start = part.stat().st_size if part.exists() else 0

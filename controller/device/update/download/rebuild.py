@@ -19,25 +19,9 @@ def rebuild(
 ) -> int | None:
     """Make a bank from old banks and what is read for it. One that was begun before is gone on with.
 
-    Parameters
-    ----------
-    part : Path
-        What is made; synced when it is done.
-    index : BankIndex
-        Of the bank that is wanted.
-    olds : sequence of (Path, BankIndex)
-        Old banks, and where each is cut into pieces; what they really hold is looked up.
-    read : callable
-        Gives bytes of the bank that is wanted, from an offset on, this many.
-
-    Returns
-    -------
-    int or None
-        Bytes that were not read; None if too much has changed, and nothing was read.
-
-    Raises
-    ------
-    OSError
+    `index` is that of the bank that is wanted; what `olds` really hold is looked up. `read` gives bytes of the bank that is wanted,
+    from an offset on, this many. Returns how many bytes were not read; None if too much has changed, and nothing was read. `part`
+    is synced then. Raises OSError.
     """
     with ExitStack() as stack:
         file = stack.enter_context(os.fdopen(os.open(part, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600), "r+b"))

@@ -27,49 +27,22 @@ class NoRanges(DownloadError):
 
 
 class Source(FetcherInterface):
-    """Files of a repository.
-
-    Attributes
-    ----------
-    address : str
-        Of the repository: `metadata/` and `targets/` are below it. Without a slash at its end.
-    name : str
-        What it is called in errors.
-    fetched_bytes : int
-        Bytes read so far.
-    """
+    """Files of a repository."""
 
     def __init__(self, address: str) -> None:
-        self.address = address.rstrip("/")
-        self.name = self.address.removeprefix("file://")
-        self.fetched_bytes = 0
+        self.address = address.rstrip("/")  # of the repository: `metadata/` and `targets/` are below it. Without a slash at its end
+        self.name = self.address.removeprefix("file://")  # what it is called in errors
+        self.fetched_bytes = 0  # bytes read so far
 
     @abstractmethod
     def look(self) -> None:
-        """Say clearly that nothing can be there, before anything is read.
-
-        Raises
-        ------
-        UpdateError
-        """
+        """Say clearly that nothing can be there, before anything is read; raises UpdateError."""
 
     @abstractmethod
     def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:
-        """Chunks of a file.
+        """Chunks of a file from byte `start` on; no more than `length` bytes if that is given.
 
-        Parameters
-        ----------
-        start : int
-            First byte wanted.
-        length : int, optional
-            Bytes wanted, after which no more come; without it whatever there is.
-
-        Raises
-        ------
-        NoRanges
-            If only the whole file is to be had.
-        DownloadError
-            In all other cases; also while chunks are taken.
+        Raises NoRanges if only the whole file is to be had. Raises DownloadError in all other cases; also while chunks are taken.
         """
 
     def _fetch(self, url: str) -> Iterator[bytes]:

@@ -31,15 +31,10 @@ _FORMAT: Final = "%Y-%m-%dT%H:%M:%SZ"
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """A time that was kept, and what of the repository it was kept under.
-
-    Attributes
-    ----------
-    root_version, timestamp_version : int
-        0 in a file of an earlier release, which has the time alone: any root is newer.
-    """
+    """A time that was kept, and what of the repository it was kept under."""
 
     moment: datetime
+    # root_version, timestamp_version: 0 in a file of an earlier release, which has the time alone: any root is newer
     root_version: int = 0
     timestamp_version: int = 0
 
@@ -75,14 +70,9 @@ def built(built_s: int) -> datetime:
 
 
 def earliest(clock: Path, built_s: int) -> datetime:
-    """Time that it is at least.
+    """Time that it is at least, by a file with the time that was kept; one that holds none counts as absent.
 
-    Parameters
-    ----------
-    clock : Path
-        File with the time that was kept; one that holds none counts as absent.
-    built_s : int
-        When the running release was made, in s since 1970.
+    The running release was made at `built_s`, in s since 1970.
     """
     kept = Kept.read(clock)
     return max(built(built_s), kept.moment) if kept else built(built_s)
@@ -91,10 +81,7 @@ def earliest(clock: Path, built_s: int) -> datetime:
 def keep(clock: Path, root: Root, targets: Targets, timestamp: Timestamp, now: datetime, synchronized: Path = SYNCHRONIZED) -> None:
     """Keep the time that verified metadata proves, and the clock's own if that was set from the network.
 
-    Raises
-    ------
-    OSError
-        If it cannot be written.
+    Raises OSError if it cannot be written.
     """
     kept = Kept.read(clock)
     if kept and not kept.counts_under(root):

@@ -27,26 +27,14 @@ COUNTER: Final = "counter"  # file below `download`: counter of the newest relea
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """What a channel offers.
-
-    Attributes
-    ----------
-    manifest : Manifest, optional
-        None if there is nothing for this platform.
-    data : bytes
-        The manifest as it was signed.
-    installed : Manifest, optional
-        The release in use.
-    refused : str
-        Why it is not taken; empty if it may be.
-    """
+    """What a channel offers."""
 
     channel: str
     platform: str
-    manifest: Manifest | None
-    data: bytes
-    installed: Manifest | None
-    refused: str
+    manifest: Manifest | None  # None if there is nothing for this platform
+    data: bytes  # the manifest as it was signed
+    installed: Manifest | None  # the release in use
+    refused: str  # why it is not taken; empty if it may be
 
     @property
     def is_new(self) -> bool:
@@ -57,16 +45,8 @@ class Offer:
 def offered(repository: DeviceUpdater, layout: Layout, channel: str, where: str) -> Offer:
     """What a channel of a repository offers this device now.
 
-    Parameters
-    ----------
-    where : str
-        What the repository is called in errors.
-
-    Raises
-    ------
-    UpdateError
-        If the repository is wrong, not merely of no use to this device.
-    DownloadError, RepositoryError
+    `where` is what the repository is called in errors. Raises UpdateError if the repository is wrong, not merely of no use to this
+    device; DownloadError or RepositoryError.
     """
     platform, installed = this_platform(), manifest_of(layout.current)
     releases = _channel(repository.read(Channel.target(channel), CHANNEL_BYTES_MAX), f"{where}: {Channel.target(channel)}").releases
@@ -103,10 +83,7 @@ def _reason(manifest: Manifest, installed: Manifest | None, layout: Layout, wher
 def failed_releases(layout: Layout) -> frozenset[str]:
     """Versions that were tried and did not serve.
 
-    Raises
-    ------
-    UpdateError
-        If they cannot be read: what is not known to be untried is not fetched.
+    Raises UpdateError if they cannot be read: what is not known to be untried is not fetched.
     """
     file = layout.state / "failed"
     try:

@@ -47,31 +47,17 @@ LIMITS: Final = UpdaterConfig(
 
 
 class DeviceUpdater(Updater):
-    """Python-tuf's client, which takes for the time the later one of the clock's and what is known for sure.
-
-    Parameters
-    ----------
-    metadata : Path
-        Folder for what was verified; it exists.
-    root : bytes
-        The trusted root.json.
-    earliest : datetime
-        Time that it is at least.
-    now : datetime, optional
-        What the clock says; for tests.
-    kept : clock.Kept, optional
-        Time that it is at least too, unless a newer root is taken.
-    """
+    """Python-tuf's client, which takes for the time the later one of the clock's and what is known for sure."""
 
     def __init__(
         self,
-        metadata: Path,
+        metadata: Path,  # folder for what was verified; it exists
         source: Source,
-        root: bytes,
-        earliest: datetime,
-        now: datetime | None = None,
+        root: bytes,  # the trusted root.json
+        earliest: datetime,  # time that it is at least
+        now: datetime | None = None,  # what the clock says; for tests
         config: UpdaterConfig = LIMITS,
-        kept: clock.Kept | None = None,
+        kept: clock.Kept | None = None,  # time that it is at least too, unless a newer root is taken
     ) -> None:
         address = source.address
         super().__init__(str(metadata), f"{address}/metadata", None, f"{address}/targets", source, config, bootstrap=root)
@@ -94,25 +80,14 @@ class DeviceUpdater(Updater):
         clock.keep(file, verified.root, verified.targets, verified.timestamp, self.now)
 
     def target(self, path: str) -> TargetFile:
-        """What is signed about a file of the repository.
-
-        Raises
-        ------
-        UpdateError
-            If it has none of that name.
-        """
+        """What is signed about a file of the repository; raises UpdateError if it has none of that name."""
         target = self.get_targetinfo(path)
         if target is None:
             raise UpdateError(f"{self._source.name}: has no {path}: was the release added to it whole?")
         return target
 
     def read(self, path: str, max_bytes: int) -> bytes:
-        """A small file of the repository, checked.
-
-        Raises
-        ------
-        UpdateError, DownloadError, RepositoryError
-        """
+        """A small file of the repository, checked; raises UpdateError or DownloadError or RepositoryError."""
         target = self.target(path)
         if target.length > max_bytes:
             raise UpdateError(
@@ -123,12 +98,7 @@ class DeviceUpdater(Updater):
         return data
 
     def chunks(self, target: TargetFile, start: int, length: int) -> Iterator[bytes]:
-        """Bytes of a file of the repository, as they come; not checked.
-
-        Raises
-        ------
-        DownloadError
-        """
+        """Bytes of a file of the repository, as they come; not checked; raises DownloadError."""
         folder, slash, name = target.path.rpartition("/")
         if self._trusted_set.root.consistent_snapshot:
             name = f"{next(iter(target.hashes.values()))}.{name}"
@@ -139,17 +109,8 @@ class DeviceUpdater(Updater):
 def trusted(layout: Layout, source: Source, built_s: int, now: datetime | None = None) -> Iterator[DeviceUpdater]:
     """A repository whose metadata was verified just now; no other process works on updates meanwhile.
 
-    Parameters
-    ----------
-    built_s : int
-        When the running release was made, in s since 1970.
-    now : datetime, optional
-        What the clock says; for tests.
-
-    Raises
-    ------
-    UpdateError
-        For whatever is wrong with it, also within the block.
+    The running release was made at `built_s`, in s since 1970; `now` is what the clock says, for tests. Raises UpdateError for
+    whatever is wrong with it, also within the block.
     """
     try:
         root = layout.trusted_root.read_bytes()
@@ -187,12 +148,7 @@ def sync_tree(folder: Path) -> None:
 
 
 def sha256_of(file: Path) -> str:
-    """SHA-256 of a file, in hexadecimal digits.
-
-    Raises
-    ------
-    OSError
-    """
+    """SHA-256 of a file, in hexadecimal digits; raises OSError."""
     with file.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()
 

@@ -18,16 +18,7 @@ ROOT_BYTES_MAX: Final = 64_000
 def root_expiry(layout: Layout) -> tuple[str, bool]:
     """Until when the newest root that this device has is valid: the package's, or one that followed it.
 
-    Returns
-    -------
-    said : str
-    warns : bool
-        Whether it ends soon, or there is none.
-
-    Raises
-    ------
-    UpdateError
-        If it has expired, or is damaged.
+    Returns that in words, and whether it ends soon, or there is none. Raises UpdateError if it has expired, or is damaged.
     """
     if not layout.trusted_root.exists():
         return f"there is no {layout.trusted_root}: this device takes no updates", True
@@ -53,10 +44,7 @@ def root_expiry(layout: Layout) -> tuple[str, bool]:
 def clock_reported(layout: Layout) -> tuple[str, bool]:
     """What the device's clock says, and what it is at least; whether it is before that.
 
-    Raises
-    ------
-    ModuleNotFoundError
-        Without the extra `update`.
+    Raises ModuleNotFoundError without the extra `update`.
     """
     from controller.device.update.trust.clock import as_text, earliest  # noqa: PLC0415 - needs tuf
 

@@ -24,22 +24,7 @@ PHASE_BITS, FORM_BITS, STATE_BITS = 14, 15, 28
 
 
 class AudibleForm:
-    """Audible energy of many emissions at once, in a unit of this class.
-
-    Parameters
-    ----------
-    model : ResponseModel
-        Of this board.
-    longest_lag : int
-        Samples.
-
-    Attributes
-    ----------
-    lags : (lag, 32, 32) array
-        Half the derivative of a sample's bits' energy by those of a sample this many samples away.
-    largest : float
-        Largest eigenvalue of the form, rounded up.
-    """
+    """Audible energy of many emissions at once, in a unit of this class. `longest_lag` is in samples."""
 
     def __init__(self, board: Board, model: ResponseModel, longest_lag: int) -> None:
         waveform = board.waveform
@@ -60,8 +45,9 @@ class AudibleForm:
         self._phases: Floats = np.rint(np.concatenate([np.cos(turns), np.sin(turns)], axis=1) * 2.0**PHASE_BITS) * 2.0**-PHASE_BITS
         lag_turns = 2 * np.pi * np.outer(np.arange(longest_lag + 1), hz * period_s)
         lags = np.cos(lag_turns) @ self._form.reshape(count, -1)
+        # (lag, 32, 32): half the derivative of a sample's bits' energy by those of a sample this many samples away
         self.lags = rounded(lags.reshape(-1, CHANNELS, CHANNELS), 20)
-        self.largest = self._largest(samples)
+        self.largest = self._largest(samples)  # largest eigenvalue of the form, rounded up
 
     def spectrum(self, levels: Floats, first: int = 0) -> Floats:
         """Spectrum of levels above idle, (sample, cell, 32), of which the first is sample `first`: (2 bin, cell, 32)."""

@@ -49,61 +49,41 @@ WORKING_BYTES = 120e6  # of levels, gradients and modal forces
 
 
 @dataclasses.dataclass(frozen=True)
-class Aim:
-    """What a waveform is optimised for.
-
-    Attributes
-    ----------
-    contrast, silence, calm : float
-        Costs of the mean square field outside the focus (0: it is left alone, which saves most of the time), of the energy below
-        16 kHz and of the edges of all channels, each relative to that of the plain waveform, where the plain waveform's
-        amplitude is worth about `amplitude`.
-    amplitude : float
-        Worth of the amplitude that the relaxation begins with.
-    steps : int
-        Of the relaxation.
-    passes : int
-        Of the descent.
-    """
+class DescentAim:
+    """What a waveform is optimised for."""
 
     name: str
+    # contrast, silence, calm: costs of the mean square field outside the focus (0: it is left alone, which saves most of the
+    # time), of the energy below 16 kHz and of the edges of all channels, each relative to that of the plain waveform, where the
+    # plain waveform's amplitude is worth about `amplitude`
     contrast: float
     silence: float
     calm: float
-    amplitude: float
-    steps: int
-    passes: int = 1
+    amplitude: float  # worth of the amplitude that the relaxation begins with
+    steps: int  # of the relaxation
+    passes: int = 1  # of the descent
 
 
 AIMS = {
     aim.name: aim
     for aim in (
-        Aim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
-        Aim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
-        Aim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
+        DescentAim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
+        DescentAim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
+        DescentAim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
     )
 }
 
 
 @dataclasses.dataclass(eq=False)
 class _Cells:
-    """Points that are optimised together; every array has them along its axis `cell`.
+    """Points that are optimised together; every array has them along its axis `cell`."""
 
-    Attributes
-    ----------
-    plain : (sample, cell, 32) array
-        Bits of the plain waveform.
-    shapes : (cell, mode) array
-    worth : (cell,) array
-        Of the amplitude; changes during the relaxation.
-    amplitude, field, sound, edge : (cell,) array
-        Worth 1 of amplitude, in the unit of `FieldForm`; cost of a unit of the mean square field, of audible energy, of an edge.
-    """
-
-    plain: Floats
-    shapes: Floats
+    plain: Floats  # (sample, cell, 32): bits of the plain waveform
+    shapes: Floats  # (cell, mode)
     places: list[Any]
-    worth: Floats
+    worth: Floats  # (cell,): of the amplitude; changes during the relaxation
+    # amplitude, field, sound, edge: (cell,): worth 1 of amplitude, in the unit of `FieldForm`; cost of a unit of the mean
+    # square field, of audible energy, of an edge
     amplitude: Floats
     field: Floats
     sound: Floats
@@ -111,15 +91,9 @@ class _Cells:
 
 
 class Descent:
-    """Optimised waveforms for single points at full amplitude.
+    """Optimised waveforms for single points at full amplitude."""
 
-    Parameters
-    ----------
-    model : ResponseModel
-        Of this board.
-    """
-
-    def __init__(self, board: Board, model: ResponseModel, aim: Aim) -> None:
+    def __init__(self, board: Board, model: ResponseModel, aim: DescentAim) -> None:
         self.name = f"descent: {aim.name}"
         self._aim, self._model = aim, model
         self._idle_word = board.idle_word
@@ -299,16 +273,8 @@ class Descent:
 def _settle(levels: Floats, slope: Floats, curvature: Floats, change: Floats) -> None:
     """Choose the bits of one sample: round levels between 0 and 1, then flip the bits that gain most.
 
-    Parameters
-    ----------
-    levels : (cell, 32) array
-        From 0 to 1; becomes 0 or 1.
-    slope : (cell, 32) array
-        Derivative of the gain by each level; overwritten.
-    curvature : (cell, 32, 32) array
-        Of the loss.
-    change : (cell, 32) array
-        Receives the change of the levels.
+    `levels` (cell, 32) become 0 or 1; `slope` (cell, 32), the derivative of the gain by each, is overwritten; `curvature` (cell,
+    32, 32) is that of the loss; `change` (cell, 32) receives the change of the levels.
     """
     half = np.diagonal(curvature, axis1=1, axis2=2) / 2
     between = (levels > 0) & (levels < 1)

@@ -36,15 +36,8 @@ def likely_polarities(rows: Floats, count: int) -> list[NDArray[np.float64]]:
     For weights `w` the sum of absolute values of `w @ rows` grows about as the root of `w G w` (G: inner products of the rows); its
     smallest value for `signs @ w = 1` is `1 / (signs G^-1 signs)`. So the signs with the smallest `signs G^-1 signs` come first.
 
-    Parameters
-    ----------
-    rows : (place, bit) array
-    count : int
-        Of the directions returned, at most. Opposite ones count once: the first place is pushed upwards.
-
-    Returns
-    -------
-    list of (place,) arrays of -1 and 1
+    `rows` are (place, bit). Returns at most `count` directions (place,) of -1 and 1; opposite ones count once: the first place is
+    pushed upwards.
     """
     inverse = np.linalg.inv(_gram(rows))
     signs = np.array([(1.0, *others) for others in product((1.0, -1.0), repeat=len(rows) - 1)])
@@ -55,19 +48,9 @@ def likely_polarities(rows: Floats, count: int) -> list[NDArray[np.float64]]:
 def farthest(rows: Floats, proportions: Floats, roundings: tuple[float, ...] = ROUNDINGS) -> tuple[Floats, float]:
     """Weights whose bits push as far as possible in given proportions.
 
-    Parameters
-    ----------
-    rows : (goal, bit) array
-    proportions : (goal,) array
-        Wanted displacements, up to a factor; 0 for a goal that shall stay still.
-    roundings : tuple of float
-        The last one is how exact the result is.
-
-    Returns
-    -------
-    weights : (goal,) array
-    bound : float
-        No bits reach more than this many times the proportions.
+    `rows` are (goal, bit), `proportions` (goal,): wanted displacements, up to a factor, 0 for a goal that shall stay still. The
+    last of the roundings is how exact the result is. Returns the weights (goal,), and how many times the proportions no bits
+    exceed.
     """
     start = np.linalg.solve(_gram(rows), proportions)
     weights = _newton(rows, np.zeros(rows.shape[1]), np.zeros(len(rows)), start / (proportions @ start), roundings, proportions)
@@ -126,17 +109,9 @@ def _rounded(sums: Floats, square: float) -> float:
 def flip(bits: Bits, strength: Floats, rows: Floats, wanted: Floats, tolerance: float) -> None:
     """Flip bits, those that cost little, until `rows @ bits` is as wanted or no flip brings it nearer.
 
-    Parameters
-    ----------
-    bits : (bit,) bool array
-        Changed in place.
-    strength : (bit,) array
-        How far each bit's sum is above or below what decides it.
-    rows : (goal, bit) array
-        In units of which the sum of squares over the goals counts.
-    wanted : (goal,) array
-    tolerance : float
-        Root of the sum of squares that is good enough.
+    `bits` (bit,) are changed in place; `strength` (bit,) is how far each bit's sum is above or below what decides it. `rows` (goal,
+    bit) and `wanted` (goal,) are in units of which the sum of squares over the goals counts; its root is good enough within
+    `tolerance`.
     """
     weak = np.argpartition(np.abs(strength), round(WEAK_SHARE * len(bits)))[: round(WEAK_SHARE * len(bits))]
     changes = rows[:, weak] * np.where(bits[weak], -1.0, 1.0)

@@ -13,19 +13,9 @@ Floats = NDArray[np.float64]
 
 
 def rounded(values: Floats, bits: int, axis: int | tuple[int, ...] | None = None) -> Floats:
-    """Values rounded to a common unit: the largest along `axis` has `bits` bits.
+    """Values rounded to a common unit, of which the largest has below 2^`bits`.
 
-    Parameters
-    ----------
-    bits : int
-        Below 2^bits units each.
-    axis : int or tuple of int, optional
-        Axes of values that share a unit; all by default.
-
-    Returns
-    -------
-    array
-        Of the same shape.
+    Values along `axis` share a unit; all by default.
     """
     top = np.maximum(values.max(axis=axis, keepdims=True), -values.min(axis=axis, keepdims=True))
     unit = np.ldexp(1.0, np.frexp(top)[1] - bits)

@@ -36,13 +36,7 @@ SMALLEST_THRESHOLD: Final = 0.05  # to begin with, in local strengths
 
 
 class ExactComposition:
-    """Up to ten points at amplitudes of 0.25 to 1; nobody is kept still.
-
-    Parameters
-    ----------
-    source : ResponseSource
-        Of this board.
-    """
+    """Up to ten points at amplitudes of 0.25 to 1; nobody is kept still."""
 
     name = "exact composition"
 
@@ -79,10 +73,7 @@ class ExactComposition:
 def checked_points(points: Sequence[Point]) -> tuple[Floats, Floats]:
     """Places (point, 2) and amplitudes (point,) of points.
 
-    Raises
-    ------
-    ValueError
-        If there are none or too many, or a number is not finite or beyond its range.
+    Raises ValueError if there are none or too many, or a number is not finite or beyond its range.
     """
     if not 1 <= len(points) <= MAX_FOCI:
         raise ValueError(f"{len(points)} points to compose, not 1 to {MAX_FOCI}")
@@ -97,25 +88,10 @@ def checked_points(points: Sequence[Point]) -> tuple[Floats, Floats]:
 def best_bits(in_band: Floats, whole: Floats, asked: Floats, nulls: Floats, block_samples: int) -> Bits:
     """Where to deviate from idle.
 
-    Parameters
-    ----------
-    in_band, whole : (point, bit) array
-        What each bit adds at each point in m: in the band, of which the sum is made, and in truth.
-    asked : (point,) array
-        Amplitudes, above 0 to 1, of what all points would get together at full amplitude.
-    nulls : (row, bit) array
-        What shall stay zero, in m; rows are orthogonal to each other.
-    block_samples : int
-        Over which the local strength of a sum is taken.
-
-    Returns
-    -------
-    (bit,) bool array
-
-    Raises
-    ------
-    ValueError
-        If a point cannot be moved, or not while others move as asked or nulls stay still.
+    `in_band` and `whole` (point, bit) are what each bit adds at each point in m: in the band, of which the sum is made, and in
+    truth. `asked` (point,) are amplitudes, above 0 to 1, of what all points would get together at full amplitude. `nulls` (row,
+    bit) shall stay zero, in m; rows are orthogonal to each other. The local strength of a sum is taken over `block_samples`.
+    Returns (bit,). Raises ValueError if a point cannot be moved, or not while others move as asked or nulls stay still.
     """
     count = len(in_band)
     sizes = np.linalg.norm(nulls, axis=1, keepdims=True)

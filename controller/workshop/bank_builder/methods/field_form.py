@@ -28,41 +28,20 @@ STATE_BITS = 28  # of what is summed over samples
 
 
 class Surroundings(NamedTuple):
-    """What counts as the focus at one point: map points near it.
+    """What counts as the focus at one point: map points near it."""
 
-    Attributes
-    ----------
-    along_x, along_y : (point, factor) array
-        Factors of the shapes at the map's columns and rows that reach into it; of shapes that are no products, the shapes at
-        each of its points, and 1.
-    inside : (column, row) array
-        1 where a point of the map lies in it, else 0.
-    share : float
-        Points of the map for each point outside.
-    """
-
+    # along_x, along_y: (point, factor): factors of the shapes at the map's columns and rows that reach into it; of shapes that
+    # are no products, the shapes at each of its points, and 1
     along_x: Floats
     along_y: Floats
-    inside: Floats
-    share: float
+    inside: Floats  # (column, row): 1 where a point of the map lies in it, else 0
+    share: float  # points of the map for each point outside
 
 
 class FieldForm:
     """The field at T of many emissions at once; an array's axis `cell` counts emissions, each with a focus of its own.
 
     All displacements are in a unit of this class, from rest at the idle word.
-
-    Parameters
-    ----------
-    model : ResponseModel
-        Of this board.
-
-    Attributes
-    ----------
-    curvature : (sample, 32, 32) array
-        Products of the moves of two channels' bits of one sample, summed over the modes.
-    largest : float
-        Largest eigenvalue of the quadratic form, rounded up: what bits (sample, 32) of norm 1 move, squared.
     """
 
     def __init__(self, board: Board, model: ResponseModel) -> None:
@@ -79,7 +58,9 @@ class FieldForm:
         self._outside_m = scale.outside_m
         self._x_m = map_axis(self._modes.length_m, scale.map_step_m)
         self._y_m = map_axis(self._modes.width_m, scale.map_step_m)
+        # (sample, 32, 32): products of the moves of two channels' bits of one sample, summed over the modes
         self.curvature = np.stack([table.T @ table for table in map(self.moves, range(len(kernel)))])
+        # Largest eigenvalue of the quadratic form, rounded up: what bits (sample, 32) of norm 1 move, squared
         self.largest = self._largest()
 
     def moves(self, sample: int) -> Floats:
@@ -129,18 +110,8 @@ class FieldForm:
     def near(self, modal: Floats, places: list[Surroundings]) -> tuple[Floats, Floats]:
         """The part of the field that counts as the focus.
 
-        Parameters
-        ----------
-        modal : (cell, mode) array
-        places : list of Surroundings
-            One for each cell.
-
-        Returns
-        -------
-        modes : (cell, mode) array
-            The field there brought back to the modes: what `mean_square` takes off `modal` in its derivative.
-        squares : (cell,) array
-            Sum of squares over the map's points there.
+        `modal` is (cell, mode); each cell has a place. Returns the field there brought back to the modes (cell, mode), which
+        `mean_square` takes off `modal` in its derivative, and the sum of squares over the map's points there (cell,).
         """
         coarse = rounded(modal * self._size, 26, 1)
         back, squares = np.zeros_like(modal), np.zeros(len(modal))

@@ -26,13 +26,7 @@ HEARD: Final = 1e-4  # of the largest: directions of displacement near T that ar
 
 
 class ExactNulls:
-    """As `ExactComposition`, with places that stay still within 25 us of T.
-
-    Parameters
-    ----------
-    model : ResponseModel
-        Of this board.
-    """
+    """As `ExactComposition`, with places that stay still within 25 us of T."""
 
     name = "exact composition, nulls"
 

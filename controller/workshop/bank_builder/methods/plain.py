@@ -16,13 +16,7 @@ from controller.workshop.physics.responses.response_source import ResponseSource
 
 
 class SignOfSum:
-    """Full amplitude at one or several points; nobody is kept still.
-
-    Parameters
-    ----------
-    source : ResponseSource
-        Of this board.
-    """
+    """Full amplitude at one or several points; nobody is kept still."""
 
     name = "sign of the sum"
 

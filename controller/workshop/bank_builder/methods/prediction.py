@@ -20,10 +20,7 @@ NEAR_S = 25e-6  # a null is evaluated this long before and after T
 class FocusPrediction:
     """Displacements at T that drive words cause, from rest at the idle word.
 
-    Parameters
-    ----------
-    source : ResponseSource
-        Of this board or another, whose plate then is the one that plays.
+    The source is of this board or another, whose plate then is the one that plays.
     """
 
     def __init__(self, board: Board, source: ResponseSource) -> None:
@@ -44,24 +41,14 @@ class FocusPrediction:
 
 
 class Prediction(FocusPrediction):
-    """The same, and before and after T, which takes a model: responses that go on after an emission.
-
-    Parameters
-    ----------
-    model : ResponseModel
-        As of `FocusPrediction`.
-
-    Attributes
-    ----------
-    near_samples : int
-        Samples before T, and as many after it, at which a null is evaluated.
-    """
+    """The same, and before and after T, which takes a model: responses that go on after an emission."""
 
     def __init__(self, board: Board, model: ResponseModel) -> None:
         super().__init__(board, model)
         self._model = model
         self._bit_period_s = board.waveform.bit_period_s
         self._modal: NDArray[np.float64] | None = None  # of each mode, longer than an emission
+        # samples before T, and as many after it, at which a null is evaluated
         self.near_samples = math.ceil(NEAR_S / self._bit_period_s)
 
     def near_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:

@@ -31,23 +31,11 @@ NOTHING = np.zeros(0, np.uint32)
 
 
 def idle_figures(board: Board, seed: int = 1, points: int = 20) -> dict[str, Any]:
-    """Judge a board's idle word and ramp over random points at least 10 mm from the edges.
+    """Evaluate a board's idle word and ramp over random points at least 10 mm from the edges; none is left out.
 
-    Parameters
-    ----------
-    board : Board
-        Panel to be evaluated.
-    seed : int
-        Seed of the random points.
-    points : int
-        Number of points; none is left out.
-
-    Returns
-    -------
-    dict
-        `contrast`, `amplitude_um`: with the idle word and with all channels idle low. `emission_m2_per_s`: audible
-        energy of the median emission. `emission_db`: energy of each emission including its return to the idle word;
-        `return_db`: of that return alone. `arming_db`, `disarming_db`: of the board's own ramp, of a step and of other ramps.
+    `contrast`, `amplitude_um`: with the idle word and with all channels idle low. `emission_m2_per_s`: audible energy of the median
+    emission. `emission_db`: energy of each emission including its return to the idle word; `return_db`: of that return alone.
+    `arming_db`, `disarming_db`: of the board's own ramp, of a step and of other ramps.
     """
     with threadpool_limits(1, "blas"):
         model = ResponseModel(board)

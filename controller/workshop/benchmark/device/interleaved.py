@@ -14,19 +14,11 @@ TURNS_AT_LEAST = 3
 
 @dataclass(frozen=True)
 class CallTiming:
-    """Processor time of one call of a job in us.
+    """Processor time of one call of a job in us."""
 
-    Attributes
-    ----------
-    median_us, p99_us : float
-        Over all calls that follow one of the same.
-    first_us : float
-        Median of those that follow other jobs, which have taken the caches.
-    """
-
-    median_us: float
+    median_us: float  # median_us, p99_us: over all calls that follow one of the same
     p99_us: float
-    first_us: float
+    first_us: float  # median of those that follow other jobs, which have taken the caches
     calls: int
 
 
@@ -35,19 +27,8 @@ def interleaved(
 ) -> list[CallTiming]:
     """Time jobs, by the processor time of this thread: other processes only disturb its caches.
 
-    Parameters
-    ----------
-    jobs : sequence of sequences of callables
-        The calls of each job; each is made twice in every turn. What the clock itself takes is left out.
-    most_s : float
-        A job that has taken longer makes three turns and no more.
-    each : callable, optional
-        Called after each turn.
-
-    Returns
-    -------
-    list of CallTiming
-        Of each job, over its calls and turns.
+    Each call of a job is made twice in every turn; what the clock itself takes is left out. A job that has taken longer than
+    `most_s` makes three turns and no more. `each` is called after each turn.
     """
     clock = time.thread_time_ns
     empty = []

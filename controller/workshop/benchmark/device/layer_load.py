@@ -100,13 +100,7 @@ def _figures(took_ms: list[float]) -> dict[str, float]:
 
 
 class Load:
-    """Clicks all the time, and replacements in every second span.
-
-    Parameters
-    ----------
-    lines : list of bytes
-        Regions, as they are sent one after the other.
-    """
+    """Clicks all the time, and replacements in every second span. `lines` are regions, as they are sent one after the other."""
 
     def __init__(self, path: str, lines: list[bytes], replacements_hz: float) -> None:
         self._path = path
@@ -222,10 +216,7 @@ def _ratio(with_regions: Spans, without: Spans) -> float:
 def run(options: argparse.Namespace) -> dict[str, Any]:
     """Start the simulated panel, measure with the options of the command line, and stop it.
 
-    Raises
-    ------
-    ControllerError
-        If the panel does not start, or ends a connection.
+    Raises ControllerError if the panel does not start, or ends a connection.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "panel.sock")

@@ -36,20 +36,8 @@ class BankOfReference(ctypes.Structure):
 class PlainC:
     """Plain C on the responses of an open bank of which every cell that is played was used before.
 
-    Parameters
-    ----------
-    folder : Path
-        For the compiled library.
-
-    Attributes
-    ----------
-    words : array of uint32
-        Of the last call.
-
-    Raises
-    ------
-    ConfigError
-        If there is no C compiler, or it fails, or the bank's waveforms are not of 1,000 samples.
+    `folder` is for the compiled library. Raises ConfigError if there is no C compiler, or it fails, or the bank's waveforms are not
+    of 1,000 samples.
     """
 
     def __init__(self, folder: Path, bank: Bank, idle_word: int) -> None:
@@ -64,7 +52,7 @@ class PlainC:
         self._bank = BankOfReference(
             response, entry_of, scale_of, stride, grid.nx, grid.ny, grid.pitch_m, grid.x0_m, grid.y0_m, idle_word
         )
-        self.words = (ctypes.c_uint32 * bank.samples)()
+        self.words = (ctypes.c_uint32 * bank.samples)()  # of the last call
 
     def compose(self, points: Sequence[Point]) -> int:
         """Compose up to ten points, all at full amplitude; time in ns."""

@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
-from controller.errors import ConfigError
 from controller.workshop.benchmark.device.idle import NOTHING, RAMPS_MS, first_order_bits, ramp_samples, ramp_words
 from controller.workshop.benchmark.focus.focus_figures import emit, idling_low, random_points
 from controller.workshop.gateware.model.pins import ramp_bits
 from controller.workshop.physics.audible import AUDIBLE_HZ, surface_spectrum
 from controller.workshop.physics.focusing import focus
+from controller.workshop.physics.pictures.figure_file import save_figure
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
@@ -30,22 +30,7 @@ FIRST_ORDER_MS = 50.0
 
 
 def plot_idle(path: Path, board: Board, figures: dict[str, Any]) -> None:
-    """Draw a board's `idle_figures`.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    board : Board
-        Panel that was evaluated.
-    figures : dict
-        What `idle_figures` returned.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
-    """
+    """Draw a board's `idle_figures` to a .png, .svg or .pdf file; raises ConfigError if the file cannot be written."""
     x_m, y_m = random_points(board, figures["seed"], 1, board.plate.width_m / 3)[0].tolist()  # away from patches and edges
     drive_order = ResponseModel(board).drive_order_responses([(x_m, y_m)], dtype=np.float64)
     figure = Figure(figsize=(11, 8.5), layout="constrained")
@@ -53,10 +38,7 @@ def plot_idle(path: Path, board: Board, figures: dict[str, Any]) -> None:
     _draw_maps(figure, (left, right), board, drive_order, figures)
     _draw_spectra(spectrum, board, drive_order, figures)
     _draw_ramps(ramps, figures)
-    try:
-        figure.savefig(path, dpi=110)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 110)
 
 
 def _draw_maps(figure: Figure, pair: tuple[Axes, Axes], board: Board, drive_order: Responses, figures: dict[str, Any]) -> None:

@@ -41,21 +41,9 @@ Places = NDArray[np.float64]
 
 
 def errors_m(recording: Recording, board: Board, motion: type[Motion], ahead_s: Sequence[float]) -> list[Places]:
-    """Measure the distance of the tracker's predictions from the recorded tracks.
+    """Distances in m of the tracker's predictions from the recorded tracks, for each horizon, from each report on.
 
-    Parameters
-    ----------
-    board : Board
-        Gives plate and touch settings.
-    motion : type of Motion
-        Predictor.
-    ahead_s : sequence of float
-        Horizons, from each report on.
-
-    Returns
-    -------
-    list of (prediction,) float64 arrays
-        Distances in m for each horizon; predictions beyond the end of a track are left out.
+    Predictions beyond the end of a track are left out.
     """
     asked, tracks = _asked(recording, board, motion, ahead_s)
     found = []
@@ -70,19 +58,9 @@ def errors_m(recording: Recording, board: Board, motion: type[Motion], ahead_s: 
 
 
 def overshoot_m(motion: type[Motion], *, turns: bool) -> float:
-    """Measure how far predictions overshoot a finger that stops, or `turns` back, once a report shows it.
+    """How far in m predictions overshoot a finger that stops, or `turns` back, once a report shows it.
 
-    Parameters
-    ----------
-    motion : type of Motion
-        Predictor.
-    turns : bool
-        Whether the finger turns back instead of stopping.
-
-    Returns
-    -------
-    float
-        Farthest prediction beyond the stop, in m, over `PHASES` phases of the reports.
+    The farthest over `PHASES` phases of the reports.
     """
     farthest = -math.inf
     for phase in range(PHASES):

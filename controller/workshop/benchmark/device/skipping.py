@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -31,139 +31,26 @@ from controller.device.fpga.capture import Capture
 from controller.device.loop.skips import ALL, EXACT, Skips
 from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import Scene, load_scene
-from controller.device.touch import event_codes as ev
-from controller.device.touch.event_reader import AxisInfo, DeviceDescription, Event
-from controller.device.touch.recordings.recording import Recording
-from controller.device.touch_calibration.event_capture import recording_text
 from controller.metrics import Counters
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.benchmark.device.skip_cases import CASES, SkipCase, recording
 from controller.workshop.simulation.simulated_run import Run, play
 
-REPORT_S = 8e-3
-UNITS_PER_MM = 100
 PAGE_BYTES = 4096
 IDLE_DISARM_S = 1.0  # where the board has none
 REPEATS = 5  # of each run, for the least host time
 NONE = Skips(**dict.fromkeys((field.name for field in fields(Skips)), False))
 
-Path_mm = Callable[[float], tuple[float, float]]
-
-
-@dataclass(frozen=True)
-class PlayedContact:
-    """A finger that is down for a while: `path` gives (x_mm, y_mm) at a time in s from its start."""
-
-    start_s: float
-    end_s: float
-    path: Path_mm
-
-
-@dataclass(frozen=True)
-class SkipCase:
-    """One scene with its fingers.
-
-    Attributes
-    ----------
-    scene : str
-        One of the simulated board's.
-    contacts : tuple of PlayedContact
-        At most ten at a time; each has a slot of its own.
-    equal_bits : bool
-        No finger moves: exact skipping has to leave every output bit as it is.
-    """
-
-    name: str
-    scene: str
-    contacts: tuple[PlayedContact, ...]
-    equal_bits: bool
-
-
-def _still(x_mm: float, y_mm: float) -> Path_mm:
-    return lambda _: (x_mm, y_mm)
-
-
-def _taps(places: Sequence[tuple[float, float]], every_s: float) -> tuple[PlayedContact, ...]:
-    return tuple(PlayedContact(n * every_s, n * every_s + 0.08, _still(*place)) for n, place in enumerate(places))
-
-
-def _circle(x_mm: float, y_mm: float, radius_mm: float, speed_mm_s: float) -> Path_mm:
-    def path(at_s: float) -> tuple[float, float]:
-        angle = speed_mm_s / radius_mm * at_s
-        return x_mm + radius_mm * math.cos(angle), y_mm + radius_mm * math.sin(angle)
-
-    return path
-
-
-def _to_and_fro(at_s: float) -> tuple[float, float]:
-    return 105.0 + 45.0 * math.sin(2 * math.pi * 0.5 * at_s), 74.0
-
-
-KEYS = [
-    (27.0 + 26.0 * key + dx, 29.0 + dy) for key, dx, dy in ((0, 0.5, 1), (2, 3, -2), (4, -1, 4), (4, 5, 0), (2, 3, -2), (0, -4, 2))
-]
-
-CASES = (
-    SkipCase("idle", "keyboard", (*_taps(KEYS[:1], 1.0), PlayedContact(8.0, 8.08, _still(*KEYS[0]))), True),
-    SkipCase("keyboard", "keyboard", _taps(KEYS * 4, 0.15), True),
-    SkipCase("slider", "slider", (PlayedContact(0.0, 4.0, _to_and_fro),), False),
-    SkipCase("four always-on spots", "spots", (PlayedContact(0.0, 4.0, _still(105.0, 74.0)),), True),
-    SkipCase("whole-plate texture, one finger", "plate", (PlayedContact(0.0, 4.0, _circle(105.0, 74.0, 40.0, 100.0)),), False),
-    SkipCase(
-        "ten free fingers",
-        "plate",
-        tuple(PlayedContact(0.0, 2.0, _circle(30.0 + 37.5 * (n % 5), 45.0 + 58.0 * (n // 5), 9.0, 50.0)) for n in range(10)),
-        False,
-    ),
-)
-
-
-def recording(board: Board, case: SkipCase) -> Recording:
-    """Recording of a case's fingers, a report every `REPORT_S` while one is down."""
-    events: list[Event] = []
-    for slot, contact in enumerate(case.contacts):
-        number = slot % 10
-        times_s = np.arange(contact.start_s, contact.end_s, REPORT_S).tolist()
-        for index, at_s in enumerate(times_s):
-            events.append((ev.EV_ABS, ev.ABS_MT_SLOT, number, at_s))
-            if index == 0:
-                events.append((ev.EV_ABS, ev.ABS_MT_TRACKING_ID, slot + 1, at_s))
-            place = contact.path(at_s - contact.start_s)
-            events += [(ev.EV_ABS, code, round(UNITS_PER_MM * mm), at_s) for code, mm in zip(ev.POSITIONS, place, strict=True)]
-        events += [(ev.EV_ABS, ev.ABS_MT_SLOT, number, contact.end_s), (ev.EV_ABS, ev.ABS_MT_TRACKING_ID, -1, contact.end_s)]
-    events.sort(key=lambda event: event[3])
-    reports: list[Event] = []
-    for event in events:
-        if reports and event[3] > reports[-1][3]:
-            reports.append((ev.EV_SYN, ev.SYN_REPORT, 0, reports[-1][3]))
-        reports.append(event)
-    reports.append((ev.EV_SYN, ev.SYN_REPORT, 0, reports[-1][3]))
-    sides = zip(ev.POSITIONS, (board.plate.length_mm, board.plate.width_mm), strict=True)
-    axes = {code: AxisInfo(0, round(UNITS_PER_MM * side_mm)) for code, side_mm in sides}
-    axes |= {ev.ABS_MT_SLOT: AxisInfo(0, 9), ev.ABS_MT_TRACKING_ID: AxisInfo(0, 65535)}
-    return Recording(recording_text(DeviceDescription(case.name, axes=axes), reports), case.name)
-
 
 def skipping(board: Board, bank_file: Path, case: SkipCase, off: Sequence[str] = (), repeats: int = REPEATS) -> dict[str, Any]:
     """Play one case with and without skipping.
 
-    Parameters
-    ----------
-    board : Board
-        With the plate of the simulated one; its touch panel is the case's recording.
-    bank_file : Path
-        A bank of the whole plate.
-    off : sequence of str
-        Fields of `Skips` that are switched off in the second run; all by default.
-    repeats : int
-        Further runs of each for `host_ms`, from a bank that is checked beforehand as for the service.
-
-    Returns
-    -------
-    dict
-        `done` and `without`: figures of both runs; `saved`: their differences; `exact_bits`: whether exact skipping leaves every
-        output bit as it is; `must_be_exact`; `other_bits`: share of the bits that differ between both runs, None if they have not
-        as many emissions; `bank`: cells that the scene needs, of how many.
+    The board's plate is the simulated one's, its touch panel the case's recording; `bank_file` is of the whole plate. `off` are
+    fields of `Skips` that are switched off in the second run; all by default. `repeats` are further runs of each for `host_ms`,
+    from a bank that is checked beforehand as for the service. Returns `done` and `without`: figures of both runs; `saved`: their
+    differences; `exact_bits`: whether exact skipping leaves every output bit as it is; `must_be_exact`; `other_bits`: share of the
+    bits that differ between both runs, None if they have not as many emissions; `bank`: cells that the scene needs, of how many.
     """
     fewer = NONE if not off else replace(ALL, **dict.fromkeys(off, False))
     done, without = (figures(board, bank_file, case, skips) for skips in (ALL, fewer))
@@ -228,13 +115,7 @@ def exact_bits(board: Board, bank_file: Path, case: SkipCase) -> bool:
 
 
 def figures(board: Board, bank_file: Path, case: SkipCase, skips: Skips) -> dict[str, Any]:
-    """Counts and costs of one way of playing a case, and `words`, the drive words of its emissions, (emission, sample).
-
-    Parameters
-    ----------
-    board, bank_file, case
-        As for `skipping`.
-    """
+    """Counts and costs of one way of playing a case, and `words`, the drive words of its emissions, (emission, sample)."""
     run, pages = _run(board, bank_file, case, skips, whole=skips == NONE)
     counters = run.counters
     sent = counters.uploads + counters.prefetched
@@ -309,12 +190,7 @@ def all_cases(
 ) -> dict[str, Any]:
     """Play all cases from a bank that is built for it; `cases`: what `skipping` found, for each.
 
-    Parameters
-    ----------
-    board, off, repeats
-        As for `skipping`.
-    progress : callable, optional
-        Called with the number of cases done and of all cases.
+    The arguments are as for `skipping`; `progress` is called with the number of cases done and of all cases.
     """
     found = []
     with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):

@@ -110,45 +110,24 @@ class SlowSource(RecordingSource):
 
 @dataclass(frozen=True)
 class Pulses:
-    """What became of the pulses of a run.
+    """What became of the pulses of a run."""
 
-    Attributes
-    ----------
-    late : list of bool
-        For each pulse: whether it started later than due; for the first one of a train, whether it reached the FPGA later than
-        promised.
-    off_s : list of float
-        For each pulse but the first of its train, how much later than due it started.
-    spacing_error_s : list of float
-        Difference of each two following pulses' distance from the train's period.
-    held_s : list of float
-        For each pulse that was late and started by the host: from the arrival of its command to its start.
-    counters, timing
-        Of the loop.
-    emissions_hz : float
-        Emissions a second, from the first to the last.
-    """
-
+    # For each pulse: whether it started later than due; for the first one of a train, whether it reached the FPGA later than
+    # promised
     late: list[bool]
-    off_s: list[float]
-    spacing_error_s: list[float]
-    held_s: list[float]
-    counters: Counters
+    off_s: list[float]  # for each pulse but the first of its train, how much later than due it started
+    spacing_error_s: list[float]  # difference of each two following pulses' distance from the train's period
+    held_s: list[float]  # for each pulse that was late and started by the host: from the arrival of its command to its start
+    counters: Counters  # counters, timing: of the loop
     timing: HostTiming
-    emissions_hz: float
+    emissions_hz: float  # emissions a second, from the first to the last
 
 
 def run_slow(board: Board, scene: Scene, bank: Bank, recording: Recording, p50_s: float, seed: int = 1) -> Pulses:
     """Replay a recording through the event loop on a slow host.
 
-    Parameters
-    ----------
-    board, scene, bank, recording
-        As in `simulation.simulated_run.play`.
-    p50_s : float
-        Median host time of an upload; 0: the host takes no time.
-    seed : int
-        Of the host times.
+    `p50_s` is the median host time of an upload, 0: the host takes no time; `seed` is that of the host times. The rest is as in
+    `simulation.simulated_run.play`.
     """
     clock = HostClock()
     link = SlowLink(board.link, clock.now_s, GatewareModel(BuildParameters.of(board, gateware_hash())))

@@ -49,18 +49,9 @@ def late_pulses(
 ) -> list[dict[str, Any]]:
     """Play 50 Hz trains under one moving finger, under two, and under the fingers of the board's recording.
 
-    Parameters
-    ----------
-    duration_s : float
-        For which the fingers move.
-    hosts_us : sequence of float
-        Median host times of an upload.
-
-    Returns
-    -------
-    list of dict
-        A row for each scene and host. `late_percent`: of the pulses; `off_worst_ms`: how much later than due a pulse started at
-        most; `spacing_worst_ms`: how far the distance of two pulses was off the period; `lead_ms`: at the end of the run.
+    The fingers move for `duration_s`; `hosts_us` are median host times of an upload. Each row is a scene and a host.
+    `late_percent`: of the pulses; `off_worst_ms`: how much later than due a pulse started at most; `spacing_worst_ms`: how far the
+    distance of two pulses was off the period; `lead_ms`: at the end of the run.
     """
     scene = scene_of(board, TRAIN)
     recordings = {
@@ -106,10 +97,7 @@ def aim_errors(
     The finger moves to and fro as a sine of 30 mm, with the highest speed given; the panel reports every 8 ms, with 0.05 mm of
     noise and a resolution of 0.1 mm. A pulse is aimed T and its lead ahead, at any time between two reports.
 
-    Returns
-    -------
-    list of dict
-        For each speed and lead the median and the 95th percentile in mm.
+    Each row is a speed and a lead, with the median and the 95th percentile in mm.
     """
     rows = []
     for speed_m_s in speeds_m_s:

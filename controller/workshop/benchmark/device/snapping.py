@@ -103,10 +103,7 @@ def _resident_mb(path: Path) -> float:
 def snapping_figures(board: Board, places: int = PLACES, seed: int = SEED) -> dict[str, Any]:
     """Amplitude lost, host time and resident memory for each snap distance, ready for JSON.
 
-    Raises
-    ------
-    BankError
-        If the board's bank is missing or damaged.
+    Raises BankError if the board's bank is missing or damaged.
     """
     path = bank_path(board)
     places_m = np.array(random_points(board, seed, places))

@@ -54,12 +54,7 @@ class Hour:
 class Playlist:
     """Recordings in turn, over and over; a `TouchSource` that never uses a finger number twice.
 
-    Parameters
-    ----------
-    board : Board
-        Gives the plate.
-    start_s, end_s : float
-        Start of the first recording; time after which no other begins.
+    After `end_s` no recording begins.
     """
 
     def __init__(self, recordings: Sequence[Recording], board: Board, start_s: float, end_s: float) -> None:
@@ -114,21 +109,9 @@ class Playlist:
 
 
 def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording], hours: float, note: Any) -> list[Hour]:
-    """Play the recordings for a number of hours of recorded time.
+    """Play the recordings for a number of hours of recorded time; `note` is called with each `Hour` as it ends.
 
-    Parameters
-    ----------
-    bank : Bank
-        Holds the cells of the scene.
-    hours : float
-        Recorded time.
-    note : callable
-        Called with each `Hour` as it ends.
-
-    Raises
-    ------
-    FaultError, LinkError
-        From the event loop.
+    Raises FaultError or LinkError from the event loop.
     """
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)

@@ -67,28 +67,8 @@ class Observed:
 def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, places: int) -> dict[str, Any]:
     """Send commands at a constant rate and read all answers.
 
-    Parameters
-    ----------
-    path : str
-        Socket of the panel.
-    pid : int
-        Process of the service, whose memory is watched.
-    seconds, rate_hz : float
-        Duration of the load; commands a second, of all clients together.
-    clients : int
-        Number of connections.
-    places : int
-        Number of different points on the plate. The waveforms of a few stay resident in the FPGA, those of many are uploaded.
-
-    Returns
-    -------
-    dict
-        Figures, ready for JSON.
-
-    Raises
-    ------
-    LinkError
-        If the panel ends a connection.
+    `pid` is the service's, whose memory is watched; `rate_hz` is that of all clients together. The waveforms of a few different
+    `places` on the plate stay resident in the FPGA, those of many are uploaded. Raises LinkError if the panel ends a connection.
     """
     decoder, observed = messages.message_decoder(), Observed()
     with PanelClient(path) as panel:
@@ -167,13 +147,7 @@ def _send(account: Account, number: int, line: bytes) -> None:
 
 
 def received(account: Account, path: str) -> list[bytearray]:
-    """Lines that have come whole; the rest of the last one is kept.
-
-    Raises
-    ------
-    LinkError
-        If the panel has ended the connection.
-    """
+    """Lines that have come whole; the rest of the last one is kept; raises LinkError if the panel has ended the connection."""
     try:
         more = account.socket.recv(RECEIVE_BYTES)
     except BlockingIOError:
@@ -243,19 +217,9 @@ def _resident_bytes(pid: int) -> int:
 
 
 def run(options: argparse.Namespace) -> dict[str, Any]:
-    """Start the simulated panel, drive it with the options of the command line, and stop it.
+    """Start the simulated panel, drive it with the options of the command line, and stop it; figures of `drive`.
 
-    Returns
-    -------
-    dict
-        Figures of `drive`.
-
-    Raises
-    ------
-    ControllerError
-        If the panel does not start.
-    LinkError
-        If it ends a connection.
+    Raises ControllerError if the panel does not start; LinkError if it ends a connection.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "panel.sock")
@@ -274,13 +238,7 @@ def run(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def wait_for_panel(path: str, panel: subprocess.Popen[bytes]) -> None:
-    """Wait until the outputs are on.
-
-    Raises
-    ------
-    ControllerError
-        If it does not start.
-    """
+    """Wait until the outputs are on; raises ControllerError if it does not start."""
     give_up_s = time.monotonic() + START_S
     while time.monotonic() < give_up_s and panel.poll() is None:
         time.sleep(0.1)

@@ -40,26 +40,12 @@ AMPLITUDES = (MIN_AMPLITUDE, 0.25, 0.5, 0.75, 1.0)
 
 
 def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float | None = None) -> Figures:
-    """Judge random scenes of 1, 2, 4 and 10 fingers; none is left out.
+    """Evaluate random scenes of 1, 2, 4 and 10 fingers, this many of each, and as many single points; none is left out.
 
-    Parameters
-    ----------
-    board : Board
-        Panel to be evaluated.
-    seed : int
-        Seed of the random places and amplitudes.
-    scenes : int
-        Number of scenes for each number of fingers, and number of single points.
-    pitch_m : float, optional
-        Pitch of the bank, which holds only the cells needed here; the board's own by default.
-
-    Returns
-    -------
-    dict
-        `fingers`: for each number of fingers, `asked` and `got`, as shares of what exact composition gives each finger at
-        full amplitude, and `error_percent`. `single`: for each amplitude, contrast and spot relative to full amplitude, and
-        edges. `between_cells`: relative amplitude when interpolated and from the nearest entry, and `REUSE_RADIUS_M`
-        beside the point.
+    The bank, of the board's own pitch by default, holds only the cells needed here. `fingers`: for each number of fingers, `asked`
+    and `got`, as shares of what exact composition gives each finger at full amplitude, and `error_percent`. `single`: for each
+    amplitude, contrast and spot relative to full amplitude, and edges. `between_cells`: relative amplitude when interpolated and
+    from the nearest entry, and `REUSE_RADIUS_M` beside the point.
     """
     random = np.random.default_rng(seed)
     played = [[_scene(board, random, fingers) for _ in range(scenes)] for fingers in FINGERS]

@@ -44,17 +44,7 @@ class FocusEmission(NamedTuple):
 def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> FocusEmission:
     """Focus on several points at once.
 
-    Parameters
-    ----------
-    points_m : sequence of (x_m, y_m)
-        Places of the foci.
-    memory_mb : float, optional
-        Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
-
-    Raises
-    ------
-    ConfigError
-        If it does not fit into `memory_mb`.
+    `memory_mb` is in MB of 10^6 bytes, `DEFAULT_MB` by default. Raises ConfigError if it does not fit into `memory_mb`.
     """
     twin = PlateTwin(board)
     needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s) + len(PULSE))
@@ -128,16 +118,8 @@ def pulse_s(field: Field, x_m: float, y_m: float) -> float:
 def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
     """Figures of an emission as a whole: energy at T, heat in the stages, scale.
 
-    Parameters
-    ----------
-    period_s : float
-        From one emission to the next.
-
-    Returns
-    -------
-    dict
-        `energy_uj` by modes and `energy_integrated_uj` by a map; `stages_uj` of one emission, to idle and back included, and of
-        each channel under `channels`.
+    `energy_uj` by modes and `energy_integrated_uj` by a map; `stages_uj` of one emission, to idle and back included, and of each
+    channel under `channels`.
     """
     twin, field = emission.twin, emission.field
     board = twin.board

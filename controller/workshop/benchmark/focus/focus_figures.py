@@ -21,8 +21,9 @@ from controller.workshop.physics.audible import surface_energy
 from controller.workshop.physics.field import Field
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.plate import mode_cut_hz, wave_scale
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import capture_of_words
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
@@ -35,21 +36,10 @@ SETTLED = 40  # time constants of the slowest pole (6 ms: mode (1, 1) is overdam
 
 
 def figures(board: Board, seed: int = 1, points: int = 20, *, progress: bool = False) -> Figures:
-    """Judge foci of a board at random points at least 0.95 wavelengths from the edges: min, median and max of each figure.
+    """Evaluate foci of a board at random points at least 0.95 wavelengths from the edges: min, median and max of each figure.
 
     Four foci are evaluated twice: all at least 1.9 wavelengths from the edges, and all at least 0.95. Those are 20 and 10 mm on the
     paper's plate.
-
-    Parameters
-    ----------
-    board : Board
-        Panel to be evaluated.
-    seed : int
-        Seed of the random points.
-    points : int
-        Number of points.
-    progress : bool
-        Whether to show a progress bar on stderr if it is a terminal.
     """
     low = idling_low(board)
     with (
@@ -104,20 +94,10 @@ def emit(twin: PlateTwin, words: NDArray[np.uint32]) -> Field:
 
 
 def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) -> Figures:
-    """Judge foci one at a time: amplitude, contrast, spot, time of the peak, and sound.
+    """Evaluate foci one at a time: amplitude, contrast, spot, time of the peak, and sound; min, median and max of each.
 
-    Parameters
-    ----------
-    model : ResponseModel
-        Of a board with the same plate and driver.
-    points_m : iterable of (2,) array
-        Places of the foci.
-
-    Returns
-    -------
-    dict
-        Min, median and max of each figure. `audible_m2_per_s` is `surface_energy` below 16 kHz, `audible_fraction_db` its
-        share of all energy up to `mode_cut_hz`.
+    `model` is of a board with the same plate and driver; each point is (2,). `audible_m2_per_s` is `surface_energy` below 16 kHz,
+    `audible_fraction_db` its share of all energy up to `mode_cut_hz`.
     """
     twin = PlateTwin(board)
     rows = []
@@ -144,17 +124,10 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
 
 
 def four_foci(board: Board, model: ResponseModel, centres_m: Iterable[Floats]) -> Figures:
-    """Judge four foci at the corners of squares of 0.95 wavelengths: the sign of the sum of their responses.
+    """Evaluate four foci at the corners of squares of 0.95 wavelengths: the sign of the sum of their responses.
 
-    Parameters
-    ----------
-    centres_m : iterable of (2,) array
-        Centres of the squares.
-
-    Returns
-    -------
-    dict
-        Min, median and max of `contrast`, `spot_mm` and `share`: a corner's amplitude relative to a single focus there.
+    Each centre is (2,). Min, median and max of `contrast`, `spot_mm` and `share`: a corner's amplitude relative to a single focus
+    there.
     """
     twin = PlateTwin(board)
     share, contrast, spot = [], [], []

@@ -18,20 +18,10 @@ TIMES = 201  # within half a period of the band's middle before and after T
 def finger_figures(emission: FocusEmission, finger: Finger, seed: int) -> tuple[list[Figures], Figures]:
     """Amplitudes with a finger on each focus, and shares kept with one elsewhere.
 
-    Parameters
-    ----------
-    seed : int
-        Of the places elsewhere.
-
-    Returns
-    -------
-    on_foci : list of dict
-        With equal fingers on all foci: amplitude of each at T, and the largest within half a period of the band's middle, with
-        their shares of those of the free plate, and the share by the paper's eq. (7) with half a wavelength at the band's upper
-        edge as spot.
-    elsewhere : dict
-        Min, median and max of the share that a focus keeps of its amplitude at T with one finger at a random place two wavelengths
-        away or more.
+    The first, with equal fingers on all foci: amplitude of each at T, and the largest within half a period of the band's middle,
+    with their shares of those of the free plate, and the share by the paper's eq. (7) with half a wavelength at the band's upper
+    edge as spot. The second: min, median and max of the share that a focus keeps of its amplitude at T with one finger at a random
+    place two wavelengths away or more.
     """
     board, modes = emission.twin.board, emission.twin.modes
     waveform, plate = board.waveform, board.plate

@@ -8,24 +8,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from controller.errors import ConfigError
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 
 def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
-    """Draw the figures of `amplitude_figures`.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    figures : dict
-        What `amplitude_figures` returned.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
-    """
+    """Draw the figures of `amplitude_figures` to a .png, .svg or .pdf file; raises ConfigError if the file cannot be written."""
     figure = Figure(figsize=(11, 4.5), layout="constrained")
     against, errors, single = figure.subplots(1, 3)
     ends = np.array([0.2, 1.05])
@@ -52,7 +39,4 @@ def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
         single.errorbar(amplitudes, rows[:, 1], reach, fmt="o-", ms=4, capsize=3, label=label)
     single.set(xlabel="amplitude", ylabel="over the median at full amplitude", ylim=(0, None), title="one finger")
     single.legend(fontsize=8)
-    try:
-        figure.savefig(path, dpi=110)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 110)

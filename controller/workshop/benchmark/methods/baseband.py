@@ -47,14 +47,7 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
 
 
 class FromBaseband:
-    """Drive words from a table of complex weights.
-
-    Parameters
-    ----------
-    weights : FromTable
-        Interpolates and sums them.
-    pulses : (sample, weight) array
-    """
+    """Drive words from a table of complex weights, and `pulses` (sample, weight)."""
 
     def __init__(self, weights: FromTable, pulses: NDArray[np.float32], idle_word: int) -> None:
         self._weights, self._pulses, self._idle_word = weights, pulses, idle_word

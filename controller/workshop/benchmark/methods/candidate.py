@@ -30,43 +30,20 @@ def words_of_buffer(composed: Any) -> Words:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A method at one setting.
+    """A method at one setting."""
 
-    Attributes
-    ----------
-    curve : str
-        The method; its settings are the points of one curve.
-    setting : str
-        Label of the point.
-    compose : callable
-        From points (x_m, y_m, amplitude) to what it makes, which may be overwritten by the next call. This is what is timed.
-        With `keeps_nulls`, places that shall stay still are its second argument.
-    memory_bytes : int
-        That must be resident or in a file for the whole plate.
-    wire_bytes : int
-        On the wire for one emission.
-    most_fingers : int
-        That it can serve at once.
-    free_polarity : bool
-        Whether it may kick a point downwards.
-    keeps_nulls : bool
-        Whether it is given the places that are to stay still.
-    slow : bool
-        Whether it takes tenths of a second.
-    words_of : callable
-        From what `compose` gave to a copy of its drive words.
-    """
-
-    curve: str
-    setting: str
+    curve: str  # the method; its settings are the points of one curve
+    setting: str  # label of the point
+    # from points (x_m, y_m, amplitude) to what it makes, which may be overwritten by the next call. This is what is timed. With
+    # `keeps_nulls`, places that shall stay still are its second argument
     compose: Callable[..., Any]
-    memory_bytes: int
-    wire_bytes: int
-    most_fingers: int = 10
-    free_polarity: bool = False
-    keeps_nulls: bool = False
-    slow: bool = False
-    words_of: Callable[[Any], Words] = words_of_buffer
+    memory_bytes: int  # that must be resident or in a file for the whole plate
+    wire_bytes: int  # on the wire for one emission
+    most_fingers: int = 10  # that it can serve at once
+    free_polarity: bool = False  # whether it may kick a point downwards
+    keeps_nulls: bool = False  # whether it is given the places that are to stay still
+    slow: bool = False  # whether it takes tenths of a second
+    words_of: Callable[[Any], Words] = words_of_buffer  # from what `compose` gave to a copy of its drive words
 
     def run(self, points: Sequence[Point], nulls: Place) -> Any:
         """Compose points; `nulls` shall stay still."""

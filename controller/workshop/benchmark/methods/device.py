@@ -81,7 +81,7 @@ class NearestEntry:
 
 
 def _unpacked(frames: memoryview) -> Words:
-    samples = next(count for count in range(1, words_twin.MAX_SAMPLES) if kernel.load_frames_bytes(4 * count) == len(frames))
+    samples = next(count for count in range(1, kernel.MAX_SAMPLES) if kernel.load_frames_bytes(4 * count) == len(frames))
     words = bytearray(4 * samples)
     unpack_loads(words, frames)
     return np.frombuffer(words, "<u4").astype(np.uint32)
@@ -96,8 +96,8 @@ class TwinComposer:
     def __call__(self, points: Sequence[Point]) -> bytearray:
         """Drive words as bytes."""
         own, bank = self._composer, self._bank
-        given = own._words, own._room, own._plan, own._entries, own._scales, own._good  # what `Composer` gives to its kernel
-        while (cell := words_twin.compose(*given, bank.responses.section, points)) >= 0:
+        buffers = own._buffers._replace(response=bank.responses.section)
+        while (cell := words_twin.compose(own._words, own._room, buffers, points)) >= 0:  # what `Composer` gives to its kernel
             bank.responses.check(cell)
         return own._words
 

@@ -69,18 +69,11 @@ class BandInterpolation:
 
     The responses of places at a distance r correlate as the mean of J0(k r) over the wave numbers k in the band. The best
     linear weights solve the normal equations of these correlations (kriging; optimum interpolation of a random wave field).
-
-    Parameters
-    ----------
-    modes : Modes
-        Of its plate: they say which wave numbers are in the band.
-    size : int
-        Of the block of cells.
     """
 
     board: Board
-    modes: Modes
-    size: int
+    modes: Modes  # of its plate: they say which wave numbers are in the band
+    size: int  # of the block of cells
     _tables: dict[tuple[float, int, int], NDArray[np.float32]] = field(default_factory=dict)
 
     def __call__(self, grid: Grid, x_m: float, y_m: float) -> Stencil:

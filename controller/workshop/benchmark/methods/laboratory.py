@@ -22,15 +22,7 @@ Place = tuple[float, float]
 
 
 class Laboratory:
-    """Cells for the places of all scenes.
-
-    Parameters
-    ----------
-    folder : Path
-        For banks.
-    places : sequence of (x_m, y_m)
-        That will be asked for.
-    """
+    """Cells for the `places` of all scenes; `folder` is for banks."""
 
     def __init__(self, board: Board, folder: Path, places: Sequence[Place]) -> None:
         self.board = board

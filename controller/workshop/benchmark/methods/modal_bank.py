@@ -44,19 +44,8 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
 class ModalBank:
     """Drive words from modes.
 
-    Parameters
-    ----------
-    energy_share : float
-        The strongest modes are kept that have this share of the energy of all.
-    pulses : (sample, weight) array, optional
-        Of `baseband.pulse_matrix`.
-
-    Attributes
-    ----------
-    modes : int
-        Kept.
-    memory_bytes : int
-        Couplings, and the factors of the products.
+    The strongest modes are kept that have `energy_share` of the energy of all; `pulses` (sample, weight) are of
+    `baseband.pulse_matrix`.
     """
 
     def __init__(self, model: ResponseModel, energy_share: float, idle_word: int, pulses: NDArray[np.float64] | None) -> None:
@@ -71,7 +60,7 @@ class ModalBank:
             else int((energy > AUDIBLY_NONE * energy.max()).sum())
         )
         kept = np.sort(strongest[:count])
-        self.modes = len(kept)
+        self.modes = len(kept)  # kept
         self._idle_word = idle_word
         self._plate = plate
         self._kept = kept
@@ -84,6 +73,7 @@ class ModalBank:
             kernel = np.linalg.pinv(pulses) @ kernel
         scale = np.abs(kernel).max()  # m/N: too small for float32 squares otherwise
         self._kernel: Floats = np.ascontiguousarray(kernel / scale, np.float32)
+        # couplings, and the factors of the products
         self.memory_bytes = self._couplings.nbytes + self._kernel.nbytes + (0 if self._pulses is None else self._pulses.nbytes)
 
     def __call__(self, points: Sequence[Point]) -> Words:

@@ -37,17 +37,7 @@ class Stencil:
 class ResponseTable:
     """Packed responses of some cells of a grid.
 
-    Parameters
-    ----------
-    bits : int
-        8, 4, 2 or 1 for each value.
-    projection : (coefficient, sample) array, optional
-        Kept are coefficients in place of samples.
-
-    Attributes
-    ----------
-    memory_bytes : int
-        Of all cells of the grid, not only of those that are here.
+    Each value has 8, 4, 2 or 1 bits; with a `projection` (coefficient, sample), coefficients are kept in place of samples.
     """
 
     def __init__(self, board: Board, pitch_m: float, bits: int, projection: Floats | None = None) -> None:
@@ -56,6 +46,7 @@ class ResponseTable:
         self._projection = projection
         rows = board.waveform.samples if projection is None else len(projection)
         self._row_bytes = rows * CHANNELS * bits // 8
+        # Of all cells of the grid, not only of those that are here
         self.memory_bytes = self.grid.cells * (self._row_bytes + 4)  # with a scale each
         self._row_of = np.full(self.grid.cells, -1)
         self._scale = np.zeros(0, np.float32)
@@ -115,17 +106,8 @@ def decay(board: Board) -> NDArray[np.float64]:
 def pack(values: NDArray[np.floating[Any]], bits: int) -> tuple[NDArray[np.uint8], Floats]:
     """Round rows of values to `bits` bits and pack them, the first value in the highest bits of a byte.
 
-    Parameters
-    ----------
-    values : (row, value) array
-    bits : int
-        8, 4, 2 or 1. 8: whole numbers of -127 to 127; fewer: odd numbers, so that none is zero.
-
-    Returns
-    -------
-    packed : (row, value * bits / 8) uint8 array
-    scale : (row,) float32 array
-        What a level of 1 means.
+    `values` are (row, value); of 8 `bits` they are whole numbers of -127 to 127, of 4, 2 or 1 odd numbers, so that none is zero.
+    Returns the bytes (row, value * bits / 8) and what a level of 1 means (row,).
     """
     if bits == 8:
         scale = np.maximum(np.abs(values).max(axis=1), 1e-30) / 127

@@ -52,19 +52,8 @@ FULL = PaperEffort(foci=100, over_time=20, repeated=20, thrown=20, loaded=20, pl
 def paper_figures(board: Board, effort: PaperEffort, seed: int = 1, progress: Progress = lambda _done, _total: None) -> Figures:
     """All rows and curves.
 
-    Parameters
-    ----------
-    board : Board
-        Evaluated as if it were the paper's.
-    seed : int
-        Of the foci and of everything else that is drawn.
-    progress : callable
-        Called with what is done and all there is to do.
-
-    Returns
-    -------
-    dict
-        Plain values: `rows` (`Row.figures`), `curves` for the picture, `fitted`, `environment`.
+    The board is evaluated as if it were the paper's; `progress` is called with what is done and all there is to do. Plain values:
+    `rows` (`Row.figures`), `curves` for the picture, `fitted`, `environment`.
     """
     reported = environment()
     curves: Figures = {}

@@ -40,13 +40,7 @@ def energy_over_time(panel: PaperPanel, index: int, after_s: float = AFTER_S) ->
 
 
 def energy_rows(panel: PaperPanel, energies: list[Energy]) -> list[Row]:
-    """Rows of the energy at T, of its decay, and of power.
-
-    Parameters
-    ----------
-    energies : list of Energy
-        Of the first foci, over time.
-    """
+    """Rows of the energy at T, of its decay, and of power. `energies` are those of the first foci, over time."""
     plate, waveform = panel.board.plate, panel.board.waveform
     count, last = len(energies), waveform.samples - 1
     evaluated = [emission_figures(emission, waveform.duration_s) for emission in panel.emissions[:count]]

@@ -89,11 +89,8 @@ def spot_m(field: Field, point_m: tuple[float, float], height: float) -> float:
 def longer_emission_amplitudes(panel: PaperPanel, longest_s: float) -> dict[str, list[float]]:
     """Amplitude over the duration T: 1-bit drive and linear time reversal of the same largest voltage, median of the foci.
 
-    Returns
-    -------
-    dict
-        `duration_ms`; `one_bit_um` and `linear_um`, in the band; `one_bit_law` and `linear_law`: 1 - exp(-T / tau) and
-        1 - exp(-2 T / tau), scaled to the longest T.
+    `duration_ms`; `one_bit_um` and `linear_um`, in the band; `one_bit_law` and `linear_law`: 1 - exp(-T / tau) and 1 - exp(-2 T /
+    tau), scaled to the longest T.
     """
     period_s = panel.board.waveform.bit_period_s
     samples = round(longest_s / period_s)

@@ -27,25 +27,9 @@ DIRECTIONS = 8
 
 
 class PaperPanel:
-    """A board's plate, and foci on it.
+    """A board's plate, and `count` foci on it; `random` is for what else is drawn.
 
-    Parameters
-    ----------
-    seed : int
-        Of the places.
-    count : int
-        Number of foci.
-
-    Raises
-    ------
-    ConfigError
-        If the plate is too small for foci `MARGIN_M` from its edges.
-
-    Attributes
-    ----------
-    points_m : (point, 2) array
-    random : numpy.random.Generator
-        For what else is drawn.
+    Raises ConfigError if the plate is too small for foci `MARGIN_M` from its edges.
     """
 
     def __init__(self, board: Board, seed: int, count: int) -> None:
@@ -56,7 +40,7 @@ class PaperPanel:
             )
         self.board = board
         self.seed = seed
-        self.points_m = random_points(board, seed, count, MARGIN_M)
+        self.points_m = random_points(board, seed, count, MARGIN_M)  # (point, 2)
         self.twin = PlateTwin(board)
 
     @property
@@ -104,13 +88,8 @@ class PaperPanel:
     def band_responses(self, points_m: ArrayLike, bit_period_s: float, samples: int, step: StepResponse | None = None) -> Floats:
         """Band-limited responses at any bit clock in the order of time, m per V: (point, sample, 32).
 
-        Parameters
-        ----------
-        points_m : (point, 2) array
-        samples : int
-            May be more than those of the board's emission.
-        step : StepResponse, optional
-            Of another driver, or of the same modes drifted; the board's by default.
+        `points_m` are (point, 2); `samples` may be more than those of the board's emission; `step` is of another driver, or of the
+        same modes drifted, the board's by default.
         """
         waveform = self.board.waveform
         band_hz = waveform.band_low_hz, waveform.band_high_hz

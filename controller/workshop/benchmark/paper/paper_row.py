@@ -14,30 +14,14 @@ TRIAL = "* not the paper's: of an earlier simulation of its panel, made apart fr
 
 @dataclass(frozen=True)
 class Row:
-    """One figure of the paper beside ours.
+    """One figure of the paper beside ours."""
 
-    Attributes
-    ----------
-    key : str
-        For tests and programs.
-    quantity : str
-        What it is, with its unit.
-    paper : float or None
-        What the paper says; None if it says nothing.
-    here : (p5, median, p95)
-        Over the foci; three times the same for what has no spread.
-    why : str
-        Why they differ, or what is computed where the paper is garbled.
-    trial : bool
-        Whether `paper` is not the paper's, but of an earlier simulation, independent of this one.
-    """
-
-    key: str
-    quantity: str
-    paper: float | None
-    here: tuple[float, float, float]
-    why: str
-    trial: bool = False
+    key: str  # for tests and programs
+    quantity: str  # what it is, with its unit
+    paper: float | None  # what the paper says; None if it says nothing
+    here: tuple[float, float, float]  # (p5, median, p95): over the foci; three times the same for what has no spread
+    why: str  # why they differ, or what is computed where the paper is garbled
+    trial: bool = False  # whether `paper` is not the paper's, but of an earlier simulation, independent of this one
 
     @classmethod
     def of(cls, key: str, quantity: str, paper: float | None, here: ArrayLike, why: str, *, trial: bool = False) -> Row:

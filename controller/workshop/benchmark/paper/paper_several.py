@@ -20,7 +20,8 @@ from controller.workshop.benchmark.paper.paper_panel import PaperPanel
 from controller.workshop.benchmark.paper.paper_row import Row
 from controller.workshop.physics.design import design
 from controller.workshop.physics.focusing import focus
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
+from controller.workshop.physics.word_capture import capture_of_words
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]

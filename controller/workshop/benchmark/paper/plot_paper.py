@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from controller.errors import ConfigError
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 Figures = dict[str, Any]
 
@@ -25,29 +25,13 @@ SHOWN_SKIN_MS = (-0.1, 0.6)
 
 
 def plot_paper(path: Path, figures: Figures) -> None:
-    """Draw the figures of `paper_figures`.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    figures : dict
-        What `paper_figures` returned.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
-    """
+    """Draw the figures of `paper_figures` to a .png, .svg or .pdf file; raises ConfigError if the file cannot be written."""
     figure = Figure(figsize=(16, 13), layout="constrained")
     parts: Any = figure.subfigures(2, 1, height_ratios=[1.25, 1])
     for part, panels, shape in zip(parts, (CURVES, LISTS), ((2, 4), (1, 2)), strict=True):
         for ax, draw in zip(part.subplots(*shape).flat, panels, strict=True):
             draw(ax, figures)
-    try:
-        figure.savefig(path, dpi=90)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 90)
 
 
 def cross_section(ax: Axes, figures: Figures) -> None:

@@ -51,19 +51,10 @@ class StageLoad:
 
 
 def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: float) -> Floats:
-    """Compute the heat in the series resistor until all ringing has ended.
+    """Heat in J (...) in the series resistor until all ringing has ended.
 
-    Parameters
-    ----------
-    levels : (sample, ...) array of 0 and 1
-        Output levels of the stage, each held for `period_s`. The first has been held since long before, the last stays.
-    period_s : float
-        Sample period.
-
-    Returns
-    -------
-    (...) array
-        Heat in J.
+    `levels` (sample, ...) of the stage are 0 and 1, each held for `period_s`. The first has been held since long before, the last
+    stays.
     """
     response = DriverResponse.of(driver)
     decay = np.exp(response.poles * period_s)
@@ -87,24 +78,8 @@ def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: 
 def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> tuple[NDArray[np.int64], Floats]:
     """Count edges and compute the loss of each emission, from the idle word and back to it.
 
-    Parameters
-    ----------
-    bank : Bank
-        Bank of that board.
-    progress : callable, optional
-        Called with the number of entries done and of all entries.
-
-    Returns
-    -------
-    edges : (entry, 32) int array
-        0 for channels without an actuator.
-    loss_j : (entry, 32) array
-        Likewise.
-
-    Raises
-    ------
-    BankError
-        If an entry is damaged.
+    `progress` is called with the number of entries done and of all entries. Returns (entry, 32) both; 0 for channels without an
+    actuator. Raises BankError if an entry is damaged.
     """
     cells = np.flatnonzero(bank.cells).tolist()
     idle = channel_bits(np.array([board.idle_word], np.uint32))
@@ -125,14 +100,8 @@ def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] |
 def stage_limits(driver: Driver, resistor: Resistor, worst_channel_w: float, channels: int) -> StageLoad:
     """Derive limits that keep every resistor within its permitted power.
 
-    Parameters
-    ----------
-    driver : Driver
-        The edge rates are limited for the waveform with the highest loss per edge.
-    worst_channel_w : float
-        Power of the busiest channel of the bank at full duty; it limits the duty.
-    channels : int
-        Number of channels that share the supply; the total edge rate is this many times that of one channel.
+    The edge rates are limited for the waveform with the highest loss per edge; `worst_channel_w`, the power of the busiest channel
+    of the bank at full duty, limits the duty; the total edge rate is that of one channel times `channels`, which share the supply.
     """
     rate_hz = resistor.permitted_w / worst_edge_j(driver)
     return StageLoad(
@@ -146,17 +115,7 @@ def stage_limits(driver: Driver, resistor: Resistor, worst_channel_w: float, cha
 def power_report(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
     """Summarise edges, loss and power of a bank's entries, and the limits that follow, ready for JSON.
 
-    Parameters
-    ----------
-    bank : Bank
-        Bank of that board.
-    progress : callable, optional
-        Called with the number of entries done and of all entries.
-
-    Raises
-    ------
-    BankError
-        If an entry is damaged.
+    `progress` is called with the number of entries done and of all entries. Raises BankError if an entry is damaged.
     """
     resistor = Resistor(board.limits.resistor_rating_w, board.limits.derating)
     edges, loss_j = bank_losses(board, bank, progress)

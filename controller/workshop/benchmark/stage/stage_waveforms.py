@@ -13,8 +13,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from controller.workshop.benchmark.stage import power_stage
-from controller.workshop.benchmark.stage.power_stage import ALIVE_HZ, CORNERS, FAULT_PULSE_S, digest, levels, netlist, stage
+from controller.workshop.benchmark.stage.stage_benches import FAULT_PULSE_S
+from controller.workshop.benchmark.stage.stage_circuit import ALIVE_HZ, CORNERS, digest, levels, netlist, stage, through_both
 from controller.workshop.simulation.ngspice import Floats, Traces, transient
 
 COLOURS: Final = ("#1f4e79", "#7a1f1f", "#2e7d32", "#b45309")
@@ -55,7 +55,7 @@ def _plot_currents(plot: Any, fault: Traces, fault_s: float, no_delay: Traces) -
     times_s = np.linspace(-0.1e-6, 0.7e-6, POINTS)
     found = {"at the fault above": (fault, fault_s), "falling edge with R2 of 100 Ω: a wrong part": (no_delay, 45e-6)}
     for (label, (traces, begin_s)), colour in zip(found.items(), COLOURS, strict=False):
-        both_ma = np.interp(times_s, traces.time_s - begin_s, 1e3 * power_stage.through_both(traces))
+        both_ma = np.interp(times_s, traces.time_s - begin_s, 1e3 * through_both(traces))
         plot.plot(times_s * 1e6, both_ma, color=colour, lw=1.2, label=label)
     plot.set(title="Current through both switches", xlabel="µs", ylabel="mA")
     plot.legend(frameon=False)

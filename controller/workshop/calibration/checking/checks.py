@@ -28,29 +28,18 @@ SHOWN = 12  # names in a message
 
 @dataclass(frozen=True)
 class Objection:
-    """One thing that is wrong or worth knowing.
-
-    Attributes
-    ----------
-    message : str
-        Says what, where, and what to do.
-    channels, points : tuple
-        Which; empty: all of them, or none in particular.
-    """
+    """One thing that is wrong or worth knowing."""
 
     kind: Kind
-    message: str
-    channels: tuple[int, ...] = ()
+    message: str  # says what, where, and what to do
+    channels: tuple[int, ...] = ()  # channels, points: which; empty: all of them, or none in particular
     points: tuple[str, ...] = ()
 
 
 def raise_fatal(where: str, findings: Iterable[Objection], accepted: Iterable[str]) -> None:
     """Refuse a measurement that would make a wrong bank.
 
-    Raises
-    ------
-    CalibrationError
-        With all findings that are `FATAL` and not `accepted`, in one line.
+    Raises CalibrationError with all findings that are `FATAL` and not `accepted`, in one line.
     """
     fatal = [finding for finding in findings if finding.kind in FATAL and finding.kind not in set(accepted)]
     if fatal:
@@ -69,15 +58,8 @@ def listed(names: Sequence[object]) -> str:
 def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], driven: NDArray[np.bool_]) -> list[Objection]:
     """Channels of which nothing arrives anywhere.
 
-    Parameters
-    ----------
-    power : (point, 32) array
-        Of the responses, noise taken off; NaN where not resolved.
-    coherence : (point, 32) array
-    channels : sequence of int
-        Those with an actuator.
-    driven : (32,) bool array
-        Those that were ever driven.
+    `power` (point, 32) is that of the responses, noise taken off, NaN where not resolved; `coherence` is as large. `channels` are
+    those with an actuator, `driven` (32,) those that were ever driven.
     """
     never = [channel for channel in channels if np.isnan(power[:, channel]).all()]
     others = [channel for channel in channels if channel not in never]
@@ -151,10 +133,7 @@ def wrong_strength(waves: DirectWaves, alive: Sequence[int]) -> list[Objection]:
 def clipped_records(counts: dict[str, int]) -> list[Objection]:
     """Points whose records stand at the end of the converter's range; those are left out.
 
-    Parameters
-    ----------
-    counts : dict
-        Name of a point to its number of such records.
+    `counts` is the number of such records by the name of a point.
     """
     if not counts:
         return []

@@ -15,11 +15,12 @@ from controller.workshop.calibration.checking.checks import (
     noisy_records,
     wrong_strength,
 )
-from controller.workshop.calibration.deconvolution import Deconvolution, Transfers
+from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.recording.clock import RecorderClock
 from controller.workshop.calibration.records.measurements import Measurement
+from controller.workshop.calibration.transfers import Transfers
 
 CLOCK_TOLERANCE_PPM = 5.0
 STILL = 0.03  # of a response's rms that may be left where the records end, beyond its noise
@@ -29,17 +30,11 @@ def findings_of(
     measurement: Measurement,
     board: Board,
     deconvolution: Deconvolution,
-    results: dict[int, Transfers],
+    results: dict[int, Transfers],  # number of a point to its transfer functions
     responses: LearnedResponses,
     waves: DirectWaves | None,
 ) -> list[Objection]:
-    """What is wrong with channels and points.
-
-    Parameters
-    ----------
-    results : dict
-        Number of a point to its transfer functions.
-    """
+    """What is wrong with channels and points."""
     names = measurement.names
     points = list(results)
     channels = sorted(a.channel for a in board.actuators)
@@ -65,14 +60,8 @@ def remarks_on(
 ) -> list[Objection]:
     """What was corrected, and what is worth knowing.
 
-    Parameters
-    ----------
-    delay_s : float
-        That was corrected.
-    ringing : float
-        What is left of responses where the records end.
-    excited_hz : (float, float)
-        What was played reaches so far.
+    `delay_s` was corrected; `ringing` is what is left of responses where the records end; `excited_hz` is how far what was played
+    reaches.
     """
     settings, findings = measurement.settings, list[Objection]()
     if delay_s and settings.records.first_sample_us is not None:

@@ -7,24 +7,17 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from controller.device.board.board import Board
-from controller.errors import ConfigError
 from controller.workshop.calibration.checking.check_figures import snr_db
 from controller.workshop.calibration.learning import Learned
+from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
 
 SHOWN_POINTS = 3
 
 
 def plot_check(path: Path, board: Board, learned: Learned) -> None:
-    """Draw it to a PNG, SVG or PDF file.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
-    """
+    """Draw it to a PNG, SVG or PDF file; raises ConfigError if the file cannot be written."""
     measurement, found = learned.measurement, learned.responses
     channels = sorted(a.channel for a in board.actuators)
     coherence = np.where(np.isnan(found.coherence), found.known, found.coherence)[:, channels]
@@ -41,9 +34,7 @@ def plot_check(path: Path, board: Board, learned: Learned) -> None:
     dots = plate.scatter(x_mm[~missing], y_mm[~missing], size, coherence[~missing].mean(axis=1), cmap="viridis", vmin=least, vmax=1)
     plate.scatter(x_mm[missing], y_mm[missing], size, color="crimson", marker="x", label="no records")
     rows[0].colorbar(dots, ax=plate, label=f"{what}, mean over channels", shrink=0.8)
-    for actuator in board.actuators:
-        corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
-        plate.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))
+    draw_patches(plate, board)
     plate.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
     plate.set_title(f"{len(x_mm)} points, {int(missing.sum())} without records")
     if missing.any():
@@ -72,7 +63,4 @@ def plot_check(path: Path, board: Board, learned: Learned) -> None:
             f"point {measurement.names[point]} at {x_mm[point]:.1f}, {y_mm[point]:.1f} mm, channel {channel}", fontsize=9
         )
     below[-1].set_xlabel("time after the start of a pulse of one bit period (ms)")
-    try:
-        figure.savefig(path, dpi=120)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 120)

@@ -6,23 +6,16 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from controller.device.board.board import Board
-from controller.errors import ConfigError
 from controller.workshop.calibration.decay_fit import Decay
 from controller.workshop.calibration.interpolated import InterpolatedResponses
 from controller.workshop.calibration.wave_fit import WaveFit
+from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
 
 
 def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, waves: WaveFit, decays: list[Decay]) -> None:
-    """Draw it to a PNG, SVG or PDF file.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
-    """
+    """Draw it to a PNG, SVG or PDF file; raises ConfigError if the file cannot be written."""
     found = source.leave_out
     evaluated = ~np.isnan(found.kept)
     lost = 1 - found.kept[evaluated]
@@ -36,9 +29,7 @@ def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, wave
         x_mm, y_mm, size, np.clip(100 * lost, 0.01, None), cmap="viridis_r", norm="log", edgecolors="0.4", linewidths=0.3
     )
     figure.colorbar(dots, ax=above, label="amplitude lost at a point left out (%)", shrink=0.85)
-    for actuator in board.actuators:
-        corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
-        above.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))
+    draw_patches(above, board)
     above.set(aspect="equal", xlim=(0, plate.length_mm), ylim=(0, plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
     median, least = source.provenance.kept or (np.nan, np.nan)
     above.set_title(f"{source.provenance.model}\nleft out: {median:.4f} kept at the median, {least:.3f} at least", fontsize=10)
@@ -64,7 +55,4 @@ def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, wave
     decay.set(xlabel="frequency (kHz)", ylabel="decay time (ms)")
     decay.set_ylim(0, 1.4 * max([plate.decay_time_ms, *(one.time_s * 1e3 for one in decays)]))
     decay.legend(fontsize=8, loc="lower right")
-    try:
-        figure.savefig(path, dpi=120)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 120)

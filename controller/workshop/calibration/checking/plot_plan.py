@@ -6,11 +6,10 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
-from controller.errors import ConfigError
+from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
 
 
 def plot_plan(
@@ -18,17 +17,8 @@ def plot_plan(
 ) -> None:
     """Draw it to a PNG, SVG or PDF file.
 
-    Parameters
-    ----------
-    points_m : (point, 2) array
-        In the order of the path.
-    places_m, shares : (place, 2) and (place,) array
-        What is foreseen where.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
+    `points_m` (point, 2) are in the order of the path; `shares` (place,) are foreseen at `places_m` (place, 2). Raises ConfigError
+    if the file cannot be written.
     """
     figure = Figure(figsize=(9, 6.5), layout="constrained")
     plate = figure.subplots()
@@ -40,12 +30,7 @@ def plot_plan(
     plate.plot(x_mm, y_mm, color="0.6", lw=0.6, zorder=1)
     plate.scatter(x_mm, y_mm, 9, color="black", zorder=2)
     plate.scatter(x_mm[:1], y_mm[:1], 60, facecolors="none", edgecolors="black", zorder=3)
-    for actuator in board.actuators:
-        corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
-        plate.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))
+    draw_patches(plate, board)
     plate.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
     plate.set_title(f"{len(points_m)} points; the circle is where the path begins")
-    try:
-        figure.savefig(path, dpi=120)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 120)

@@ -25,18 +25,10 @@ BEFORE_S = 0.4e-3, 1.5e-3  # before its pulse there is no response; nearer, the 
 
 @dataclass(frozen=True)
 class RecorderClock:
-    """What the records tell of the recorder's clock.
+    """What the records tell of the recorder's clock."""
 
-    Attributes
-    ----------
-    ppm : float
-        By which it is faster than the player's; 0 where the records do not tell it from 0.
-    error_ppm : float
-        Standard error, from one point to another; NaN where the records do not tell.
-    """
-
-    ppm: float
-    error_ppm: float
+    ppm: float  # by which it is faster than the player's; 0 where the records do not tell it from 0
+    error_ppm: float  # standard error, from one point to another; NaN where the records do not tell
 
     @property
     def reported(self) -> bool:
@@ -45,15 +37,7 @@ class RecorderClock:
 
 
 def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], delay_s: float) -> RecorderClock:
-    """Estimate it.
-
-    Parameters
-    ----------
-    records : sequence of PointRecords
-        Of a few points.
-    delay_s : float
-        Of the records; to 20 us.
-    """
+    """Estimate it from the records of a few points, which are late by `delay_s`, to 20 us."""
     span_s = max(float(one.first_s.max()) for one in records)
     if span_s == 0:
         records = [_averaged(one) for one in records]  # repetitions that were triggered alike tell the same

@@ -23,24 +23,10 @@ BEYOND: Final = 0.8, 1.06  # of the band's edges: what is swept, so that its edg
 
 
 def drive_words(board: Board, kind: Kind = "chirp", seed: int = 1) -> Words:
-    """Drive words of all emissions.
+    """Drive words of all emissions (emission, word); bit q is channel q.
 
-    Parameters
-    ----------
-    kind : {"chirp", "noise"}
-        Sign of a chirp through the waveform's band, whose spectrum is flat, or of noise limited to it.
-    seed : int
-        Of the noise.
-
-    Returns
-    -------
-    (emission, word) uint32 array
-        Bit q is channel q.
-
-    Raises
-    ------
-    ConfigError
-        If a channel has more edges than the limits of the board allow in an emission.
+    "chirp": sign of a chirp through the waveform's band, whose spectrum is flat; "noise": of noise limited to it. Raises
+    ConfigError if a channel has more edges than the limits of the board allow in an emission.
     """
     high = _chirp(board) if kind == "chirp" else _noise(board, seed)
     channels = [actuator.channel for actuator in board.actuators]

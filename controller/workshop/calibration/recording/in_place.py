@@ -35,16 +35,11 @@ Alive = Callable[[], None]
 
 
 class Recorder(Protocol):
-    """Records a sensor on the plate.
-
-    Attributes
-    ----------
-    triggered : bool
-        Records begin with the trigger's edge, one an emission; else one record runs through all emissions, with a second track that
-        hears a channel.
-    """
+    """Records a sensor on the plate."""
 
     rate_hz: float
+    # Records begin with the trigger's edge, one an emission; else one record runs through all emissions, with a second track
+    # that hears a channel
     triggered: bool
 
     def begin(self, samples: int, alive: Alive) -> None:
@@ -53,10 +48,7 @@ class Recorder(Protocol):
     def read(self, alive: Alive) -> Floats:
         """What was recorded: (sample, track), in the sensor's unit; waits for its end, as `begin` does.
 
-        Raises
-        ------
-        CalibrationError
-            If the recorder has lost samples, or does not answer.
+        Raises CalibrationError if the recorder has lost samples, or does not answer.
         """
 
     def close(self) -> None:
@@ -70,42 +62,25 @@ def date_now() -> str:
 
 @dataclass(frozen=True)
 class Excitation:
-    """What is played at each point.
+    """What is played at each point."""
 
-    Attributes
-    ----------
-    words : (emission, word) uint32 array
-    period_s : float
-        Least time from one emission to the next.
-    record_s : float
-        Length of a record after the first word.
-    """
-
-    words: NDArray[np.uint32]
+    words: NDArray[np.uint32]  # (emission, word)
     repetitions: int
-    period_s: float
-    record_s: float
+    period_s: float  # least time from one emission to the next
+    record_s: float  # length of a record after the first word
 
 
 class InPlace:
-    """Plays the excitation for one point after another.
-
-    Parameters
-    ----------
-    session : Session
-        Of an FPGA that was brought up.
-    sync_channel : int
-        That the second track hears.
-    """
+    """Plays the excitation for one point after another."""
 
     def __init__(
         self,
-        session: Session,
+        session: Session,  # of an FPGA that was brought up
         board: Board,
         clock: Clock,
         recorder: Recorder,
         excitation: Excitation,
-        sync_channel: int,
+        sync_channel: int,  # that the second track hears
     ) -> None:
         self._session, self._board, self._clock, self._recorder = session, board, clock, recorder
         self._words = excitation.words.astype("<u4")
@@ -119,17 +94,9 @@ class InPlace:
     def measure(self) -> Floats:
         """Play all emissions and record them; the outputs are off afterwards.
 
-        Returns
-        -------
-        (emission, repetition, sample) array
-            In the sensor's unit; its first sample is `BEFORE_S` before the first word, or at the trigger.
-
-        Raises
-        ------
-        LinkError, FaultError
-            If the FPGA does not play all of them.
-        CalibrationError
-            If the recorder fails, or does not hear them.
+        The records (emission, repetition, sample) are in the sensor's unit; the first sample is `BEFORE_S` before the first word,
+        or at the trigger. Raises LinkError or FaultError if the FPGA does not play all of them; CalibrationError if the recorder
+        fails, or does not hear them.
         """
         session = self._session
         with selectors.DefaultSelector() as selector:

@@ -24,19 +24,9 @@ MOST_LINE_BYTES: Final = 200
 class AlsaRecorder:
     """Two tracks of a sound card: the sensor on the first, a channel's drive, divided to the card's level, on the second.
 
-    Parameters
-    ----------
-    device : str
-        Name or part of it, as `python -m sounddevice` lists them.
-    full_scale : float
-        Of the card, in the sensor's unit.
-
-    Raises
-    ------
-    ConfigError
-        If sounddevice or PortAudio is missing.
-    LinkError
-        If there is no such device, or it does not record at this rate.
+    `device` is the name or part of it, as `python -m sounddevice` lists them; `full_scale` is that of the card, in the sensor's
+    unit. Raises ConfigError if sounddevice or PortAudio is missing; LinkError if there is no such device, or it does not record at
+    this rate.
     """
 
     triggered = False
@@ -90,15 +80,7 @@ class SerialRecorder:
     - `R N`: it answers `OK`, or `ERROR` and why; after the trigger's edge it sends N samples of 16 bits, lowest byte first, and
       the CRC-32 (zlib) of these bytes, lowest byte first.
 
-    Parameters
-    ----------
-    device : str
-        Path of the port.
-
-    Raises
-    ------
-    LinkError
-        If the port cannot be opened, or no such sensor answers.
+    Raises LinkError if the port cannot be opened, or no such sensor answers.
     """
 
     triggered = True

@@ -39,96 +39,44 @@ BEFORE_S: Final = 0.2e-3  # of a record, before the first drive word
 
 @dataclass(frozen=True)
 class RecordingSettings:
-    """How points are measured.
+    """How points are measured."""
 
-    Attributes
-    ----------
-    kind : {"chirp", "noise"}
-        What is played.
-    rate_hz : float
-        Of the recorder, as it states it.
-    record_s : float
-        From the first drive word on.
-    quantity : {"m", "m/s", "m/s^2"}
-        What the sensor measures.
-    seed : int
-        Of noises, of what is missing and of the sequence that is played.
-    """
-
-    kind: Kind = "chirp"
-    rate_hz: float = 250e3
-    record_s: float = 10e-3
+    kind: Kind = "chirp"  # "chirp" or "noise": what is played
+    rate_hz: float = 250e3  # of the recorder, as it states it
+    record_s: float = 10e-3  # from the first drive word on
     repetitions: int = 1
-    quantity: Quantity = "m/s"
-    seed: int = 1
+    quantity: Quantity = "m/s"  # "m" or "m/s" or "m/s^2": what the sensor measures
+    seed: int = 1  # of noises, of what is missing and of the sequence that is played
 
 
 @dataclass(frozen=True)
-class Faults:
-    """What is wrong with a measurement; by default nothing but noise.
+class Flaws:
+    """What is wrong with a measurement; by default nothing but noise."""
 
-    Attributes
-    ----------
-    snr_db : float
-        Mean square of the records over that of the sensor's noise, which is white and the same at all points.
-    drift : float
-        Relative change of all frequencies from the first point to the last.
-    clock_ppm : float
-        The recorder's clock is faster than it states.
-    delay_s : float
-        By which records begin late; the files do not say so.
-    clip : float
-        Full scale of the sensor, relative to the largest that is found.
-    missing : float
-        Share of the points without a record.
-    dead, inverted : tuple of int
-        Channels that do nothing, or are wired the other way round.
-    swapped : tuple of (int, int)
-        Channels in each other's place.
-    """
-
-    snr_db: float = 40.0
-    drift: float = 0.0
-    clock_ppm: float = 0.0
-    delay_s: float = 0.0
-    clip: float = np.inf
-    missing: float = 0.0
-    dead: tuple[int, ...] = ()
+    snr_db: float = 40.0  # mean square of the records over that of the sensor's noise, which is white and the same at all points
+    drift: float = 0.0  # relative change of all frequencies from the first point to the last
+    clock_ppm: float = 0.0  # the recorder's clock is faster than it states
+    delay_s: float = 0.0  # by which records begin late; the files do not say so
+    clip: float = np.inf  # full scale of the sensor, relative to the largest that is found
+    missing: float = 0.0  # share of the points without a record
+    dead: tuple[int, ...] = ()  # dead, inverted: channels that do nothing, or are wired the other way round
     inverted: tuple[int, ...] = ()
-    swapped: tuple[tuple[int, int], ...] = ()
+    swapped: tuple[tuple[int, int], ...] = ()  # channels in each other's place
 
 
 def simulate_measurement(
     folder: Path,
-    board: Board,
-    real: Board,
+    board: Board,  # that of the panel
+    real: Board,  # with the plate, patches and driver that are measured
     names: tuple[str, ...],
-    points_m: Floats,
+    points_m: Floats,  # (point, 2)
     recording: RecordingSettings,
-    faults: Faults,
-    progress: Callable[[int, int], None] = lambda *_: None,
+    faults: Flaws,
+    progress: Callable[[int, int], None] = lambda *_: None,  # called with the number of points done and of all
 ) -> dict[str, Any]:
     """Write the measurement folder of a simulated plate; points that are there from an interrupted call are kept.
 
-    Parameters
-    ----------
-    board : Board
-        That of the panel.
-    real : Board
-        With the plate, patches and driver that are measured.
-    points_m : (point, 2) array
-    progress : callable
-        Called with the number of points done and of all.
-
-    Returns
-    -------
-    dict
-        Figures, ready for JSON.
-
-    Raises
-    ------
-    CalibrationError
-        If the folder holds something else, or cannot be written.
+    Returns figures, ready for JSON. Raises CalibrationError if the folder holds something else, or cannot be written.
     """
     words = drive_words(board, recording.kind, recording.seed)
     settings = _settings(board, recording, faults)
@@ -181,7 +129,7 @@ class _Sensor(NamedTuple):
         return np.clip(heard, -self.full_scale, self.full_scale).astype(np.float32)
 
 
-def _settings(board: Board, recording: RecordingSettings, faults: Faults) -> MeasurementFile:
+def _settings(board: Board, recording: RecordingSettings, faults: Flaws) -> MeasurementFile:
     """What the folder's file says of the records."""
     records = RecordsTable(
         files="records/{point}.npy",
@@ -216,7 +164,7 @@ def _blocks(points: list[int], drift_at: Callable[[int], float]) -> Iterator[tup
 class _Plate:
     """The plate that is measured, as its sensor and recorder see it."""
 
-    def __init__(self, board: Board, real: Board, words: NDArray[np.uint32], recording: RecordingSettings, faults: Faults) -> None:
+    def __init__(self, board: Board, real: Board, words: NDArray[np.uint32], recording: RecordingSettings, faults: Flaws) -> None:
         self.modes = modes_of(real)
         self._real, self._quantity = real, recording.quantity
         idle = np.full((len(words), 1), board.idle_word, np.uint32)
@@ -243,7 +191,7 @@ class _Plate:
         return motion.of_points(points_m, self._step_s, self._steps_v, self._times_s, self._quantity)
 
 
-def _wiring(faults: Faults) -> list[int]:
+def _wiring(faults: Flaws) -> list[int]:
     """Of each patch the channel that is wired to it."""
     wired = list(range(CHANNELS))
     for a, b in faults.swapped:
@@ -252,13 +200,7 @@ def _wiring(faults: Faults) -> list[int]:
 
 
 def _claim(folder: Path, how: dict[str, Any], points_m: Floats) -> None:
-    """Mark a folder as that of this simulation.
-
-    Raises
-    ------
-    CalibrationError
-        If it holds another one, or something else.
-    """
+    """Mark a folder as that of this simulation; raises CalibrationError if it holds another one, or something else."""
     text = json.dumps(how | {"points_mm": np.round(points_m * 1e3, 6).tolist()}, sort_keys=True) + "\n"
     stamp = folder / STAMP
     try:

@@ -30,39 +30,23 @@ class CapturedPins(Protocol):
 
 
 class SimulatedRecorder:
-    """`Recorder` of a plate behind simulated pins.
-
-    Parameters
-    ----------
-    real : Board
-        With the plate, patches and driver that are measured.
-    quantity : {"m", "m/s", "m/s^2"}
-    sync_channel : int
-        That the second track hears.
-    noise : float
-        Standard deviation of the sensor's noise, in `quantity`.
-
-    Attributes
-    ----------
-    place_m : (2,) array
-        Of the sensor.
-    """
+    """`Recorder` of a plate behind simulated pins."""
 
     triggered = False
 
     def __init__(
         self,
-        real: Board,
+        real: Board,  # with the plate, patches and driver that are measured
         pins: CapturedPins,
         now_s: Callable[[], float],
         rate_hz: float,
-        quantity: str,
-        sync_channel: int,
-        noise: float = 0.0,
+        quantity: str,  # "m" or "m/s" or "m/s^2"
+        sync_channel: int,  # that the second track hears
+        noise: float = 0.0,  # standard deviation of the sensor's noise, in `quantity`
         seed: int = 1,
     ) -> None:
         self.rate_hz = rate_hz
-        self.place_m = np.zeros(2)
+        self.place_m = np.zeros(2)  # (2,): of the sensor
         self._motion = PlateMotion(real, modes_of(real))
         self._supply_v = real.driver.supply_v
         self._pins, self._now_s, self._quantity, self._sync = pins, now_s, quantity, sync_channel

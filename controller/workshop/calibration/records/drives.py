@@ -25,24 +25,12 @@ LEAST_SWEEP_RATE_HZ = 1e6  # or the spectrum of a low sweep repeats within the b
 
 @dataclass(frozen=True, eq=False)
 class Drive:
-    """Emissions that were played.
+    """Emissions that were played."""
 
-    Attributes
-    ----------
-    volts : (emission or 1, channel or 1, sample) array
-        Each sample held until the next; difference from the level at rest.
-    rate_hz : float
-        Of these samples.
-    drives : (emission, 32) bool array
-        Which channels an emission drives.
-    held : bool
-        Whether samples are held; else they are those of a continuous drive.
-    """
-
-    volts: Floats
-    rate_hz: float
-    drives: NDArray[np.bool_]
-    held: bool = True
+    volts: Floats  # (emission or 1, channel or 1, sample): each sample held until the next; difference from the level at rest
+    rate_hz: float  # of these samples
+    drives: NDArray[np.bool_]  # (emission, 32): which channels an emission drives
+    held: bool = True  # whether samples are held; else they are those of a continuous drive
 
     @property
     def emissions(self) -> int:
@@ -57,15 +45,8 @@ class Drive:
     def spectra(self, first_hz: float, step_hz: float, count: int, bit_period_s: float) -> Complex:
         """Each channel's drive, as a number of pulses of 1 V of one bit period.
 
-        Parameters
-        ----------
-        first_hz, step_hz, count : float, float, int
-            Frequencies; none is a multiple of 1 / `bit_period_s`.
-
-        Returns
-        -------
-        (emission, 32, count) array
-            In V: what the spectrum of a response to such a pulse is multiplied with.
+        No frequency is a multiple of 1 / `bit_period_s`. Returns (emission, 32, count) in V: what the spectrum of a response to
+        such a pulse is multiplied with.
         """
         frequency_hz: Floats = first_hz + step_hz * np.arange(count, dtype=np.float64)
         found = transform(self.volts, self.rate_hz, first_hz, step_hz, count)
@@ -96,10 +77,7 @@ def held_spectrum(frequency_hz: Floats, period_s: float) -> Complex:
 def read_drive(folder: Path, table: DriveTable) -> Drive:
     """The drive that a `measurement.toml` describes.
 
-    Raises
-    ------
-    CalibrationError
-        Naming the file: absent, of another kind or shape, or too long.
+    Raises CalibrationError, naming the file: absent, of another kind or shape, or too long.
     """
     match table:
         case WordsDrive():

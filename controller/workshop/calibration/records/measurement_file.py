@@ -27,52 +27,24 @@ Quantity = Literal["m", "m/s", "m/s^2"]
 
 
 class WordsDrive(Record, frozen=True, tag_field="kind", tag="words"):
-    """Drive words as they were played: all channels at once, or one at a time where only its bit changes.
+    """Drive words as they were played: all channels at once, or one at a time where only its bit changes."""
 
-    Attributes
-    ----------
-    file
-        .npy of uint32, (emission, word) or (word,): bit q is channel q.
-    bit_clock_hz
-        Words a second.
-    supply_v
-        A bit that is set is this voltage, one that is not is 0 V.
-    idle_word
-        Levels before and after an emission.
-    """
-
-    file: str
-    bit_clock_hz: Hz
-    supply_v: Positive
-    idle_word: Word = 0
+    file: str  # .npy of uint32, (emission, word) or (word,): bit q is channel q
+    bit_clock_hz: Hz  # words a second
+    supply_v: Positive  # a bit that is set is this voltage, one that is not is 0 V
+    idle_word: Word = 0  # levels before and after an emission
 
 
 class SweepDrive(Record, frozen=True, tag_field="kind", tag="sweep"):
-    """A swept sine, amplitude_v sin(phase) from phase 0; 0 V before and after.
+    """A swept sine, amplitude_v sin(phase) from phase 0; 0 V before and after."""
 
-    Attributes
-    ----------
-    start_hz, stop_hz
-        First and last frequency.
-    duration_ms
-        Length.
-    amplitude_v
-        Amplitude.
-    spacing
-        How the frequency rises: `exponential` or `linear` in time.
-    fade_ms
-        Raised-cosine rise and fall of the amplitude.
-    channels
-        Channel of each emission.
-    """
-
-    start_hz: Positive
+    start_hz: Positive  # start_hz, stop_hz: first and last frequency
     stop_hz: Positive
-    duration_ms: Annotated[float, Meta(gt=0, le=10e3)]
-    amplitude_v: Positive
-    channels: Channels
-    spacing: Literal["exponential", "linear"] = "exponential"
-    fade_ms: NotNegative = 0.0
+    duration_ms: Annotated[float, Meta(gt=0, le=10e3)]  # length
+    amplitude_v: Positive  # amplitude
+    channels: Channels  # channel of each emission
+    spacing: Literal["exponential", "linear"] = "exponential"  # how the frequency rises: `exponential` or `linear` in time
+    fade_ms: NotNegative = 0.0  # raised-cosine rise and fall of the amplitude
 
     def __post_init__(self) -> None:
         if self.start_hz == self.stop_hz:
@@ -82,79 +54,44 @@ class SweepDrive(Record, frozen=True, tag_field="kind", tag="sweep"):
 
 
 class SamplesDrive(Record, frozen=True, tag_field="kind", tag="samples"):
-    """Any drive as samples in V, each held until the next; 0 V before and after.
+    """Any drive as samples in V, each held until the next; 0 V before and after."""
 
-    Attributes
-    ----------
-    file
-        .npy, (sample,) for all emissions or (emission, sample), in V.
-    rate_hz
-        Samples a second.
-    channels
-        Channel of each emission.
-    """
-
-    file: str
-    rate_hz: Hz
-    channels: Channels
+    file: str  # .npy, (sample,) for all emissions or (emission, sample), in V
+    rate_hz: Hz  # samples a second
+    channels: Channels  # channel of each emission
 
 
 class ImpulsesDrive(Record, frozen=True, tag_field="kind", tag="impulses"):
-    """One pulse of one bit period.
+    """One pulse of one bit period."""
 
-    Attributes
-    ----------
-    bit_clock_hz
-        1 / length of the pulse.
-    supply_v
-        Its height.
-    channels
-        Channel of each emission.
-    """
-
-    bit_clock_hz: Hz
-    supply_v: Positive
-    channels: Channels
+    bit_clock_hz: Hz  # 1 / length of the pulse
+    supply_v: Positive  # its height
+    channels: Channels  # channel of each emission
 
 
 DriveTable = WordsDrive | SweepDrive | SamplesDrive | ImpulsesDrive
 
 
 class RecordsTable(Record, frozen=True):
-    """Where the records lie and what their numbers mean.
+    """Where the records lie and what their numbers mean."""
 
-    Attributes
-    ----------
-    files
-        Name of a file with everything, or of many with the fields {point}, {emission} or {channel}, {repetition}; emissions and
-        repetitions are counted from 0. What no field names are axes of the file's array: point, emission, repetition, sample.
-    unit
-        Of the samples.
-    v_per_m, v_per_m_s, v_per_m_s2
-        With unit V one of these: what the sensor gives for a displacement, a velocity or an acceleration.
-    full_scale
-        Of WAV files and of whole numbers: what the largest number stands for, in `unit`.
-    track
-        Of WAV files with several: which, counted from 1.
-    repetitions
-        How often each emission was played.
-    period_ms
-        Records that run through: from the start of one repetition to that of the next. Emissions follow each other, each with all
-        its repetitions. Left out: each repetition is a record of its own.
-    first_sample_us
-        Time of a record's first sample after the start of the first drive word; below 0 where the record begins earlier. Left out:
-        found from the first waves that arrive.
-    """
-
+    # Name of a file with everything, or of many with the fields {point}, {emission} or {channel}, {repetition}; emissions and
+    # repetitions are counted from 0. What no field names are axes of the file's array: point, emission, repetition, sample
     files: str
-    unit: Literal["m", "m/s", "m/s^2", "V"]
+    unit: Literal["m", "m/s", "m/s^2", "V"]  # of the samples
+    # v_per_m, v_per_m_s, v_per_m_s2: with unit V one of these: what the sensor gives for a displacement, a velocity or an
+    # acceleration
     v_per_m: Positive | None = None
     v_per_m_s: Positive | None = None
     v_per_m_s2: Positive | None = None
-    full_scale: Positive | None = None
-    track: Annotated[int, Meta(ge=1, le=64)] = 1
-    repetitions: Annotated[int, Meta(ge=1, le=10_000)] = 1
+    full_scale: Positive | None = None  # of WAV files and of whole numbers: what the largest number stands for, in `unit`
+    track: Annotated[int, Meta(ge=1, le=64)] = 1  # of WAV files with several: which, counted from 1
+    repetitions: Annotated[int, Meta(ge=1, le=10_000)] = 1  # how often each emission was played
+    # Records that run through: from the start of one repetition to that of the next. Emissions follow each other, each with all
+    # its repetitions. Left out: each repetition is a record of its own
     period_ms: Positive | None = None
+    # Time of a record's first sample after the start of the first drive word; below 0 where the record begins earlier. Left
+    # out: found from the first waves that arrive
     first_sample_us: Annotated[float, Meta(ge=-1e6, le=1e6)] | None = None
 
     def __post_init__(self) -> None:
@@ -192,42 +129,23 @@ class RecordsTable(Record, frozen=True):
 
 
 class MeasurementFile(Record, frozen=True):
-    """The whole measurement.toml.
+    """The whole measurement.toml."""
 
-    Attributes
-    ----------
-    date
-        When it was measured, ISO 8601.
-    sample_rate_hz
-        Of the records, as the recorder states it.
-    temperature_c
-        Of the plate.
-    board_sha256
-        `board digest` of the board that was measured, in hex; `haptic-panel calibrate check` warns where it differs.
-    points
-        CSV file with the columns point, x_mm, y_mm. Left out: the points are in the file of the records.
-    records
-        The records.
-    drive
-        What was played.
-    """
-
+    # When it was measured, ISO 8601
     date: Annotated[str, Meta(pattern=r"^\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|[+-]\d\d:\d\d)?)?\Z")]
-    sample_rate_hz: Hz
-    records: RecordsTable
-    drive: DriveTable
-    temperature_c: Annotated[float, Meta(ge=-50, le=150)] | None = None
+    sample_rate_hz: Hz  # of the records, as the recorder states it
+    records: RecordsTable  # the records
+    drive: DriveTable  # what was played
+    temperature_c: Annotated[float, Meta(ge=-50, le=150)] | None = None  # of the plate
+    # `board digest` of the board that was measured, in hex; `haptic-panel calibrate check` warns where it differs
     board_sha256: Annotated[str, Meta(pattern=r"^[0-9a-f]{64}\Z")] | None = None
-    points: str | None = None
+    points: str | None = None  # CSV file with the columns point, x_mm, y_mm. Left out: the points are in the file of the records
 
 
 def read_settings(folder: Path) -> MeasurementFile:
     """Read the `measurement.toml` of a folder.
 
-    Raises
-    ------
-    CalibrationError
-        Naming file, key and value; also for names of files that lead out of the folder.
+    Raises CalibrationError, naming file, key and value; also for names of files that lead out of the folder.
     """
     file = folder / NAME
     try:
@@ -256,13 +174,7 @@ def read_settings(folder: Path) -> MeasurementFile:
 
 
 def write_settings(folder: Path, settings: MeasurementFile) -> None:
-    """Write the `measurement.toml` of a folder.
-
-    Raises
-    ------
-    CalibrationError
-        If it cannot be written.
-    """
+    """Write the `measurement.toml` of a folder; raises CalibrationError if it cannot be written."""
     tables = msgspec.to_builtins(settings)
     try:
         (folder / NAME).write_text("\n".join(_toml_lines(tables)) + "\n", encoding="utf-8")

@@ -25,13 +25,7 @@ UFF_TYPES = {"m": 8, "m/s": 11, "m/s^2": 12, "V": 0}
 
 
 def claim(folder: Path, settings: MeasurementFile) -> None:
-    """Refuse a folder that holds another measurement.
-
-    Raises
-    ------
-    CalibrationError
-        Naming what differs.
-    """
+    """Refuse a folder that holds another measurement; raises CalibrationError, naming what differs."""
     if not (folder / NAME).exists():
         if folder.exists() and any(folder.iterdir()):
             raise CalibrationError(f"{folder}: is not empty, and holds no measurement: give another folder")
@@ -43,33 +37,17 @@ def claim(folder: Path, settings: MeasurementFile) -> None:
 
 
 def write_measurement(
-    folder: Path,
+    folder: Path,  # made if it is absent
+    # Names of files and their format; with a `{point}` in `records.files`, or as a .npy, .npz or .uff file with everything
     settings: MeasurementFile,
     names: tuple[str, ...],
-    points_m: ArrayLike,
-    drive: NDArray[np.generic] | None = None,
+    points_m: ArrayLike,  # (point, 2)
+    drive: NDArray[np.generic] | None = None,  # (emission, word) uint32 array, or (emission, sample): for a drive that has a file
+    # In the order of the points, taken one by one. Records that run through are (sample,). Left out: they are written later,
+    # point by point, by `write_records`
     records: Iterable[ArrayLike | None] = (),
 ) -> None:
-    """Write a measurement folder; what is there already is replaced.
-
-    Parameters
-    ----------
-    folder : Path
-        Made if it is absent.
-    settings : MeasurementFile
-        Names of files and their format; with a `{point}` in `records.files`, or as a .npy, .npz or .uff file with everything.
-    points_m : (point, 2) array
-    drive : (emission, word) uint32 array, or (emission, sample) array in V, optional
-        For a drive that has a file.
-    records : iterable of (emission, repetition, sample) arrays in `settings.records.unit`, or None where a point is missing
-        In the order of the points, taken one by one. Records that run through are (sample,). Left out: they are written later,
-        point by point, by `write_records`.
-
-    Raises
-    ------
-    CalibrationError
-        If a file cannot be written.
-    """
+    """Write a measurement folder; what is there already is replaced; raises CalibrationError if a file cannot be written."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if drive is not None and (name := getattr(settings.drive, "file", None)):
@@ -103,19 +81,10 @@ def write_measurement(
 
 
 def write_records(folder: Path, settings: MeasurementFile, name: str, values: ArrayLike) -> None:
-    """Write the records of one point, in as many files as `settings.records.files` has fields.
+    """Write the records of the point `name`, in as many files as `settings.records.files` has fields.
 
-    Parameters
-    ----------
-    name : str
-        Of the point.
-    values : (emission, repetition, sample) array, or (sample,) if records run through
-        In `settings.records.unit`; as numbers of another type than float, in parts of `full_scale`.
-
-    Raises
-    ------
-    CalibrationError
-        If a file cannot be written.
+    `values` are (emission, repetition, sample), or (sample,) if records run through, in `settings.records.unit`; as numbers of
+    another type than float, in parts of `full_scale`. Raises CalibrationError if a file cannot be written.
     """
     array, fields, table = np.asarray(values), settings.records.fields, settings.records
     channels = getattr(settings.drive, "channels", ())
@@ -140,10 +109,7 @@ def write_records(folder: Path, settings: MeasurementFile, name: str, values: Ar
 def _whole(file: Path) -> Iterator[Path]:
     """Another name to write `file` under, which takes its place once it is whole: what is interrupted is measured again.
 
-    Raises
-    ------
-    CalibrationError
-        If it cannot be written.
+    Raises CalibrationError if it cannot be written.
     """
     written = file.with_name(f".{file.name}{file.suffix}")
     try:

@@ -36,28 +36,15 @@ Place = tuple[int, int]  # emission, repetition
 
 @dataclass(frozen=True, eq=False)
 class PointRecords:
-    """Records of one point.
+    """Records of one point."""
 
-    Attributes
-    ----------
-    values : (emission, repetition, sample) array
-        In m, m/s or m/s². NaN where `there` is not.
-    there : (emission, repetition) bool array
-        Whose file was found.
-    first_s : (emission, repetition) array
-        Time of the first sample after the recorder's start of the emission, in s of the recorder; `starts_s` and the delay not
-        counted.
-    clipped : (emission, repetition) bool array
-        Whether samples in a row stand at the record's extreme.
-    files : tuple of Path
-        What was read.
-    """
-
-    values: NDArray[np.float64]
-    there: NDArray[np.bool_]
+    values: NDArray[np.float64]  # (emission, repetition, sample): in m, m/s or m/s². NaN where `there` is not
+    there: NDArray[np.bool_]  # (emission, repetition): whose file was found
+    # (emission, repetition): time of the first sample after the recorder's start of the emission, in s of the recorder;
+    # `starts_s` and the delay not counted
     first_s: NDArray[np.float64]
-    clipped: NDArray[np.bool_]
-    files: tuple[Path, ...]
+    clipped: NDArray[np.bool_]  # (emission, repetition): whether samples in a row stand at the record's extreme
+    files: tuple[Path, ...]  # what was read
 
     @property
     def sound(self) -> NDArray[np.bool_]:
@@ -67,22 +54,13 @@ class PointRecords:
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """What a measurement folder holds; records are read when asked for.
-
-    Attributes
-    ----------
-    names : tuple of str
-        Of the points.
-    points_m : (point, 2) array
-    drive : Drive
-        What was played.
-    """
+    """What a measurement folder holds; records are read when asked for."""
 
     folder: Path
     settings: MeasurementFile
-    names: tuple[str, ...]
-    points_m: NDArray[np.float64]
-    drive: Drive
+    names: tuple[str, ...]  # of the points
+    points_m: NDArray[np.float64]  # (point, 2)
+    drive: Drive  # what was played
 
     @property
     def repetitions(self) -> int:
@@ -107,10 +85,8 @@ class Measurement:
     def records(self, point: int) -> PointRecords:
         """Read the records of a point; of one that is `missing` none is there.
 
-        Raises
-        ------
-        CalibrationError
-            Naming file and point: damaged, of another length, rate or unit, or with samples that are no numbers.
+        Raises CalibrationError, naming file and point: damaged, of another length, rate or unit, or with samples that are no
+        numbers.
         """
         return self._cut(point, dict(self._read(point)))
 
@@ -249,15 +225,8 @@ class Measurement:
 def read_measurement(folder: Path, board: Board) -> Measurement:
     """Read and check all of a measurement folder but the records.
 
-    Parameters
-    ----------
-    board : Board
-        Whose plate was measured.
-
-    Raises
-    ------
-    CalibrationError
-        Naming file and point: absent or invalid settings, points off the plate, twice, or none; a drive that cannot be read.
+    Raises CalibrationError, naming file and point: absent or invalid settings, points off the plate, twice, or none; a drive that
+    cannot be read.
     """
     settings = read_settings(folder)
     drive = read_drive(folder, settings.drive)
@@ -268,13 +237,7 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
 
 
 def sha256_of(file: Path) -> str:
-    """SHA-256 of a file's bytes, in hex.
-
-    Raises
-    ------
-    CalibrationError
-        If it cannot be read.
-    """
+    """SHA-256 of a file's bytes, in hex; raises CalibrationError if it cannot be read."""
     try:
         with file.open("rb") as data:
             return hashlib.file_digest(data, "sha256").hexdigest()

@@ -25,15 +25,7 @@ EDGE_MM = 1e-6  # a place on the edge is on the plate
 def points_of(folder: Path, settings: MeasurementFile, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
     """Names of the points of a measurement, and their places (point, 2) in m.
 
-    Parameters
-    ----------
-    board : Board
-        On whose plate they are.
-
-    Raises
-    ------
-    CalibrationError
-        Naming file and point: absent, off the plate, twice, or none.
+    Raises CalibrationError, naming file and point: absent, off the plate, twice, or none.
     """
     if settings.points is not None:
         return read_points(folder / settings.points, board)
@@ -43,10 +35,7 @@ def points_of(folder: Path, settings: MeasurementFile, board: Board) -> tuple[tu
 def read_points(file: Path, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
     """Names and places in m of points, (point, 2), from a CSV file with point,x_mm,y_mm.
 
-    Raises
-    ------
-    CalibrationError
-        Naming file and point: unreadable, off the plate, twice, or none.
+    Raises CalibrationError, naming file and point: unreadable, off the plate, twice, or none.
     """
     return _checked(file, _points_of_csv(file), board)
 
@@ -74,13 +63,7 @@ def _checked(where: Path, found: list[tuple[str, float, float]], board: Board) -
 
 
 def write_points(file: Path, names: tuple[str, ...], points_m: ArrayLike) -> None:
-    """Write points as a CSV file: point, x_mm, y_mm.
-
-    Raises
-    ------
-    CalibrationError
-        If it cannot be written.
-    """
+    """Write points as a CSV file: point, x_mm, y_mm; raises CalibrationError if it cannot be written."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(("point", "x_mm", "y_mm"))

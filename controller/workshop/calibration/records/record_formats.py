@@ -30,27 +30,17 @@ Numbers = NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
 
 @dataclass(frozen=True, eq=False)
 class UffSets:
-    """Time responses of a UFF file.
+    """Time responses of a UFF file."""
 
-    Attributes
-    ----------
-    records : dict
-        (point, emission, repetition), the first a node number, the others counted from 0, to samples (n,).
-    nodes_m : dict
-        Node number to (x_m, y_m), of sets 15 or 2411.
-    """
-
+    # (point, emission, repetition), the first a node number, the others counted from 0, to samples (n,)
     records: dict[tuple[int, int, int], NDArray[np.float64]]
-    nodes_m: dict[int, tuple[float, float]]
+    nodes_m: dict[int, tuple[float, float]]  # node number to (x_m, y_m), of sets 15 or 2411
 
 
 def load_array(file: Path, name: str = "records") -> Numbers:
     """Array of a .npy file, mapped, or that called `name` in a .npz file.
 
-    Raises
-    ------
-    CalibrationError
-        Naming the file: absent, damaged, too large, or no array of real numbers.
+    Raises CalibrationError, naming the file: absent, damaged, too large, or no array of real numbers.
     """
     array: Numbers
     try:
@@ -83,10 +73,7 @@ def load_records(file: Path) -> Numbers:
 def load_wav(file: Path, track: int, rate_hz: float) -> Numbers:
     """Samples (n,) of one track of a WAV file: 8, 16, 24, 32 bit or float; 24 bits are the upper ones of 32.
 
-    Raises
-    ------
-    CalibrationError
-        Naming the file: absent, damaged, cut short, of another rate, or without that track.
+    Raises CalibrationError, naming the file: absent, damaged, cut short, of another rate, or without that track.
     """
     try:
         with warnings.catch_warnings(record=True) as said:
@@ -115,10 +102,8 @@ def load_uff(file: Path, rate_hz: float, unit: str) -> UffSets:
     The response node is the point, the reference node the emission counted from 1, the version number the repetition counted from
     1; 0 stands for the first.
 
-    Raises
-    ------
-    CalibrationError
-        Naming file and node: absent, damaged, of another rate or quantity, not evenly spaced, or two records of one place.
+    Raises CalibrationError, naming file and node: absent, damaged, of another rate or quantity, not evenly spaced, or two records
+    of one place.
     """
     try:
         return _records_of(_uff_sets(file), file, rate_hz, unit)

@@ -66,17 +66,7 @@ class Buffers:
     def store(self, tick: int, slot: int, length_words: int, crc: int, *, live: bool) -> Result:
         """Exchange the landing buffer for that of a slot, and begin its check.
 
-        Parameters
-        ----------
-        crc : int
-            Expected CRC-32.
-        live : bool
-            Whether the landing buffer plays, or waits to.
-
-        Returns
-        -------
-        Result
-            OK, or why nothing was stored.
+        `crc` is what it must have; `live`: whether the landing buffer plays, or waits to. Returns OK, or why nothing was stored.
         """
         if slot >= len(self.slot_buffer):
             return Result.BAD_SLOT
@@ -116,10 +106,7 @@ class Buffers:
     def read_memory(self, tick: int, slot: int, word: int, played_until: dict[int, int]) -> tuple[Result, int]:
         """Result and value of reading a word of a slot, which is BUSY during and shortly after a check or an emission.
 
-        Parameters
-        ----------
-        played_until : dict of int to int
-            For each buffer the tick after its last emission.
+        `played_until` has for each buffer the tick after its last emission.
         """
         if slot >= len(self.slot_buffer):
             return Result.BAD_SLOT, 0

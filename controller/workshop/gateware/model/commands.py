@@ -41,13 +41,7 @@ class Effect(NamedTuple):
 
 
 class Commands:
-    """The parts of the model, and the execution of frames on them.
-
-    Parameters
-    ----------
-    parameters : BuildParameters
-        Of the module.
-    """
+    """The parts of the model, and the execution of frames on them."""
 
     def __init__(self, parameters: BuildParameters) -> None:
         self.registers = RegisterFile(parameters)
@@ -88,19 +82,8 @@ class Commands:
     ) -> Effect | None:
         """Execute a frame: record its result, decided from the state before the tick.
 
-        Parameters
-        ----------
-        port : Port
-            Link that the frame came by.
-        ticks : int
-            For which it was on the wire.
-        landing_busy, landing_live, queue_full : bool
-            As they were when the frame began.
-
-        Returns
-        -------
-        Effect or None
-            To be taken after everything else of the tick.
+        The frame came by `port` and was on the wire for `ticks`; `landing_busy`, `landing_live` and `queue_full` are as they were
+        when it began. The effect is to be taken after everything else of the tick.
         """
         if frame.refusal is not Result.OK:
             self.refuse(port, frame.refusal)

@@ -6,12 +6,14 @@ in the Verilog.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.frames import FRAME_BYTES
 from controller.device.fpga.registers import Fault, Register, Result, State
 from controller.device.fpga.status import Status, pack_status
 from controller.workshop.gateware.gateware import Permit, Port
-from controller.workshop.gateware.model.commands import Commands
+from controller.workshop.gateware.model.commands import Commands, Effect
 from controller.workshop.gateware.model.decoder import Frame
 from controller.workshop.gateware.model.events import EventKind, Events, GatewareEvent
 from controller.workshop.gateware.model.gate import GateState
@@ -22,28 +24,27 @@ from controller.workshop.gateware.pin_timing import UartTiming
 _DELIVERY = (EventKind.UART_BEGIN, EventKind.LANDING, EventKind.FRAME)
 
 
+@dataclass(slots=True)
+class _Seen:
+    """What happens in one tick."""
+
+    cause: Fault  # of outputs being switched off
+    permits: dict[Permit, bool]  # as they are after the tick
+    trigger: bool = False
+    ended: bool = False  # an emission
+    noted: bool = False  # a change of a permit
+    frame: GatewareEvent | None = None
+    landing: GatewareEvent | None = None
+    decoded: Frame | None = None  # of the UART
+
+
 class Core:
-    """`haptic_core.v` behind its input registers.
-
-    Parameters
-    ----------
-    parameters : BuildParameters
-        Of the module.
-    events : Events
-        What happens in which tick.
-
-    Attributes
-    ----------
-    commands : Commands
-        The parts of the model.
-    spi_until : int
-        Last tick in which the core is busy with a frame of the SPI, as far as is known.
-    """
+    """`haptic_core.v` behind its input registers. `events` are what happens in which tick."""
 
     def __init__(self, parameters: BuildParameters, events: Events) -> None:
-        self.commands = Commands(parameters)
+        self.commands = Commands(parameters)  # the parts of the model
         self.uart = UartPeripheral(UartTiming.of(parameters))
-        self.spi_until = 0
+        self.spi_until = 0  # last tick in which the core is busy with a frame of the SPI, as far as is known
         self._events = events
         self._sequencer = Sequencer(self.commands, events)
         self._gate = self.commands.gate
@@ -70,15 +71,7 @@ class Core:
         return self._sequencer.waiting_from()
 
     def status(self, port: Port = Port.SPI, tick: int | None = None) -> Status:
-        """The status with which a link is answered.
-
-        Parameters
-        ----------
-        port : Port
-            The link.
-        tick : int, optional
-            Tick in which the beginning of its frame is seen; by default the current one.
-        """
+        """The status with which a link is answered. The beginning of the frame is seen in `tick`, by default the current one."""
         gate, player, telemetry = self._gate, self._player, self._telemetry
         now = self._events.now if tick is None else tick
         link = telemetry.links[port]
@@ -115,35 +108,54 @@ class Core:
 
     def step(self, tick: int) -> None:
         """Do everything that happens in `tick`."""
-        cause, faulted = self._gate.cause(tick), bool(self._gate.faults)
-        trigger = ended = noted = False
+        seen, faulted = _Seen(self._gate.cause(tick), dict(self._gate.permits)), bool(self._gate.faults)
         if tick == self._sequencer.arrival_tick() and not self._sequencer.pass_arrived_words():
             self._events.add(GatewareEvent(tick + 1, EventKind.UNDERRUN))
-        frame: GatewareEvent | None = None
-        landing: GatewareEvent | None = None
-        decoded: Frame | None = None
-        permits = dict(self._gate.permits)
         while (event := self._events.pop(tick)) is not None:
-            if event.kind is EventKind.PERMIT:
-                permits[event.permit] = event.level
-            elif event.kind is EventKind.PERMIT_NOTED:
-                noted = True
-            elif event.kind is EventKind.UNDERRUN:
-                cause |= Fault.UNDERRUN if self._gate.live(tick) else Fault(0)
-            elif event.kind is EventKind.FRAME:
-                frame = event
-            elif event.kind is EventKind.LANDING:
-                landing = event
-            elif event.kind is EventKind.UART_BYTE:
+            self._look_at(tick, event, seen)
+        effect = self._carry_out(tick, seen)
+        if seen.ended and not seen.cause:
+            self._telemetry.counts[Register.EMISSIONS] += 1
+            self._gate.pins.focus(tick + 1, self._registers.bit_ticks)
+        self._sequencer.step(tick, trigger=seen.trigger, halted=effect is not None and effect.halts)
+        if effect is not None:
+            effect.take(tick)
+            if effect.triggers:
+                self._events.add(GatewareEvent(tick + 1, EventKind.TRIGGER))
+        if self._gate.move_ramp(tick):
+            self._player.free_from = self._gate.ramp_end + self._registers.bit_ticks - 1
+        if seen.noted:
+            self._telemetry.input_tick = tick
+        if seen.cause:
+            self._shut(tick, seen.cause, counted=not faulted)
+        self._gate.permits = seen.permits
+
+    def _look_at(self, tick: int, event: GatewareEvent, seen: _Seen) -> None:
+        match event.kind:
+            case EventKind.PERMIT:
+                seen.permits[event.permit] = event.level
+            case EventKind.PERMIT_NOTED:
+                seen.noted = True
+            case EventKind.UNDERRUN:
+                seen.cause |= Fault.UNDERRUN if self._gate.live(tick) else Fault(0)
+            case EventKind.FRAME:
+                seen.frame = event
+            case EventKind.LANDING:
+                seen.landing = event
+            case EventKind.UART_BYTE:
                 self._receive(tick, event.byte)
-            elif event.kind is EventKind.UART_FRAME:
-                decoded = event.frame
-            elif event.kind is EventKind.UART_BEGIN:
+            case EventKind.UART_FRAME:
+                seen.decoded = event.frame
+            case EventKind.UART_BEGIN:
                 self._begin_delivery(tick)
-            else:
-                trigger |= event.kind is EventKind.TRIGGER
-                ended |= event.kind is EventKind.EMISSION_END
-        effect = None
+            case EventKind.TRIGGER:
+                seen.trigger = True
+            case EventKind.EMISSION_END:
+                seen.ended = True
+
+    def _carry_out(self, tick: int, seen: _Seen) -> Effect | None:
+        """Execute the frame of the tick, and take over what has landed and what the UART has decoded."""
+        effect, frame, decoded = None, seen.frame, seen.decoded
         if frame is not None:
             effect = self.commands.execute(
                 tick,
@@ -156,37 +168,25 @@ class Core:
             )
             if frame.port is Port.UART:
                 self.uart.pending = None
-        if landing is not None:
-            self._land(landing)
+        if seen.landing is not None:
+            self._land(seen.landing)
         if decoded is not None and decoded.refusal is not Result.OK:
             self.commands.refuse(Port.UART, decoded.refusal)
         elif decoded is not None:
             self.uart.pending = decoded
             begin = max(tick + BEGIN_TICKS - 1, self.spi_until + 1)
             self._events.add(GatewareEvent(begin, EventKind.UART_BEGIN, port=Port.UART))
-        if ended and not cause:
-            self._telemetry.counts[Register.EMISSIONS] += 1
-            self._gate.pins.focus(tick + 1, self._registers.bit_ticks)
-        halted = effect is not None and effect.halts
-        self._sequencer.step(tick, trigger=trigger, halted=halted)
-        if effect is not None:
-            effect.take(tick)
-            if effect.triggers:
-                self._events.add(GatewareEvent(tick + 1, EventKind.TRIGGER))
-        if self._gate.move_ramp(tick):
-            self._player.free_from = self._gate.ramp_end + self._registers.bit_ticks - 1
-        if noted:
-            self._telemetry.input_tick = tick
-        if cause:
-            self._telemetry.counts[Register.UNDERRUNS] += Fault.UNDERRUN in cause
-            if not faulted:
-                self._telemetry.counts[Register.FAULT_COUNT] += 1
-                self._gate.fault_tick = tick
-            self._gate.shut(tick, cause)
-            self.commands.drop(tick)
-            self._player.drop(tick)
-            self._events.remove(lambda event: event.kind is EventKind.EMISSION_END)
-        self._gate.permits = permits
+        return effect
+
+    def _shut(self, tick: int, cause: Fault, *, counted: bool) -> None:
+        self._telemetry.counts[Register.UNDERRUNS] += Fault.UNDERRUN in cause
+        if counted:
+            self._telemetry.counts[Register.FAULT_COUNT] += 1
+            self._gate.fault_tick = tick
+        self._gate.shut(tick, cause)
+        self.commands.drop(tick)
+        self._player.drop(tick)
+        self._events.remove(lambda event: event.kind is EventKind.EMISSION_END)
 
     def defer_uart(self) -> None:
         """Deliver the UART's frame after the frame of the SPI that begins now."""

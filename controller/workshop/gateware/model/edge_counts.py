@@ -36,24 +36,12 @@ def turn(tick: int, channel: int) -> int:
 
 
 class EdgeCounts(NamedTuple):
-    """Edges of each channel (indices 0 to 31) and of all (index 32).
+    """Edges of each channel (indices 0 to 31) and of all (index 32)."""
 
-    Attributes
-    ----------
-    part : (33,) int array
-        Number of the current part.
-    made : (16, 33) int array
-        Edges in each part that counts, by its number modulo 16.
-    live : (33,) int array
-        Their sums.
-    until : int
-        Tick in which the next part of any channel begins.
-    """
-
-    part: Ticks
-    made: Ticks
-    live: Ticks
-    until: int
+    part: Ticks  # (33,): number of the current part
+    made: Ticks  # (16, 33): edges in each part that counts, by its number modulo 16
+    live: Ticks  # (33,): their sums
+    until: int  # tick in which the next part of any channel begins
 
     def at(self, tick: int, part_ticks: int) -> EdgeCounts:
         """The counts at `tick`, with parts of `part_ticks`; edges of parts that have left the window are gone."""

@@ -44,16 +44,10 @@ class GatewareEvent(NamedTuple):
 
 
 class Events:
-    """Future events in the order of their ticks.
-
-    Attributes
-    ----------
-    now : int
-        Current tick of the model.
-    """
+    """Future events in the order of their ticks."""
 
     def __init__(self) -> None:
-        self.now = 0
+        self.now = 0  # current tick of the model
         self._events: list[GatewareEvent] = []
 
     @property
@@ -62,13 +56,7 @@ class Events:
         return self._events[0].tick if self._events else None
 
     def add(self, event: GatewareEvent) -> None:
-        """Add an event.
-
-        Raises
-        ------
-        ValueError
-            If its tick has passed.
-        """
+        """Add an event; raises ValueError if its tick has passed."""
         if event.tick < self.now:
             raise ValueError(f"{event.kind.name} for tick {event.tick} is in the past: the model is at tick {self.now}")
         insort(self._events, event, key=lambda entry: entry.tick)

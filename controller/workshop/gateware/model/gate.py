@@ -99,13 +99,7 @@ class OutputGate:
         self.pins.put_word(tick + 1 + PIN_TICKS, 0, hv=1)
 
     def disarm(self, tick: int, settled_from: int) -> None:
-        """Ramp down to 0, or reverse a ramp up.
-
-        Parameters
-        ----------
-        settled_from : int
-            First tick in which the idle word has been held for a bit period.
-        """
+        """Ramp down to 0, or reverse a ramp up. The idle word has been held for a bit period from the tick `settled_from` on."""
         samples, bit_ticks = self._registers.ramp_samples, self._registers.bit_ticks
         if self.state is GateState.SETTLING:
             self._come_to_off(tick + 1)

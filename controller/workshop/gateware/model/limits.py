@@ -49,10 +49,7 @@ class _Plan:
 class StageLimits:
     """`stage_limits.v`: the causes it reports for what the pins show, without stepping through the ticks between changes.
 
-    Parameters
-    ----------
-    window_ticks : int
-        Over which edges are counted.
+    Edges are counted over `window_ticks`.
     """
 
     def __init__(self, settings: LimitSettings, window_ticks: int) -> None:
@@ -67,12 +64,8 @@ class StageLimits:
     def show(self, ticks: Ticks, words: Words) -> None:
         """Plan that the pins hold `words[i]` from `ticks[i]` on.
 
-        Parameters
-        ----------
-        ticks : (n,) int64 array
-            Strictly increasing. What was planned from `ticks[0]` on is replaced.
-        words : (n,) uint32 array
-            Must not be changed afterwards.
+        Ticks (n,) are strictly increasing; what was planned from the first on is replaced. Words (n,) must not be changed
+        afterwards.
         """
         start = int(ticks[0])
         while self._plans and self._plans[-1].ticks[0] >= start:

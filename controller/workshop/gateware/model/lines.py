@@ -20,10 +20,7 @@ SHIFT_TICKS = 1  # from the fall of SCK to the next bit
 class Lines:
     """Changes of these outputs since the last capture.
 
-    Parameters
-    ----------
-    record_frames : bool
-        Also record MISO and the UART, which takes time and memory.
+    With `record_frames` also those of MISO and the UART, which takes time and memory.
     """
 
     def __init__(self, *, record_frames: bool) -> None:
@@ -41,14 +38,9 @@ class Lines:
             self._waiting = True
 
     def note(self, tick: int, *, fault: bool, waiting_from: int | None) -> None:
-        """Record the state from `tick` on.
+        """Record the state from `tick` on: whether a fault is latched, and since when the head of the queue waits for a trigger.
 
-        Parameters
-        ----------
-        fault : bool
-            Whether a fault is latched.
-        waiting_from : int or None
-            Tick from which on the head of the queue waits for a trigger, if nothing else happens.
+        `waiting_from` holds if nothing else happens.
         """
         if fault != self._fault:
             self._faults.append(tick)
@@ -86,18 +78,9 @@ def _taken(changes: list[int], now: int) -> NDArray[np.uint64]:
 
 
 def miso_changes(select_tick: int, release_tick: int, answer: bytearray, size_bytes: int) -> NDArray[np.int64]:
-    """Ticks of the changes of MISO during one frame, with SCK spread evenly.
+    """Ticks (n,) of the changes of MISO during one frame, with SCK spread evenly between fall and rise of chip select.
 
-    Parameters
-    ----------
-    select_tick, release_tick : int
-        When chip select falls and rises.
-    answer : bytearray
-        `size_bytes` bytes and one more, whose first bit appears with the last fall of SCK.
-
-    Returns
-    -------
-    (n,) int64 array
+    `answer` is `size_bytes` bytes and one more, whose first bit appears with the last fall of SCK.
     """
     bits = 8 * size_bytes
     levels = np.unpackbits(np.frombuffer(answer, np.uint8))[: bits + 1].astype(np.int8)

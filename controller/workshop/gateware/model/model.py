@@ -31,12 +31,7 @@ RATE_TICKS = 1  # that the measured length of a LOAD exceeds the time between th
 class GatewareModel:
     """`haptic_core.v` with its pins: a `Gateware`.
 
-    Parameters
-    ----------
-    parameters : BuildParameters
-        Of the module.
-    lines : bool
-        Captures also contain every change of MISO and of the UART's transmit line.
+    With `lines`, captures also contain every change of MISO and of the UART's transmit line.
     """
 
     def __init__(self, parameters: BuildParameters, *, lines: bool = False) -> None:
@@ -89,10 +84,7 @@ class GatewareModel:
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
         """Exchange one frame; parameters as in `Gateware.exchange`.
 
-        Raises
-        ------
-        ValueError
-            If it begins in the past, or its timing is not what the pins allow.
+        Raises ValueError if it begins in the past, or its timing is not what the pins allow.
         """
         if select_tick + INPUT_TICKS < self._events.now:
             raise ValueError(f"a frame for tick {select_tick} is in the past: the model is at tick {self._events.now}")
@@ -129,19 +121,9 @@ class GatewareModel:
         )
 
     def uart(self, tick: int, wire: bytes) -> int:
-        """Send bytes over the UART, back to back.
+        """Send bytes (COBS-encoded frames) over the UART, back to back from the first start bit at `tick` on.
 
-        Parameters
-        ----------
-        tick : int
-            When the first start bit begins.
-        wire : bytes
-            COBS-encoded frames.
-
-        Returns
-        -------
-        int
-            Tick in which the last stop bit ends.
+        Returns the tick in which the last stop bit ends.
         """
         timing = self._uart.timing
         for number, byte in enumerate(wire):

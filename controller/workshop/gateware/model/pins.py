@@ -44,12 +44,7 @@ class Segment(NamedTuple):
 class Pins:
     """Channel pins, high-voltage enable, alive and focus pin since the last capture.
 
-    Parameters
-    ----------
-    limits : StageLimits
-        Checks every segment.
-    alive_half_ticks : int
-        Half a period of `hv_alive_o`.
+    The limits check every segment; `alive_half_ticks` is half a period of `hv_alive_o`.
     """
 
     def __init__(self, limits: StageLimits, alive_half_ticks: int) -> None:
@@ -148,17 +143,8 @@ def modulate(levels: range, full_scale: int, errors: tuple[int, int] = (0, 0)) -
     `v = level + 2 e1 - e2`, the bit is `2 v >= full_scale`, and the error `v - bit * full_scale` is limited to 1.5 full scales:
     without the limit the loop rings near both ends, where one bit has no headroom.
 
-    Parameters
-    ----------
-    levels : range
-        0 to `full_scale`.
-    errors : (int, int)
-        Last two errors of the bits before, latest first.
-
-    Returns
-    -------
-    (list of bool, (int, int))
-        The bits, and the last two errors, latest first.
+    `levels` are 0 to `full_scale`; `errors` are the last two of the bits before, latest first. Returns the bits, and the last two
+    errors, latest first.
     """
     recent, older = errors
     limit = full_scale + (full_scale >> 1)

@@ -55,22 +55,7 @@ class Readout:
         self._telemetry = telemetry
 
     def read(self, tick: int, link: LinkState, address: int) -> Result:
-        """Carry out a READ; its value becomes `link.data`.
-
-        Parameters
-        ----------
-        tick : int
-            Tick in which the frame is executed.
-        link : LinkState
-            The link that the frame came by.
-        address : int
-            As in the frame.
-
-        Returns
-        -------
-        Result
-            OK, or why nothing was read.
-        """
+        """Carry out a READ of a frame that is executed in `tick`; its value becomes `link.data`. OK, or why nothing was read."""
         result, value = Result.OK, 0
         if address >= READ_MEMORY:
             slot, word = divmod(address - READ_MEMORY, 1024)

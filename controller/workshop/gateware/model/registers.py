@@ -23,25 +23,12 @@ _SETTINGS = (Kind.SETTING, Kind.MASK)
 
 
 class RegisterFile:
-    """Settings by name; constants, what is built in and settings by address, as their records in `Register` say.
-
-    Parameters
-    ----------
-    parameters : BuildParameters
-        With which the gateware is built.
-
-    Attributes
-    ----------
-    bit_period_low, bit_period_high : int
-        Range of BIT_PERIOD, in 65536ths of a tick.
-    limits : LimitSettings
-        Settings of the stages' limits.
-    """
+    """Settings by name; constants, what is built in and settings by address, as their records in `Register` say."""
 
     def __init__(self, parameters: BuildParameters) -> None:
         self.parameters = p = parameters
         fewest = max(p.clock_hz // BIT_CLOCK_HZ_MAX, BIT_TICKS_MIN)
-        self.bit_period_low = fewest << 16
+        self.bit_period_low = fewest << 16  # bit_period_low, bit_period_high: range of BIT_PERIOD, in 65536ths of a tick
         self.bit_period_high = max(p.clock_hz // BIT_CLOCK_HZ_MIN, fewest) << 16
         self.geometry = p.slots | WAVEFORM_WORDS << 8 | CHANNELS << 24
         self._values: dict[Register, int] = {
@@ -50,7 +37,7 @@ class RegisterFile:
             if register.kind in (Kind.CONSTANT, Kind.BUILT_IN, *_SETTINGS) and register is not Register.PARAMETERS
         }
         self._values[Register.PARAMETERS] = QUEUE_PLAYS | TRIGGER_LATENCY_TICKS << 8 | FILTER_TICKS << 16
-        self.limits = LimitSettings()
+        self.limits = LimitSettings()  # settings of the stages' limits
         self._set_limits()
 
     @property
@@ -84,33 +71,13 @@ class RegisterFile:
         return self._values[Register.HEARTBEAT_TICKS]
 
     def read(self, register: Register) -> int | None:
-        """Value of a register of 32 bits, or None if it is not kept here.
-
-        Parameters
-        ----------
-        register : Register
-            Kept here are constants, what is built in, and settings.
-        """
+        """Value of a register of 32 bits, or None if it is not kept here."""
         return self._values.get(register)
 
     def write(self, address: int, value: int, *, disarmed: bool, quiet: bool) -> Result:
-        """Change a setting, or say why not.
+        """Change a setting, or say why not; `address` may be no register's.
 
-        Parameters
-        ----------
-        address : int
-            From the frame; it may be no register's.
-        value : int
-            32 bits.
-        disarmed : bool
-            Outputs are off.
-        quiet : bool
-            Outputs are off or armed, and nothing plays or waits.
-
-        Returns
-        -------
-        Result
-            OK if the setting was changed.
+        `disarmed`: outputs are off; `quiet`: they are off or armed, and nothing plays or waits.
         """
         if address not in set(Register):
             return Result.UNKNOWN_REGISTER

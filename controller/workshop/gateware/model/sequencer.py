@@ -13,15 +13,7 @@ from controller.workshop.gateware.model.player import DECISION_TICKS, AcceptedPl
 
 
 class Sequencer:
-    """Starts plays from the queue, and passes the words of emissions to the output gate.
-
-    Parameters
-    ----------
-    commands : Commands
-        The parts of the model.
-    events : Events
-        Takes the ends of emissions.
-    """
+    """Starts plays from the queue, and passes the words of emissions to the output gate. `events` takes the ends of emissions."""
 
     def __init__(self, commands: Commands, events: Events) -> None:
         self._events = events
@@ -87,12 +79,7 @@ class Sequencer:
     def step(self, tick: int, *, trigger: bool, halted: bool) -> None:
         """Do what the player does in `tick`: end an emission, repeat, or start the head of the queue.
 
-        Parameters
-        ----------
-        trigger : bool
-            Whether a trigger is seen.
-        halted : bool
-            Whether a command in this tick prevents any start.
+        `halted`: a command in this tick prevents any start.
         """
         player, telemetry = self._player, self._telemetry
         head = self._queue.head(tick)

@@ -19,20 +19,12 @@ def cobs_encoded(data: bytes) -> bytes:
 
 
 class UartPeripheral:
-    """State of the UART peripheral.
-
-    Attributes
-    ----------
-    pending : Frame or None
-        Accepted frame that waits for a pause of the SPI, or is being delivered in one.
-    tx_ticks : list of int
-        Changes of the transmit line.
-    """
+    """State of the UART peripheral."""
 
     def __init__(self, timing: UartTiming) -> None:
         self.timing = timing
-        self.pending: Frame | None = None
-        self.tx_ticks: list[int] = []
+        self.pending: Frame | None = None  # accepted frame that waits for a pause of the SPI, or is being delivered in one
+        self.tx_ticks: list[int] = []  # changes of the transmit line
         self._synced = self._open = self._taken = self._zero = False
         self._left = 0  # of the COBS block
         self._frame = bytearray()
@@ -43,10 +35,8 @@ class UartPeripheral:
     def receive(self, byte: int) -> tuple[bool, Frame | None]:
         """Receive a byte.
 
-        Returns
-        -------
-        (bool, Frame or None)
-            Whether a frame begins with this byte, and the frame that ends with it; it is BUSY if another was pending when it began.
+        Returns whether a frame begins with this byte, and the frame that ends with it; it is BUSY if another was pending when it
+        began.
         """
         in_block = self._open and self._left != 0
         if byte == 0:

@@ -32,19 +32,8 @@ Figures = dict[str, Any]
 def design_figures(board: Board, changes: Mapping[str, float] | None = None, parts: Parts | None = None) -> Figures:
     """Figures of a design, ready for JSON: its numbers under `inputs`, warnings, one line each, under `warnings`.
 
-    Parameters
-    ----------
-    board : Board
-        Gives what is not in `changes`; if it has damping, foam with a dashpot or layers, their effect on the band as a whole.
-    changes : mapping of str to float, optional
-        Values of `NUMBERS`.
-    parts : Parts, optional
-        Other parts than the board's.
-
-    Raises
-    ------
-    ConfigError
-        If a number is not possible.
+    `changes` are values of `NUMBERS`, `parts` others than the board's; the board gives all others, and the effect of its damping,
+    foam with a dashpot or layers, if it has them, on the band as a whole. Raises ConfigError if a number is not possible.
     """
     changes = {**_decay_of(board), **(changes or {})}
     estimate = PanelEstimate(board, inputs_of(board, changes, parts))

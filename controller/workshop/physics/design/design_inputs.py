@@ -111,15 +111,7 @@ NUMBERS = tuple(DesignInputs.__struct_fields__)
 def inputs_of(board: Board, changes: Mapping[str, float], parts: Parts | None = None) -> DesignInputs:
     """Numbers of a board, but for `changes` and what follows from them: see `from_parts`.
 
-    Parameters
-    ----------
-    parts : Parts, optional
-        Other parts than the board's.
-
-    Raises
-    ------
-    ConfigError
-        Naming the number that is not possible, and what is.
+    `parts` are others than the board's. Raises ConfigError, naming the number that is not possible, and what is.
     """
     own: dict[str, float] = {}
     for table in (board.plate, board.driver, board.waveform):
@@ -134,10 +126,7 @@ def inputs_of(board: Board, changes: Mapping[str, float], parts: Parts | None = 
 def plate_of(plate: Plate, numbers: Mapping[str, Any]) -> Plate:
     """A plate with other numbers; one of another material or thickness has no layers.
 
-    Raises
-    ------
-    ConfigError
-        If the board's edges do not go with its size.
+    Raises ConfigError if the board's edges do not go with its size.
     """
     changed = {name: value for name, value in numbers.items() if name in PLATE and value != getattr(plate, name)}
     if changed.keys() & set(OF_LAYERS):
@@ -156,13 +145,7 @@ def _record(numbers: dict[str, float]) -> DesignInputs:
 
 
 def sweep(text: str) -> tuple[str, list[float]]:
-    """Name and values of `NAME=FROM:TO:STEP`, both ends included.
-
-    Raises
-    ------
-    ConfigError
-        Saying what is wrong with it.
-    """
+    """Name and values of `NAME=FROM:TO:STEP`, both ends included; raises ConfigError: saying what is wrong with it."""
     name, _, numbers = text.partition("=")
     if name not in NUMBERS:
         raise ConfigError(f"--sweep {text}: {name!r} is no number of a design: one of {', '.join(NUMBERS)}")

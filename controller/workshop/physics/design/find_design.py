@@ -28,19 +28,9 @@ def find_designs(
 ) -> list[dict[str, Any]]:
     """At most `MOST_ROWS` panels that reach `felt_um` under the finger: those of the fewest channels, of these the strongest.
 
-    Parameters
-    ----------
-    changes : mapping of str to float
-        Numbers that stand.
-    parts : Parts or None
-        Of the design; None: as the board.
-    searched : sequence of str
-        Of `SEARCHED`, what may differ; if no panel reaches it, the strongest alone is returned.
-
-    Raises
-    ------
-    ConfigError
-        If a number stands and is searched, what is searched is unknown, or no panel is possible.
+    `changes` are numbers that stand; `searched`, of `SEARCHED`, may differ; if no panel reaches it, the strongest alone is
+    returned. `parts` None: as the board. Raises ConfigError if a number stands and is searched, what is searched is unknown, or no
+    panel is possible.
     """
     _check(changes, parts, searched)
     discs = [msgspec.structs.replace(parts or board.parts or ASSUMED, disc=name) for name in catalogue()]

@@ -20,21 +20,7 @@ ASSUMED: Final = Parts(disc="7BB-12-9")  # of a board without [parts]: the paper
 def from_parts(
     board: Board, own: Mapping[str, float], plate: Plate, middle_hz: float, given: Mapping[str, float], parts: Parts | None
 ) -> dict[str, float]:
-    """The numbers that follow.
-
-    Parameters
-    ----------
-    own : mapping of str to float
-        The board's numbers.
-    plate : Plate
-        Of the design.
-    middle_hz : float
-        Middle of its band.
-    given : mapping of str to float
-        Numbers that stand.
-    parts : Parts or None
-        Of the design; None: as the board.
-    """
+    """The numbers that follow for the design's `plate` and `parts` (None: as the board); `own` are the board's, `given` stand."""
     of_board = board.parts or ASSUMED
     kept = {name: value for name, value in given.items() if name in FOLLOWING}
     if parts is None and "size_mm" not in kept:

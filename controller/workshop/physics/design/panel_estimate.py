@@ -21,15 +21,7 @@ STEPPED: Final = ("supply_v", "channels", "size_mm", "thickness_mm", "decay_time
 
 
 class PanelEstimate:
-    """A panel's plate, stage and spectrum, and what follows.
-
-    Attributes
-    ----------
-    given : DesignInputs
-    plate : Plate
-    driver : Driver
-    spectrum : FocalSpectrum
-    """
+    """A panel's plate, stage and spectrum, and what follows."""
 
     def __init__(self, board: Board, given: DesignInputs) -> None:
         numbers = msgspec.structs.asdict(given)

@@ -9,41 +9,21 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from controller.errors import ConfigError
+from controller.workshop.physics.pictures.figure_file import save_figure
 
 COLUMNS = 3
 
 
 def plot_sweep(
-    path: Path,
-    swept: str,
-    values: Sequence[float],
-    rows: Sequence[Mapping[str, Any]],
-    titles: Mapping[str, str],
+    path: Path,  # file to write: .png, .svg or .pdf
+    swept: str,  # name of the number
+    values: Sequence[float],  # of the number
+    rows: Sequence[Mapping[str, Any]],  # `design_figures` at each value
+    titles: Mapping[str, str],  # of each figure that is drawn, its title
+    # Of figures that are to be large, the value from which they are enough: drawn as a line, with the best of the sweep
     wanted: Mapping[str, float],
 ) -> None:
-    """Draw figures over a number of the design.
-
-    Parameters
-    ----------
-    path : Path
-        File to write: .png, .svg or .pdf.
-    swept : str
-        Name of the number.
-    values : sequence of float
-        Of the number.
-    rows : sequence of mapping
-        `design_figures` at each value.
-    titles : mapping
-        Of each figure that is drawn, its title.
-    wanted : mapping
-        Of figures that are to be large, the value from which they are enough: drawn as a line, with the best of the sweep.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
-    """
+    """Draw figures over a number of the design; raises ConfigError if the file cannot be written."""
     lines = -(-len(titles) // COLUMNS)
     figure = Figure(figsize=(11, 2.7 * lines), layout="constrained")
     panels = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
@@ -61,7 +41,4 @@ def plot_sweep(
         panel.grid(color="0.85", lw=0.5)
     for panel in panels[len(titles) :]:
         panel.axis("off")
-    try:
-        figure.savefig(path, dpi=110)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 110)

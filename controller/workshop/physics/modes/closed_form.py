@@ -28,17 +28,11 @@ MAX_MODES = 30_000  # 15 times the paper's plate
 
 @dataclass(frozen=True, eq=False)
 class Sines:
-    """Factors of the shapes: sines of all orders from 1.
-
-    Attributes
-    ----------
-    x_index, y_index : (mode,) int array
-        Half waves along the length and along the width, less 1.
-    """
+    """Factors of the shapes: sines of all orders from 1."""
 
     length_m: float
     width_m: float
-    x_index: NDArray[np.int64]
+    x_index: NDArray[np.int64]  # x_index, y_index: (mode,): half waves along the length and along the width, less 1
     y_index: NDArray[np.int64]
 
     def along_x(self, x_m: ArrayLike) -> Floats:
@@ -57,18 +51,12 @@ def _sines(at_m: ArrayLike, extent_m: float, orders: int) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class SimplySupported:
-    """Modes of a plate up to a frequency, lowest first (`modes.Modes`).
-
-    Attributes
-    ----------
-    angular_frequency, decay_rate, mass_kg, mean_square : (mode,) array
-        As in `modes.Modes`.
-    """
+    """Modes of a plate up to a frequency, lowest first (`modes.Modes`)."""
 
     length_m: float
     width_m: float
     factors: Sines
-    angular_frequency: Floats
+    angular_frequency: Floats  # angular_frequency, decay_rate, mass_kg, mean_square: (mode,): as in `modes.Modes`
     decay_rate: Floats
     mass_kg: Floats
     mean_square: Floats
@@ -77,10 +65,8 @@ class SimplySupported:
     def of(cls, plate: Plate, highest_hz: float) -> SimplySupported:
         """All modes of `plate` up to `highest_hz`.
 
-        Raises
-        ------
-        ConfigError
-            If there is none, or more than can be computed with; if another edge than "simply_supported" is asked for.
+        Raises ConfigError if there is none, or more than can be computed with; if another edge than "simply_supported" is asked
+        for.
         """
         if set(msgspec.structs.astuple(plate.sides)) != {"simply_supported"}:
             raise ConfigError('plate.edges: modes in closed form are those of a plate with edges = "simply_supported"')

@@ -34,10 +34,7 @@ def mode_count(
 ) -> float:
     """About how many modes there are below the wavenumber `k` in 1/m; rigid motions are counted.
 
-    Parameters
-    ----------
-    lengths_m : (along x, along y)
-    ends : ((at x = 0, at the far end), the same along y)
+    Lengths and ends are along x, then along y; each end at 0 first.
     """
     rim = sum(edge_term(end, poisson_ratio) * lengths_m[1 - axis] for axis in (0, 1) for end in ends[axis])
     return (lengths_m[0] * lengths_m[1] * k**2 + rim * k) / (4 * np.pi)

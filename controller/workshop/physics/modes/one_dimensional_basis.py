@@ -126,16 +126,10 @@ def spline_breaks(fixed_m: Sequence[float], elements: int) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class OneDimensionalBasis:
-    """Orthonormal functions over [0, length] that keep the essential conditions at both ends.
-
-    Attributes
-    ----------
-    coefficients : (raw function, function) array
-        What each is the sum of.
-    """
+    """Orthonormal functions over [0, length] that keep the essential conditions at both ends."""
 
     functions: Functions
-    coefficients: Floats
+    coefficients: Floats  # (raw function, function): what each is the sum of
 
     @classmethod
     def of(cls, functions: Functions, ends: tuple[Support, Support], parity: Parity | None = None) -> OneDimensionalBasis:

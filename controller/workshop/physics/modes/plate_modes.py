@@ -6,6 +6,7 @@ import math
 from functools import lru_cache
 
 import msgspec
+import numpy as np
 
 from controller.device.board.board import Board
 from controller.device.board.panel import Plate
@@ -14,9 +15,8 @@ from controller.device.board.relations.bending_waves import MindlinPlate
 from controller.errors import ConfigError
 from controller.workshop.physics.damping import damped
 from controller.workshop.physics.modes.closed_form import SimplySupported
-from controller.workshop.physics.modes.mindlin import corrected
 from controller.workshop.physics.modes.modes import Modes
-from controller.workshop.physics.modes.retuned import Retuned
+from controller.workshop.physics.modes.retuned import Retuned, retuned
 from controller.workshop.physics.modes.ritz_modes import RitzModes
 from controller.workshop.physics.patches import BASIS, CombinedModes, with_patches
 from controller.workshop.physics.plate import mode_cut_hz
@@ -27,15 +27,8 @@ KEPT = 4  # plates whose modes are remembered
 def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
     """Modes of a board's plate, kept for the next call.
 
-    Parameters
-    ----------
-    highest_hz : float, optional
-        Modes above are left out; `mode_cut_hz` by default.
-
-    Raises
-    ------
-    ConfigError
-        If there is none, or more than can be computed with.
+    Modes above `highest_hz` are left out; `mode_cut_hz` by default. Raises ConfigError if there is none, or more than can be
+    computed with.
     """
     places = () if board.patches is None else board.patches.on(board.plate, board.actuators)
     return _modes(board.plate, board.patches, places, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
@@ -56,9 +49,18 @@ def _bare(plate: Plate, highest_hz: float) -> Modes:
     theory = MindlinPlate.of(plate)
     without_hz = theory.without_correction_hz(highest_hz)
     try:
-        return corrected(theory, _of_edges(plate, without_hz))
+        return _corrected(theory, _of_edges(plate, without_hz))
     except ConfigError as error:
         raise ConfigError(f"{error} ({without_hz:g} Hz by Kirchhoff's theory are {highest_hz:g} Hz by Mindlin's)") from error
+
+
+def _corrected(theory: MindlinPlate, modes: Modes) -> Modes:
+    """Modes by Mindlin's theory: each of Kirchhoff's keeps its shape and its wavenumber, and gets a free wave's frequency.
+
+    This is exact for simply supported edges; with two clamped or free ones, trial runs found it within 0.07 %.
+    """
+    wavenumber = np.sqrt(modes.angular_frequency / theory.kirchhoff)
+    return retuned(modes, angular_frequency=theory.angular_frequency(wavenumber))
 
 
 def _of_edges(plate: Plate, highest_hz: float) -> Modes:

@@ -16,15 +16,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Retuned:
-    """Shapes and masses of `base`, and frequencies and rates of their own (`modes.Modes`).
-
-    Attributes
-    ----------
-    angular_frequency, decay_rate : (mode,) array
-    """
+    """Shapes and masses of `base`, and frequencies and rates of their own (`modes.Modes`)."""
 
     base: Modes
-    angular_frequency: Floats
+    angular_frequency: Floats  # angular_frequency, decay_rate: (mode,)
     decay_rate: Floats
 
     @property

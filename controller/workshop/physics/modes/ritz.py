@@ -40,23 +40,13 @@ FOUND_AGAIN = 1e-7  # modes whose k^4 rounding would change by more than this sh
 
 @dataclass(frozen=True)
 class PlateShape:
-    """What the shapes and wavenumbers of a plate's modes depend on.
+    """What the shapes and wavenumbers of a plate's modes depend on."""
 
-    Attributes
-    ----------
-    lengths_m : (along x, along y)
-    ends : ((at x = 0, at the far end), the same along y)
-    foam : float
-        Stiffness of the foam over the plate's bending stiffness, 1/m^4.
-    foam_width_m : float
-        Of the strip along each side that is "foam".
-    """
-
-    lengths_m: Pair
-    ends: Ends
+    lengths_m: Pair  # (along x, along y)
+    ends: Ends  # ((at x = 0, at the far end), the same along y)
     poisson_ratio: float
-    foam: float = 0.0
-    foam_width_m: float = 0.0
+    foam: float = 0.0  # stiffness of the foam over the plate's bending stiffness, 1/m^4
+    foam_width_m: float = 0.0  # of the strip along each side that is "foam"
 
     @property
     def rigid(self) -> int:
@@ -77,23 +67,13 @@ class PlateShape:
 
 @dataclass(frozen=True, eq=False)
 class ModeClass:
-    """Modes of the same symmetry, lowest first.
-
-    Attributes
-    ----------
-    wavenumber4 : (mode,) array
-        k^4 in 1/m^4.
-    coefficients : (y function, mode, x function) array
-        Of the shapes, whose mean square over the plate is 1, in m.
-    foam_share : (mode,) array
-        Share of a shape's square on the strips of foam.
-    """
+    """Modes of the same symmetry, lowest first."""
 
     x: OneDimensionalBasis
     y: OneDimensionalBasis
-    wavenumber4: Floats
-    coefficients: Floats
-    foam_share: Floats
+    wavenumber4: Floats  # (mode,): k^4 in 1/m^4
+    coefficients: Floats  # (y function, mode, x function): of the shapes, whose mean square over the plate is 1, in m
+    foam_share: Floats  # (mode,): share of a shape's square on the strips of foam
 
     def above(self, lowest: float) -> ModeClass:
         """The modes from the k^4 `lowest` on."""
@@ -104,25 +84,16 @@ class ModeClass:
 
 @dataclass(frozen=True, eq=False)
 class PlateSolution:
-    """All modes up to a wavenumber, by class.
-
-    Attributes
-    ----------
-    condition : float
-        Largest eigenvalue of the energy's matrices over the lowest that is not a rigid motion's.
-    """
+    """All modes up to a wavenumber, by class."""
 
     classes: tuple[ModeClass, ...]
-    condition: float
+    condition: float  # largest eigenvalue of the energy's matrices over the lowest that is not a rigid motion's
 
 
 def solve(plate: PlateShape, highest_k: float) -> PlateSolution:
     """All modes up to the wavenumber `highest_k` in 1/m; rigid motions are left out.
 
-    Raises
-    ------
-    ConfigError
-        If the functions do not give the number of modes that there are.
+    Raises ConfigError if the functions do not give the number of modes that there are.
     """
     from threadpoolctl import threadpool_limits
     from tqdm import tqdm

@@ -29,38 +29,25 @@ AT_ONCE = 4_000_000  # numbers in use between the two sums of a shape: 32 MB
 
 @dataclass(frozen=True, eq=False)
 class RitzModes:
-    """Modes of a plate up to a frequency, lowest first, without rigid motions.
-
-    Attributes
-    ----------
-    angular_frequency, decay_rate, mass_kg, mean_square : (mode,) arrays
-        As in `modes.Modes`.
-    foam_share : (mode,) array
-        Share of a shape's square on the strips of foam.
-    condition : float
-        Of the energy's matrices: the largest eigenvalue over the lowest.
-    classes : tuple of (ModeClass, (mode of the class,) int array)
-        The modes of each symmetry, and the numbers that they have here.
-    """
+    """Modes of a plate up to a frequency, lowest first, without rigid motions."""
 
     length_m: float
     width_m: float
-    angular_frequency: Floats
+    angular_frequency: Floats  # angular_frequency, decay_rate, mass_kg, mean_square: (mode,): as in `modes.Modes`
     decay_rate: Floats
     mass_kg: Floats
     mean_square: Floats
-    foam_share: Floats
-    condition: float
+    foam_share: Floats  # (mode,): share of a shape's square on the strips of foam
+    condition: float  # of the energy's matrices: the largest eigenvalue over the lowest
+    # each (ModeClass, (mode of the class,) int array): the modes of each symmetry, and the numbers that they have here
     classes: tuple[tuple[ModeClass, NDArray[np.int64]], ...]
 
     @classmethod
     def of(cls, plate: Plate, highest_hz: float) -> RitzModes:
         """All modes of `plate` up to `highest_hz`.
 
-        Raises
-        ------
-        ConfigError
-            If there is none, or more than can be computed with, which says up to which frequency there are not too many.
+        Raises ConfigError if there is none, or more than can be computed with, which says up to which frequency there are not too
+        many.
         """
         shape = plate_shape(plate)
         per_area = plate.density_kg_m3 * plate.thickness_m

@@ -31,17 +31,9 @@ LEVELS: Final = 127
 
 
 def write_field(board: Board, path: Path) -> int:
-    """Write the file of a board, whole or not at all.
+    """Write the file of a board, whole or not at all; returns its bytes.
 
-    Returns
-    -------
-    int
-        Its bytes.
-
-    Raises
-    ------
-    ConfigError
-        If the plate's shapes are no products of sines, the file would be too large, or it cannot be written.
+    Raises ConfigError if the plate's shapes are no products of sines, the file would be too large, or it cannot be written.
     """
     data = encoded_field(board)
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
@@ -59,10 +51,7 @@ def write_field(board: Board, path: Path) -> int:
 def kept_field(board: Board) -> Path:
     """The file of a board in the user's cache, written if it is not there; its name says what it was computed from.
 
-    Raises
-    ------
-    ConfigError
-        As `write_field`, or if there is no cache.
+    Raises ConfigError as `write_field`, or if there is no cache.
     """
     path = user_cache() / "fields" / f"{board.key}-{board.digest().hex()[:16]}-model{MODEL_VERSION}.field"
     if not path.is_file():
@@ -77,10 +66,7 @@ def kept_field(board: Board) -> Path:
 def encoded_field(board: Board) -> bytes:
     """The file: magic, length of the header as uint32, header in JSON, sections; little-endian, each begins at 8 bytes.
 
-    Raises
-    ------
-    ConfigError
-        If the plate's shapes are no products of sines, or the file would be too large.
+    Raises ConfigError if the plate's shapes are no products of sines, or the file would be too large.
     """
     model = ResponseModel(board)
     factors = model.plate_modes.factors

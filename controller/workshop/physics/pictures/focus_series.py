@@ -22,23 +22,13 @@ REST_TAUS = 3.0  # after T
 
 @dataclass(frozen=True, eq=False)
 class FocusSeries:
-    """Series of an emission.
+    """Series of an emission."""
 
-    Attributes
-    ----------
-    time_s : (time,) array
-        From T.
-    displacement_m : (time,) array
-        Of the focus, from its rest at the idle word.
-    channels : (channel,) int array
-        Those of the voltages.
-    stage_v, piezo_v : (time, channel) array
-        Voltage of the push-pull stage just before each time, and on the piezo behind its driver.
-    """
-
-    time_s: Floats
-    displacement_m: Floats
-    channels: NDArray[np.int64]
+    time_s: Floats  # (time,): from T
+    displacement_m: Floats  # (time,): of the focus, from its rest at the idle word
+    channels: NDArray[np.int64]  # (channel,): those of the voltages
+    # stage_v, piezo_v: (time, channel): voltage of the push-pull stage just before each time, and on the piezo behind its
+    # driver
     stage_v: Floats
     piezo_v: Floats
 
@@ -51,13 +41,7 @@ class FocusSeries:
 
 
 def focus_series(twin: PlateTwin, words: NDArray[np.uint32], point_m: tuple[float, float]) -> FocusSeries:
-    """Play words on a plate at rest at the idle word, and watch one point until some decay times after T.
-
-    Parameters
-    ----------
-    words : (sample,) uint32 array
-    point_m : (x_m, y_m)
-    """
+    """Play words on a plate at rest at the idle word, and watch one point until some decay times after T."""
     board = twin.board
     rest = int(min(np.ceil(REST_TAUS * slowest_decay_s(twin.modes) / board.waveform.bit_period_s), 4 * len(words)))
     played = np.concatenate([words, np.full(rest, board.idle_word)]).astype("<u4")

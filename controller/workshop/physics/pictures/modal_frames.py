@@ -22,21 +22,8 @@ def modal_frames(
 ) -> Iterator[Floats]:
     """Displacement from rest at the end of the last bit and of each `every` bits before it, some frames after the others.
 
-    Parameters
-    ----------
-    forces : (mode, 32) array
-        N per V.
-    volts : (bit, 32) array
-        Above the level at rest, each held for one bit period; zero before.
-    every : int
-        Bits from frame to frame.
-    first : int
-        Frames at the ends of bits before this one are left out.
-
-    Yields
-    ------
-    (frame, mode) array
-        In m.
+    `forces` (mode, 32) are in N per V, `volts` (bit, 32) above the level at rest, each held for one bit period, zero before. Frames
+    at the ends of bits before `first` are left out. Yields (frame, mode) in m.
     """
     bits_at_once = max(1, STATES_AT_ONCE // step.poles.size)
     block = next(size for size in range(min(every, bits_at_once), 0, -1) if every % size == 0)

@@ -33,47 +33,27 @@ WORKING_BYTES = 6 * 16.0 * STATES_AT_ONCE + 64e6  # states of poles, and frames 
 
 @dataclass(frozen=True, eq=False)
 class Movie:
-    """What is shown, and how much it is.
+    """What is shown, and how much it is."""
 
-    Attributes
-    ----------
-    bits : (frame,) int array
-        Bits from the start of the emission at whose ends the plate is shown.
-    time_s : (frame,) array
-        The same from T.
-    x_m, y_m : (nx,), (ny,) array
-        Grid.
-    """
-
-    bits: NDArray[np.int64]
-    time_s: Floats
-    x_m: Floats
+    bits: NDArray[np.int64]  # (frame,): bits from the start of the emission at whose ends the plate is shown
+    time_s: Floats  # (frame,): the same from T
+    x_m: Floats  # x_m, y_m: (nx,), (ny,): grid
     y_m: Floats
 
     @classmethod
     def of(
         cls,
         twin: PlateTwin,
+        # from_s, to_s: window from T; 0.3 ms before and after, in a band as the paper's. Before the emission the plate is
+        # at rest
         from_s: float | None = None,
         to_s: float | None = None,
-        step_s: float | None = None,
-        frames: int | None = None,
+        step_s: float | None = None,  # from frame to frame, in whole bits; by default so that there are `frames`
+        frames: int | None = None,  # `FRAMES` by default
     ) -> Movie:
         """Frames of one emission; T is one of them.
 
-        Parameters
-        ----------
-        from_s, to_s : float, optional
-            Window from T; 0.3 ms before and after, in a band as the paper's. Before the emission the plate is at rest.
-        step_s : float, optional
-            From frame to frame, in whole bits; by default so that there are `frames`.
-        frames : int, optional
-            `FRAMES` by default.
-
-        Raises
-        ------
-        ConfigError
-            If the window does not contain T, or there are too many frames.
+        Raises ConfigError if the window does not contain T, or there are too many frames.
         """
         waveform = twin.board.waveform
         period_s, samples = waveform.bit_period_s, waveform.samples
@@ -112,17 +92,8 @@ class Movie:
     def frames(self, twin: PlateTwin, words: NDArray[np.uint32], memory_mb: float | None = None) -> Iterator[Frames]:
         """Displacement in m of some frames after the others, (frame, ny, nx) each, in float32.
 
-        Parameters
-        ----------
-        words : (sample,) uint32 array
-            Played from rest at the idle word; the idle word follows.
-        memory_mb : float, optional
-            Memory that it may take.
-
-        Raises
-        ------
-        ConfigError
-            If it takes more.
+        The words (sample,) are played from rest at the idle word, which follows them; `memory_mb` is the memory that it may take.
+        Raises ConfigError if it takes more.
         """
         require(
             self.bytes(twin.modes), memory_mb, f"a movie of {len(self.bits)} frames of {self.x_m.size} x {self.y_m.size} points"

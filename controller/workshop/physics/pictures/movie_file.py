@@ -36,10 +36,7 @@ Point = tuple[float, float]
 def check_movie(path: Path) -> None:
     """Refuse a movie that could not be written, before the work for it is done.
 
-    Raises
-    ------
-    ConfigError
-        If its folder does not exist or is not writable, its suffix is none of `KINDS`, or there is no ffmpeg for it.
+    Raises ConfigError if its folder does not exist or is not writable, its suffix is none of `KINDS`, or there is no ffmpeg for it.
     """
     if path.suffix not in KINDS:
         raise ConfigError(f"{path}: a movie is {', '.join(KINDS)}, by the ending of its name")
@@ -50,34 +47,15 @@ def check_movie(path: Path) -> None:
 
 
 def write_movie(
-    path: Path,
+    path: Path,  # `check_movie` has seen it. Not touched unless the whole movie is written
     movie: Movie,
-    frames: Iterator[Frames],
-    foci: Sequence[Point],
-    largest_m: float,
+    frames: Iterator[Frames],  # in m
+    foci: Sequence[Point],  # each (x_m, y_m): circles of `radius_m` are drawn around them
+    largest_m: float,  # displacement of the brightest colour; the darkest is its negative
     radius_m: float,
-    progress: Callable[[int, int], None],
+    progress: Callable[[int, int], None],  # called with the number of frames done and of all
 ) -> None:
-    """Write the frames of a movie.
-
-    Parameters
-    ----------
-    path : Path
-        `check_movie` has seen it. Not touched unless the whole movie is written.
-    frames : iterator of (frame, ny, nx) array
-        In m.
-    foci : sequence of (x_m, y_m)
-        Circles of `radius_m` are drawn around them.
-    largest_m : float
-        Displacement of the brightest colour; the darkest is its negative.
-    progress : callable
-        Called with the number of frames done and of all.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
-    """
+    """Write the frames of a movie; raises ConfigError if the file cannot be written."""
     part = path.with_name(f".{path.name}.part")
     pictures = _pictures(movie, frames, foci, largest_m, radius_m, progress)
     held = np.where(movie.time_s == 0, HELD, 1)
@@ -133,13 +111,7 @@ def _levels(u: Frames, largest_m: float) -> NDArray[np.uint8]:
 
 
 def _encode(part: Path, pictures: Iterator[Image.Image], held: Sequence[int]) -> None:
-    """Give all frames to ffmpeg.
-
-    Raises
-    ------
-    ConfigError
-        With the last line that it said.
-    """
+    """Give all frames to ffmpeg; raises ConfigError with the last line that it said."""
     first = next(pictures)
     size = f"{first.width}x{first.height}"
     read = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", str(RATE_HZ), "-i", "-"]

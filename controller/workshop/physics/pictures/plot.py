@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Rectangle
+from matplotlib.patches import Circle
 
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.physics.field import Field
+from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
 from controller.workshop.physics.pictures.focus_series import FocusSeries
 from controller.workshop.physics.pictures.plot_series import draw_series
 
@@ -24,10 +25,7 @@ Point = tuple[float, float]
 def check_picture(path: Path) -> None:
     """Refuse a picture that could not be written, before the work for it is done.
 
-    Raises
-    ------
-    ConfigError
-        If its folder does not exist or is not writable, or its suffix is none of `KINDS`.
+    Raises ConfigError if its folder does not exist or is not writable, or its suffix is none of `KINDS`.
     """
     if path.suffix not in KINDS:
         raise ConfigError(f"{path}: a picture is {' or '.join(KINDS)}, by the ending of its name")
@@ -40,17 +38,8 @@ def plot_focus(
 ) -> None:
     """Draw the field to a PNG, SVG or PDF file.
 
-    Parameters
-    ----------
-    foci : sequence of (x_m, y_m)
-        Where the fingers are; the first one gets the cross-section along x.
-    series : FocusSeries, optional
-        Drawn beside the plate: what happens over time at the first focus.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be written.
+    `foci` (x_m, y_m) are where the fingers are; the first one gets the cross-section along x. `series` is drawn beside the plate:
+    what happens over time at the first focus. Raises ConfigError if the file cannot be written.
     """
     x, y, u = field.map(field.scale.map_step_m / 4)
     u_um = u * 1e6
@@ -70,9 +59,7 @@ def plot_focus(
         x * 1e3, y * 1e3, u_um, cmap="RdBu_r", vmin=-largest, vmax=largest, shading="nearest", rasterized=True
     )
     left.colorbar(picture, ax=above, label="displacement at T (µm)")
-    for actuator in board.actuators:
-        corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
-        above.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))
+    draw_patches(above, board)
     for focus_x_m, focus_y_m in foci:
         above.add_patch(Circle((focus_x_m * 1e3, focus_y_m * 1e3), field.scale.circle_m * 1e3, fill=False, color="black", lw=1.2))
     above.axhline(section_y_m * 1e3, color="black", lw=0.6, ls=":")
@@ -80,7 +67,4 @@ def plot_focus(
     below.plot(across_m * 1e3, section_um, color="black", lw=0.9)
     below.axhline(0, color="0.7", lw=0.6)
     below.set(xlabel="x (mm)", ylabel="displacement (µm)", title=f"cross-section at y = {section_y_m * 1e3:.1f} mm")
-    try:
-        figure.savefig(path, dpi=120)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
+    save_figure(figure, path, 120)

@@ -15,12 +15,7 @@ LEAST_DB = -80.0
 
 
 def draw_series(figure: Any, board: Board, series: FocusSeries) -> None:
-    """Draw voltages, displacement and spectrum of a focus.
-
-    Parameters
-    ----------
-    figure : matplotlib Figure or SubFigure
-    """
+    """Draw voltages, displacement and spectrum of a focus."""
     waveform = board.waveform
     near_s = PERIODS * 2 / (waveform.band_low_hz + waveform.band_high_hz)
     time_us, time_ms, u_um = series.time_s * 1e6, series.time_s * 1e3, series.displacement_m * 1e6

@@ -18,23 +18,11 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False)
 class DriverResponse:
-    """Exact response of one driver.
+    """Exact response of one driver. After a unit step of the stage the piezo is at 1 + Re sum(residues * exp(poles * t)) volts."""
 
-    After a unit step of the stage the piezo is at 1 + Re sum(residues * exp(poles * t)) volts.
-
-    Attributes
-    ----------
-    poles : (2,) complex array
-        In 1/s.
-    residues : (2,) complex array
-        Of the step response.
-    gain : float
-        w0^2 in 1/s^2.
-    """
-
-    poles: Complex
-    residues: Complex
-    gain: float
+    poles: Complex  # (2,): in 1/s
+    residues: Complex  # (2,): of the step response
+    gain: float  # w0^2 in 1/s^2
 
     @classmethod
     def of(cls, driver: Driver) -> DriverResponse:

@@ -30,23 +30,13 @@ POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough t
 class ResponseModel:
     """Responses of any point of a board's plate, from its modes: a `ResponseSource`.
 
-    Parameters
-    ----------
-    highest_hz : float, optional
-        Modes above are left out; `mode_cut_hz` by default.
-    modes : Modes, optional
-        In place of those of the board's plate.
-
-    Attributes
-    ----------
-    forces : (mode, 32) array
-        N per V.
+    Modes above `highest_hz` are left out, `mode_cut_hz` by default; `modes` take the place of those of the board's plate.
     """
 
     def __init__(self, board: Board, highest_hz: float | None = None, modes: Modes | None = None) -> None:
         self.plate_modes = modes_of(board, highest_hz) if modes is None else modes
         self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
-        self.forces = channel_forces(board, self.plate_modes)
+        self.forces = channel_forces(board, self.plate_modes)  # (mode, 32): N per V
         self.provenance = Provenance("modelled", in_words(board, self.plate_modes))
         waveform = board.waveform
         self.bit_clock_hz = waveform.bit_clock_hz
@@ -92,32 +82,15 @@ class ResponseModel:
 
     def responses(
         self,
-        points_m: ArrayLike,
+        points_m: ArrayLike,  # (point, 2): x and y in m
         *,
-        band_limited: bool = False,
+        band_limited: bool = False,  # the waveform's band only, zero phase
         dtype: DTypeLike = np.float64,
-        out: NDArray[np.floating[Any]] | None = None,
+        out: NDArray[np.floating[Any]] | None = None,  # (point, sample, 32): filled and returned
     ) -> NDArray[np.floating[Any]]:
-        """Responses in the order of time.
+        """Responses in the order of time (point, sample, 32), m per V held for one bit period.
 
-        Parameters
-        ----------
-        points_m : (point, 2) array
-            x and y in m.
-        band_limited : bool
-            The waveform's band only, zero phase.
-        out : (point, sample, 32) array of `dtype`, optional
-            Filled and returned.
-
-        Returns
-        -------
-        (point, sample, 32) array
-            m per V held for one bit period; zero for channels without an actuator.
-
-        Raises
-        ------
-        ValueError
-            If `out` has another shape or type.
+        Zero for channels without an actuator. Raises ValueError if `out` has another shape or type.
         """
         return self._responses(points_m, self._kernel(np.dtype(dtype), band_limited=band_limited), out)
 

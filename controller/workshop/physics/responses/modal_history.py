@@ -32,19 +32,9 @@ class ModalMotion(NamedTuple):
 def modal_history(step: StepResponse, forces: Floats, volts: Floats, bit_period_s: float) -> Iterator[ModalMotion]:
     """Motion from rest, in blocks of bits of at most `STATES_AT_ONCE`.
 
-    Parameters
-    ----------
-    forces : (mode, 32) array
-        N per V.
-    volts : (bit, 32) array
-        Above the level at rest, each held for one bit period; zero before.
-    bit_period_s : float
-        Give each bit n times, and an n-th of its period, to see what happens within it.
-
-    Yields
-    ------
-    ModalMotion
-        From rest at the idle word, bit after bit.
+    `forces` (mode, 32) are in N per V, `volts` (bit, 32) above the level at rest, each held for one bit period, zero before: give
+    each bit n times, and an n-th of its period, to see what happens within it. Yields the motion from rest at the idle word, bit
+    after bit.
     """
     of_poles = forces[step.mode_of_pole]
     turn, driver_turn = np.exp(step.poles * bit_period_s), np.exp(step.driver_poles * bit_period_s)[:, None]

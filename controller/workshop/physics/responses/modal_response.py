@@ -33,10 +33,7 @@ WORKING_BYTES = 64e6
 def pulse_response(step: StepResponse, bit_period_s: float, samples: int) -> Floats:
     """Displacement of each mode after a pulse of 1 V of one bit period.
 
-    Returns
-    -------
-    (mode, sample) array
-        In m per N; sample j is (j + 1) bit periods after the start of the pulse.
+    Returns (mode, sample) in m per N; sample j is (j + 1) bit periods after the start of the pulse.
     """
     since = (
         np.arange(samples) * bit_period_s
@@ -53,24 +50,11 @@ def band_limited_response(
 ) -> Floats:
     """`pulse_response` of all times through a zero-phase band-pass, cut to the samples of an emission.
 
-    Parameters
-    ----------
-    band_hz : (float, float)
-        Lower and upper edge.
-    decay_time_s : float
-        Of the plate; inf without damping.
-
-    Returns
-    -------
-    (mode, sample) array
-        In m per N.
-
-    Notes
-    -----
-    The spectrum of a sampled exponential is a geometric series, so nothing is cut off at T before filtering. An inverse transform
-    of this many bins is right for what decays within this many samples. Most responses do, and then only the bins of the band are
-    computed. One that rings for longer is split: of each pole the part that passes the filter unchanged but for a factor, the gain
-    at the pole's complex frequency, is known in closed form, and what is left is as short as the filter's own response.
+    Returns (mode, sample) in m per N; `decay_time_s` is the plate's, inf without damping. The spectrum of a sampled exponential is
+    a geometric series, so nothing is cut off at T before filtering. An inverse transform of this many bins is right for what decays
+    within this many samples. Most responses do, and then only the bins of the band are computed. One that rings for longer is
+    split: of each pole the part that passes the filter unchanged but for a factor, the gain at the pole's complex frequency, is
+    known in closed form, and what is left is as short as the filter's own response.
     """
     length, whole = transform_length(bit_period_s, samples, band_hz, _slowest_s(step, decay_time_s))
     frequency: Floats = np.fft.rfftfreq(length, bit_period_s).astype(np.float64, copy=False)
@@ -111,28 +95,16 @@ def _passed(pole: Complex, rest_s: float, band_hz: tuple[float, float]) -> Compl
 
 
 class _Filter(NamedTuple):
-    """The band's filter at the bins that are computed.
+    """The band's filter at the bins that are computed."""
 
-    Attributes
-    ----------
-    turn : (bin,) complex array
-        What a delay of one bit period is in the spectrum.
-    gain : (bin,) array
-    slope : (bin,) complex array
-        Of the gain, for a bin on a pole.
-    """
-
-    turn: Complex
-    gain: Floats
-    slope: Complex
+    turn: Complex  # (bin,): what a delay of one bit period is in the spectrum
+    gain: Floats  # (bin,)
+    slope: Complex  # (bin,): of the gain, for a bin on a pole
 
     def series(self, root: Complex, passed: Complex) -> tuple[Complex, Complex]:
         """Spectrum of each pole's exponential and of its conjugate, filtered, without what is `passed`: (pole, bin) both.
 
-        Parameters
-        ----------
-        root : (pole,) complex array
-            Change of the exponential in one bit period.
+        `root` (pole,) is the change of the exponential in one bit period.
         """
         return self._series(root[:, None], passed[:, None]), self._series(root[:, None].conj(), passed[:, None].conj())
 

@@ -40,13 +40,8 @@ def _rows(points_m: NDArray[np.float64]) -> int:
 class RowResponses:
     """Sum over modes of shape(point) kernel(sample) force(channel), for points in rows.
 
-    Parameters
-    ----------
-    factors : TensorFactors
-        Of the modes' shapes.
-    forces : (mode, 32) array
-    kernel : (sample, mode) array
-        float32 or float64; the type of the result.
+    `factors` are those of the modes' shapes, `forces` (mode, 32), `kernel` (sample, mode) in float32 or float64, the type of the
+    result.
     """
 
     def __init__(self, factors: TensorFactors, forces: NDArray[np.float64], kernel: Reals) -> None:
@@ -60,13 +55,9 @@ class RowResponses:
         self._summed = np.empty((len(self._orders), len(kernel), CHANNELS), kernel.dtype)
 
     def fill(self, points_m: NDArray[np.float64], out: Reals) -> None:
-        """Compute the responses of points.
+        """Compute the responses of points (point, 2), fastest when the points of a row follow each other.
 
-        Parameters
-        ----------
-        points_m : (point, 2) array
-            In any order; fastest when the points of a row follow each other.
-        out : (point, sample, 32) array, C-contiguous, of the kernel's type
+        `out` (point, sample, 32) is C-contiguous, of the kernel's type.
         """
         kernel, summed = self._kernel, self._summed
         rows_m, row_of = np.unique(points_m[:, 1], return_inverse=True)

@@ -29,26 +29,16 @@ Number = TypeVar("Number", np.float64, np.complex128)
 
 @dataclass(frozen=True, eq=False)
 class StepResponse:
-    """Static part, poles and residues of all modes.
+    """Static part, poles and residues of all modes."""
 
-    Attributes
-    ----------
-    static : (mode,) array
-        Displacement at rest in m per N.
-    poles, residues : (pole,) complex array
-        Of the plate; the first `mode` of them are in the order of the modes, those after are the
-        second poles of overdamped modes. A conjugate pair is one entry with twice the residue.
-    mode_of_pole : (pole,) int array
-    driver_poles : (2,) complex array
-    driver_residues : (mode, 2) complex array
-    """
-
-    static: Floats
+    static: Floats  # (mode,): displacement at rest in m per N
+    # poles, residues: (pole,): of the plate; the first `mode` of them are in the order of the modes, those after are the second
+    # poles of overdamped modes. A conjugate pair is one entry with twice the residue
     poles: Complex
     residues: Complex
-    mode_of_pole: NDArray[np.int64]
-    driver_poles: Complex
-    driver_residues: Complex
+    mode_of_pole: NDArray[np.int64]  # (pole,)
+    driver_poles: Complex  # (2,)
+    driver_residues: Complex  # (mode, 2)
 
     @classmethod
     def of(cls, modes: Modes, driver: DriverResponse) -> StepResponse:

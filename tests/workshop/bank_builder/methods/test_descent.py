@@ -18,8 +18,9 @@ from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.physics.audible import surface_energy
 from controller.workshop.physics.field import FocusScale
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import capture_of_words
 
 BOARD = small_board()
 POINTS_M = np.array([(0.034, 0.031), (0.047, 0.024)])

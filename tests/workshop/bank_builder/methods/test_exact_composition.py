@@ -10,8 +10,9 @@ from controller.device.board.lookup import find_board
 from controller.workshop.bank_builder.methods.dual import cheapest, farthest, flip, likely_polarities
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition
 from controller.workshop.bank_builder.methods.plain import SignOfSum
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import capture_of_words
 
 BOARD = load_board(find_board("simulated"))
 POINTS = [(0.06, 0.05, 1.0), (0.14, 0.09, 1.0), (0.055, 0.11, 1.0), (0.16, 0.03, 1.0)]

@@ -10,8 +10,9 @@ from controller.workshop.bank_builder.methods.exact_composition import ExactComp
 from controller.workshop.bank_builder.methods.nulls import ExactNulls, independent
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import Prediction
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import capture_of_words
 
 BOARD = load_board(find_board("simulated"))
 POINT = (0.06, 0.05, 1.0)

@@ -6,8 +6,9 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import Prediction
-from controller.workshop.physics.plate_twin import PlateTwin, capture_of_words
+from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import capture_of_words
 
 BOARD = load_board(find_board("simulated"))
 POINTS = [(0.06, 0.05, 1.0), (0.14, 0.09, 1.0)]

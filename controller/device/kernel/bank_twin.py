@@ -1,0 +1,151 @@
+"""A bank's responses in memory, and what a caller gives beside them, checked as the compiled kernel checks them."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+from controller.device.kernel.polarity_twin import SKETCH_STEP
+
+Readable = bytes | bytearray | memoryview
+Writable = bytearray | memoryview
+Point = tuple[float, float, float]  # x_m, y_m, amplitude
+Patch = list[tuple[int, int]]  # response and weight of up to four cells
+
+CHANNELS: Final = 32
+REST_SAMPLES: Final = 4  # samples to a row of the rest outside the band
+GROUP_SAMPLES: Final = 8  # of which blocks consist
+MAX_FOCI: Final = 10
+MAX_SAMPLES: Final = 2000  # so that sums of absolute values stay below 2^31
+MAX_BLOCK_SAMPLES: Final = 256
+LARGEST: Final = (1 << 31) - 1
+WEIGHT_SUM: Final = 256  # of the cells around a point: four roundings may add 2, and 258 * 127 is still within 16 bits
+
+# What a composition needs to know of bank and board: samples, bytes from one response to the next, cells along x and y,
+# responses, idle word, samples of a block; pitch, x and y of cell 0 in m.
+PLAN: Final = struct.Struct("<7q3d")
+ENTRY: Final = struct.Struct("=i")
+SCALE: Final = struct.Struct("=f")
+
+
+class BankBuffers(NamedTuple):
+    """What the kernel reads of a bank; of the compiled one a tuple of these."""
+
+    plan: Readable  # as `PLAN` packs it
+    entries: Readable  # for each cell the number of its response; below 0 for none
+    scales: Readable  # m per V of one level of each response
+    good: Readable  # for each response whether it may be used; zero if not yet
+    response: Readable  # the responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each
+
+
+def room_bytes(samples: int) -> int:
+    """Bytes of memory in which waveforms of this many samples are composed.
+
+    Raises ValueError if there are none, or more than `MAX_SAMPLES`.
+    """
+    if not 1 <= samples <= MAX_SAMPLES:
+        raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
+    # 32 bits for each value of the points' responses, of their sum, and five more in what follows
+    # and 64 bits for each of their sketches, of the sum of these and two more
+    of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP)
+    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rest_rows(samples)) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches)
+
+
+def checked_words(bank: Responses, words: Writable, room: Writable, points: Sequence[Point]) -> memoryview:
+    """The words as bytes; raises ValueError if a buffer is too short, or a number of the points not finite or beyond its range."""
+    for x_m, y_m, amplitude in points:
+        if not (math.isfinite(x_m) and math.isfinite(y_m)):
+            raise ValueError("a place of the points to compose is not finite")
+        if not 0 < amplitude <= 1:
+            raise ValueError("an amplitude of the points to compose is not above 0 and at most 1")
+    filled = memoryview(words).cast("B")
+    if filled.nbytes < 4 * bank.samples:
+        raise ValueError(f"{bank.samples} words do not fit into {filled.nbytes} bytes")
+    if memoryview(room).readonly:
+        raise ValueError("the room is read-only")
+    if memoryview(room).nbytes < room_bytes(bank.samples):
+        raise ValueError(f"{bank.samples} samples need {room_bytes(bank.samples)} bytes of room, not {memoryview(room).nbytes}")
+    return filled
+
+
+class Responses:
+    """The responses of a bank, in buffers that are as long as the plan says."""
+
+    def __init__(self, bank: BankBuffers) -> None:
+        plan, entries, scales, good, response = bank
+        if memoryview(plan).nbytes != PLAN.size:
+            raise ValueError(f"a plan has {PLAN.size} bytes, not {memoryview(plan).nbytes}")
+        samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m = PLAN.unpack(plan)
+        if not 1 <= samples <= MAX_SAMPLES:
+            raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
+        if not GROUP_SAMPLES <= block <= MAX_BLOCK_SAMPLES or block % GROUP_SAMPLES:
+            raise ValueError(f"blocks of {block} samples: not {GROUP_SAMPLES} to {MAX_BLOCK_SAMPLES}, in eights")
+        values = (samples + rest_rows(samples)) * CHANNELS
+        if not (
+            0 <= idle_word < 1 << CHANNELS
+            and 1 <= nx <= LARGEST
+            and 1 <= ny <= LARGEST
+            and 0 <= count <= LARGEST
+            and values <= stride <= LARGEST
+            and 0 < pitch_m < math.inf
+            and math.isfinite(x0_m)
+            and math.isfinite(y0_m)
+        ):
+            raise ValueError("a number of the plan is beyond its range")
+        self.entries, self.scales = memoryview(entries).cast("B"), memoryview(scales).cast("B")
+        self.good, self.response = memoryview(good).cast("B"), memoryview(response).cast("B")
+        if self.entries.nbytes < 4 * nx * ny or self.scales.nbytes < 4 * count or self.good.nbytes < count:
+            raise ValueError("the tables are too short for the plan")
+        self.samples, self.block_samples, self.idle_word, self.count = samples, block, idle_word, count
+        self.stride, self.values, self.nx, self.ny = stride, values, nx, ny
+        self.pitch_m, self.x0_m, self.y0_m = pitch_m, x0_m, y0_m
+
+    def patch(self, x_m: float, y_m: float) -> tuple[Patch, int]:
+        """Responses around a point that have a weight, with their weights; and -1, or the first cell without one."""
+        ix, right = self._along(x_m - self.x0_m, self.nx - 1)
+        iy, up = self._along(y_m - self.y0_m, self.ny - 1)
+        corner = iy * self.nx + ix
+        cells = [(corner, (1 - up) * (1 - right))]
+        if right:
+            cells.append((corner + 1, (1 - up) * right))
+        if up:
+            cells.append((corner + self.nx, up * (1 - right)))
+            if right:
+                cells.append((corner + self.nx + 1, up * right))
+        numbers, shares, total = [], [], 0.0
+        for cell, share in cells:
+            (entry,) = ENTRY.unpack_from(self.entries, 4 * cell)
+            if not 0 <= entry < self.count or not self.good[entry]:
+                return [], cell
+            if entry * self.stride + self.values > self.response.nbytes:
+                raise ValueError("the responses are too short for the plan")
+            (scale,) = SCALE.unpack_from(self.scales, 4 * entry)
+            if not 0 <= scale < math.inf:
+                raise ValueError(f"the scale of response {entry} is not finite, or below 0")
+            numbers.append(entry)
+            shares.append(share * scale)
+            total += share * scale
+        if len(cells) == 1:
+            return [(numbers[0], WEIGHT_SUM)], -1
+        unit = WEIGHT_SUM / total if total > 0 else 0.0
+        return [(entry, round(share * unit)) for entry, share in zip(numbers, shares, strict=True)], -1
+
+    def _along(self, distance_m: float, last: int) -> tuple[int, float]:
+        """Index of a row of cells and the distance beyond it, in pitches; 0 outside the grid.
+
+        The distance is rounded to a millionth of a pitch, so that a point on a cell needs no neighbours.
+        """
+        millionths = distance_m / self.pitch_m * 1e6
+        if not millionths > 0:
+            return 0, 0.0
+        if millionths >= last * 1e6:
+            return last, 0.0
+        index, beyond = divmod(round(millionths), 1_000_000)
+        return index, beyond * 1e-6
+
+
+def rest_rows(samples: int) -> int:
+    """Rows of the rest outside the band, of a response of this many samples."""
+    return -(-samples // REST_SAMPLES)

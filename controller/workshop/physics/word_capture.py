@@ -1,0 +1,32 @@
+"""Pins that play words without an FPGA."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.fpga.capture import Capture
+
+
+def capture_of_words(
+    words: NDArray[np.uint32], bit_ticks: int, idle_word: int, start_tick: int, period_ticks: int = 0, repetitions: int = 1
+) -> Capture:
+    """Pins that idle from tick 0 on and play `words` from `start_tick` on, without an FPGA.
+
+    A word is held for `bit_ticks`; repetitions are `period_ticks` from start to start, between which the pins hold `idle_word`.
+    """
+    starts = start_tick + np.arange(repetitions) * period_ticks
+    length = len(words) * bit_ticks
+    emission = np.arange(len(words) + 1) * bit_ticks
+    ticks = np.concatenate([[0], (starts[:, None] + emission).ravel()])
+    played = np.concatenate([[idle_word], np.tile(np.append(words, np.uint32(idle_word)), repetitions)]).astype(np.uint32)
+    last = np.append(ticks[1:] != ticks[:-1], True)  # back to back, the next emission's first word counts
+    ticks, played = ticks[last], played[last]
+    changed = np.append(played[0] != 0, played[1:] != played[:-1])
+    ticks, played = ticks[changed], played[changed]
+    return Capture(
+        ticks=ticks.astype(np.uint64),
+        words=played,
+        hv=np.ones(len(played), np.uint8),
+        focus_ticks=(starts + length).astype(np.uint64),
+    )
