@@ -4,6 +4,7 @@ import json
 
 import pytest
 from device.board.numbers_of import beyond, ends, numbers_of
+from tables import each_row
 
 from controller.device.application_socket.messages import AnyRequest
 from controller.device.board.descriptions import described, type_info, unit_of
@@ -30,22 +31,24 @@ def answer_to(panel, client, message):
 @pytest.mark.parametrize("called", NUMBERS)
 def test_each_has_one_answer(called, panel):
     path, kind, made = NUMBERS[called]
-    client = panel.connect()
-    for number in ends(kind):
-        assert "must be" not in answer_to(panel, client, made(number)).get("reason", "")
-    for number in beyond(kind):
-        (answer,) = panel.ask(client, made(number))
-        assert answer["outcome"] == "refused"
-        if path != ("id",):  # a number or a text
-            assert answer["reason"].startswith(f"{dotted(path)} = {number!r}: must be ")
-            assert described(kind, unit_of(path[-1])) in answer["reason"]
+    with panel.connect() as client:
+        for number in ends(kind):
+            assert "must be" not in answer_to(panel, client, made(number)).get("reason", "")
+        for number in beyond(kind):
+            (answer,) = panel.ask(client, made(number))
+            assert answer["outcome"] == "refused"
+            if path != ("id",):  # a number or a text
+                assert answer["reason"].startswith(f"{dotted(path)} = {number!r}: must be ")
+                assert described(kind, unit_of(path[-1])) in answer["reason"]
 
 
-@pytest.mark.parametrize("called", NUMBERS)
-@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1e999", "1" * 5000, "0x10", "1e", "-"])
+@each_row("called", NUMBERS)
+@each_row("number", ["NaN", "Infinity", "-Infinity", "1e999", "1" * 5000, "0x10", "1e", "-"])
 def test_what_is_no_number_has_one_too(called, number, panel):
     made = NUMBERS[called][2]
     line = json.dumps(made(123454321)).replace("123454321", number).encode() + b"\n"
-    (answer,) = panel.ask(panel.connect(), line)
+    with panel.connect() as client:
+        (answer,) = panel.ask(client, line)
+    panel.turn()
     assert answer["outcome"] == "refused"
     assert answer["reason"].isprintable()

@@ -2,8 +2,8 @@
 
 import math
 
-import pytest
 from device.board.numbers_of import BEYOND_ALL, beyond, ends, numbers_of
+from tables import each_row
 
 from controller.device.board.board import as_board, board_file
 from controller.device.board.descriptions import described, type_info, unit_of
@@ -63,7 +63,7 @@ def key_unit(path):
     return unit_of(next(part for part in reversed(path) if isinstance(part, str)))
 
 
-@pytest.mark.parametrize("called", NUMBERS)
+@each_row("called", NUMBERS)
 def test_the_ends_of_a_range_make_a_board_or_break_a_relation(called):
     path, kind, made = NUMBERS[called]
     for number in ends(kind):
@@ -78,7 +78,7 @@ def test_the_ends_of_a_range_make_a_board_or_break_a_relation(called):
             board.digest()
 
 
-@pytest.mark.parametrize("called", NUMBERS)
+@each_row("called", NUMBERS)
 def test_beyond_its_range_a_number_is_refused_in_a_line_with_key_value_and_range(called):
     path, kind, made = NUMBERS[called]
     for number in beyond(kind):

@@ -7,6 +7,7 @@ import msgspec
 import pytest
 from device.board.changed_board import changed
 from device.board.numbers_of import BEYOND_ALL, beyond, ends, numbers_of
+from tables import each_row
 
 from controller.device.bank.reader import Bank
 from controller.device.board.descriptions import described, type_info, unit_of
@@ -74,7 +75,7 @@ def plate_of(request, board):
     return changed(board, **sides)
 
 
-@pytest.mark.parametrize("called", NUMBERS)
+@each_row("called", NUMBERS)
 def test_the_ends_of_a_range_make_a_scene_that_can_be_loaded_again_or_name_another_key(called, plate_of, tmp_path):
     path, kind, made = NUMBERS[called]
     for number in ends(kind):
@@ -90,7 +91,7 @@ def test_the_ends_of_a_range_make_a_scene_that_can_be_loaded_again_or_name_anoth
         assert again.regions == scene.regions
 
 
-@pytest.mark.parametrize("called", NUMBERS)
+@each_row("called", NUMBERS)
 def test_beyond_its_range_a_number_is_refused_in_a_line_with_key_value_and_range(called):
     path, kind, made = NUMBERS[called]
     record, path = (EffectTable, path[2:]) if path[0] == "effects" else (SceneTable, path)
@@ -111,7 +112,7 @@ def checker(board, bank_file):
         yield LayerChecker(LayerSetup("", board, str(bank_file), bytes([1]) * bank.grid.cells))
 
 
-@pytest.mark.parametrize("called", NUMBERS)
+@each_row("called", NUMBERS)
 def test_a_layer_with_a_number_at_the_end_of_its_range_comes_through_or_is_a_refusal(called, checker):
     _, kind, made = NUMBERS[called]
     for number in (*ends(kind), *beyond(kind)):
