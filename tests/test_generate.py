@@ -1,6 +1,7 @@
 """Every generated file is committed as it is made, and a slip in its source leaves all files as they were."""
 
 import pytest
+from tables import each_row
 
 from controller import generate
 from controller.generate import GENERATORS, ROOT, differing, made, main
@@ -8,7 +9,7 @@ from controller.generate import GENERATORS, ROOT, differing, made, main
 BY_VERSION = {"command-line"}  # its line breaks depend on the version of Python: tests/commands/test_shell_files.py
 
 
-@pytest.mark.parametrize("name", sorted(set(GENERATORS) - BY_VERSION))
+@each_row("name", sorted(set(GENERATORS) - BY_VERSION))
 def test_what_is_committed_is_what_is_generated(name):
     """Else: `python -m controller.generate`."""
     texts = made(ROOT, [name])

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tables import each_row
 
 from controller import log as log_module
 from controller.log import MAX_LINE_BYTES, Event, Log, Priority, line
@@ -70,7 +71,7 @@ def test_a_log_that_is_gone_is_no_reason_to_stop(pipe):
     assert log.lost == 2
 
 
-@pytest.mark.parametrize("priority", list(Priority))
+@each_row("priority", list(Priority))
 def test_only_the_journal_is_given_priorities(tmp_path, monkeypatch, priority):
     with (tmp_path / "log").open("w+") as file, contextlib.redirect_stderr(file):
         at = os.fstat(file.fileno())
@@ -159,7 +160,7 @@ def test_the_catalogue_explains_every_event_once():
     assert sorted([*(event.message_id for event in Event), *of_script]) == sorted(explained)
 
 
-@pytest.mark.parametrize("before", range(4))
+@each_row("before", range(4))
 def test_a_line_that_is_too_long_is_cut_between_two_characters(before):
     code = f"from controller.log import log; log('x' * {before} + '\\N{{GRINNING FACE}}' * 4096)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)

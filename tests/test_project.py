@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from readme_commands import works
+from tables import each_row
 
 ROOT = Path(__file__).parent.parent
 TOP_LEVEL = {"pyproject.toml", "controller", "fpga_rtl", "boards", "systemd", "tests", "README.md", "LICENSE"}
@@ -22,7 +23,7 @@ def tracked():
     return [Path(line) for line in listed.stdout.splitlines()]
 
 
-@pytest.mark.parametrize(
+@each_row(
     "command",
     [["ruff", "check", "--no-cache"], ["ruff", "format", "--check", "--no-cache"], ["mypy"], ["lint-imports", "--no-cache"]],
 )
@@ -173,7 +174,7 @@ def set_up(folder, extra, missing=False, user=0, programs=("apt-get", "sudo")):
     return subprocess.run(command, env={"PATH": str(folder / "bin")}, capture_output=True, text=True, check=False)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("user", "prefix", "extra", "more"),
     [(0, "", "offline", ""), (1000, "sudo ", "test", " iverilog strace"), (0, "", "test,gateware", " iverilog strace ngspice")],
 )
@@ -216,7 +217,7 @@ def test_a_system_without_apt_is_informed_what_is_needed(tmp_path):
     assert done.stdout.endswith("pip install --disable-pip-version-check -e .[offline]\n")
 
 
-@pytest.mark.parametrize("extra", [[], ["tests"], ["docs"]])
+@each_row("extra", [[], ["tests"], ["docs"]])
 def test_set_up_without_a_known_extra_says_which_there_are(tmp_path, extra):
     done = set_up(tmp_path, extra)
     assert done.returncode == 2

@@ -153,7 +153,7 @@ def test_no_reader_waits_or_follows(tmp_path, reader, kind):
     check(read, path)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each_row("kind", KINDS)
 def test_the_state_of_updates_names_what_is_damaged_and_goes_on(tmp_path, kind):
     layout = layout_of(tmp_path)
     for folder in (layout.state, layout.requests, layout.release("1.0")):
@@ -170,7 +170,7 @@ def test_the_state_of_updates_names_what_is_damaged_and_goes_on(tmp_path, kind):
     ]
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each_row("kind", KINDS)
 def test_an_update_is_asked_for_whatever_the_service_has_in_place_of_its_status(tmp_path, kind):
     layout = layout_of(tmp_path)
     layout.download.mkdir()

@@ -1,6 +1,7 @@
 """A table of cases fails with the names of its rows, and runs all of them."""
 
 import inspect
+import os
 
 import pytest
 from tables import each_row
@@ -38,3 +39,18 @@ def test_of_several_rows_that_fail_each_is_named_one_table_within_the_other():
 def test_a_table_without_rows_is_no_test():
     with pytest.raises(AssertionError, match="without any row"):
         each_row("value", [])
+
+
+@pytest.fixture
+def counted(tmp_path):
+    yield [tmp_path.name]
+    (tmp_path / "ended").touch()
+
+
+@each_row("value", "abc", afresh=[counted])
+def test_each_row_has_fixtures_and_a_folder_of_its_own(counted, tmp_path, monkeypatch, value):
+    assert counted == [{"a": "0", "b": "1", "c": "2"}[value]]
+    assert value == "a" or (tmp_path.parent / str(int(tmp_path.name) - 1) / "ended").exists()
+    assert "HAPTIC_PANEL_ROW" not in os.environ
+    monkeypatch.setenv("HAPTIC_PANEL_ROW", value)
+    counted.append(value)

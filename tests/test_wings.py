@@ -15,6 +15,7 @@ import pytest
 from compiled_copy import ROOT, build_wheel
 from patience import communicate
 from scripted_evemu import evemu
+from tables import each_row
 
 from controller.cli import COMMANDS
 from controller.device.application_socket.client import PanelClient
@@ -230,7 +231,7 @@ def without_room(folder, room):
     return Installation(sys.executable, folder)
 
 
-@pytest.mark.parametrize("room", ["device/update", "device/application_socket", "workshop/benchmark", "workshop/calibration"])
+@each_row("room", ["device/update", "device/application_socket", "workshop/benchmark", "workshop/calibration"])
 def test_without_a_room_a_panel_runs_and_shows_its_state(room, bank_file, tmp_path):
     (tmp_path / "checkout").mkdir()
     installation = without_room(tmp_path / "checkout", room)

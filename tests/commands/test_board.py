@@ -34,13 +34,14 @@ def test_every_shipped_board_is_valid(name, capsys):
     assert 1 <= found["channels"] <= 32
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("file", "was", "becomes", "said"),
     [
         ("board.toml", 'kind = "recording"', 'kind = "cst999"', "touch.kind = 'cst999': must be one of 'ft5x06', 'gt911', "),
         ("board.toml", "demo.evemu", "no.evemu", "touch.recording = 'no.evemu': there is no file"),
         ("scene.toml", 'shape = "rectangle"', 'shape = "square"', "shape = 'square': must be one of 'rectangle', 'circle'"),
     ],
+    afresh=[copied],
 )
 def test_what_is_invalid_is_said_with_file_and_key(copied, capsys, file, was, becomes, said):
     text = (copied / file).read_text()

@@ -6,6 +6,7 @@ import shutil
 
 import pytest
 from device.board.changed_board import rewritten
+from tables import each_row
 
 from controller.cli import main
 from controller.device.board.board import load_board
@@ -61,8 +62,8 @@ def copy_of(name, folder, text):
     return folder
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize("example", REFUSED)
+@each_row("command", COMMANDS)
+@each_row("example", REFUSED)
 def test_what_is_unsafe_or_impossible_is_refused_by_every_command(example, command, tmp_path, capsys):
     keys, said = REFUSED[example]
     folder = copy_of("ulx3s", tmp_path / "panel", rewritten(SHIPPED["ulx3s"], **keys))

@@ -269,7 +269,7 @@ def test_wrong_usage_is_one_line_that_names_the_help(capsys, arguments):
     assert refusal_of(capsys, *arguments, code=2).endswith(f"({command} --help)\n")
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("line", "said"),
     [
         ("rnu", "'rnu' is no command; did you mean run?"),
@@ -295,7 +295,7 @@ def test_what_was_probably_meant_is_named(capsys, line, said):
     assert said in refusal_of(capsys, *line.split(), code=2)
 
 
-@pytest.mark.parametrize("option", ["--plot", "--replay", "--scene", "--bank", "--board"])
+@each_row("option", ["--plot", "--replay", "--scene", "--bank", "--board"])
 def test_an_empty_value_is_refused_before_the_run(capsys, option):
     assert f"{option}: the value is empty" in refusal_of(capsys, "run", option, "", code=2)
 
@@ -477,7 +477,7 @@ def test_a_bank_of_another_pitch_is_said_not_to_be_the_one_that_run_reads(capsys
     assert not path.exists()
 
 
-@pytest.mark.parametrize("content", [b"my notes\n", b"PK", b"\0" * 5000])
+@each_row("content", [b"my notes\n", b"PK", b"\0" * 5000], afresh=[small_board])
 def test_a_file_that_is_no_bank_is_never_written_over_and_nothing_advises_it(capsys, small_board, tmp_path, content):
     notes = tmp_path / "notes.txt"
     notes.write_bytes(content)

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from tables import each_row
 
 from controller.commands.update import make_release as update_make_release
 from controller.errors import UpdateError
@@ -29,7 +30,7 @@ def namespaces():
         pytest.skip("this kernel lets nobody make user namespaces")
 
 
-@pytest.mark.parametrize("command", [("bank", "build", "--pitch-mm", "20"), ("run", "--speed", "max"), ("bank", "choices")])
+@each_row("command", [("bank", "build", "--pitch-mm", "20"), ("run", "--speed", "max"), ("bank", "choices")])
 def test_what_is_to_be_kept_has_no_place_and_that_is_said(tmp_path, command):
     done = run(*command, folder=tmp_path)
     assert done.returncode == 78

@@ -2,6 +2,7 @@
 
 import msgspec
 import pytest
+from tables import each_row
 
 from controller.commands import run
 from controller.device.board.board import load_board
@@ -17,7 +18,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path / "haptic-panel"
 
 
-@pytest.mark.parametrize("name", ["ulx3s", "ulx3s_pi5", "ice40_hx8k"])
+@each_row("name", ["ulx3s", "ulx3s_pi5", "ice40_hx8k"])
 def test_a_board_with_devices_has_one_for_the_groups_of_the_package(name):
     settings = load_board(find_board(name)).application_socket
     groups = (settings.group, settings.operate_group, settings.regions_group, settings.look_group)

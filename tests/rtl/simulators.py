@@ -10,16 +10,21 @@ from pathlib import Path
 
 from controller.workshop.gateware.rtl_build import verilator_root
 
-# Verilator's own object files are most of a build and the same for every module: compile them once
+# Verilator's own object files and headers are most of a build, and the same for every module: compile them once
 KEEP_RUNTIME = """#!/bin/sh
 for source; do :; done
-object=$(basename "$source" .cpp).o
+object=$(basename "$source" .cpp).o kept=$(dirname "$0") flags="${*% -c *}"
 case $object in
 verilated*)
-    kept=$(dirname "$0")/$object
-    [ -f "$kept" ] || { "$@" && cp "$object" "$kept.$$" && mv "$kept.$$" "$kept"; } || exit
-    cp "$kept" . ;;
-*) exec "$@" ;;
+    [ -f "$kept/$object" ] || { "$@" && cp "$object" "$kept/$$" && mv "$kept/$$" "$kept/$object"; } || exit
+    cp "$kept/$object" . ;;
+*)
+    case "$flags " in *" -O0 "*) ;; *) exec "$@" ;; esac
+    [ -f "$kept/runtime.h.gch" ] || {
+        printf '#include "%s"\n' verilated.h verilated_cov.h verilated_dpi.h verilated_vpi.h > "$kept/runtime.h"
+        $flags -x c++-header -o "$kept/$$" "$kept/runtime.h" && mv "$kept/$$" "$kept/runtime.h.gch"
+    } || exit
+    exec "$@" -include "$kept/runtime.h" ;;
 esac
 """
 

@@ -1,6 +1,7 @@
 """The reader of coverage.dat, on a file written by hand; what it says of the real benches is in test_rtl.py."""
 
 import pytest
+from tables import each_row
 from verilog_coverage import lcov, line_counts, load_waivers, read, readable, table, together, too_little, uncovered, waive
 
 SOURCE = """\
@@ -104,7 +105,7 @@ def test_waivers_take_lines_without_cover_away(folder):
     assert 3 in counts["blink.v"]  # what was given stays as it was
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("waiver", "what"),
     [
         ({"file": "blink.v", "pattern": "no such text", "reason": "x"}, "waives nothing"),
@@ -113,6 +114,7 @@ def test_waivers_take_lines_without_cover_away(folder):
         ({"file": "gone.v", "line": 3, "reason": "x"}, "waives nothing"),
         ({"file": "blink.v", "line": 3, "reason": ""}, "no reason"),
     ],
+    afresh=[folder],
 )
 def test_a_waiver_is_needed_and_has_a_reason(folder, waiver, what):
     counts = line_counts(read(write(folder, "a.dat", dat())))

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tables import each_row
 
 from controller.device.bank.bank_file import map_bytes
 from controller.device.bank.file_format import PAGE
@@ -181,7 +182,7 @@ def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank,
         assert part in str(refused.value)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("damage", "reason"),
     [
         (lambda data: data[:0], "is empty"),
@@ -198,6 +199,7 @@ def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank,
         (lambda data: data[:8192] + b"\x07" + data[8193:], "CRC-32 of section 'checksums'"),
         (lambda data: data[:12288] + b"\x07" + data[12289:], "CRC-32 of section 'scale'"),
     ],
+    afresh=[path],
 )
 def test_refuses_a_damaged_file_with_the_reason_and_how_to_rebuild(path, make_bank, board, damage, reason):
     make_bank(path)
@@ -242,7 +244,7 @@ def test_words_stay_when_the_bank_is_closed_but_nothing_more_is_mapped(path, mak
         bank.responses.response(0)
 
 
-@pytest.mark.parametrize("granularity", [4096, 16384, 65536])
+@each_row("granularity", [4096, 16384, 65536], afresh=[path])
 def test_sections_are_mapped_on_machines_with_larger_pages(path, granularity):
     data = np.random.default_rng(0).bytes(40 * PAGE)
     path.write_bytes(data)
@@ -292,7 +294,7 @@ def test_a_composition_is_read_and_checked_once_and_a_damaged_one_is_taken_out(p
         bank.drive.composed(POINTS)
 
 
-@pytest.mark.parametrize("steps", [(2, 1, 2, 0, 0, 0, 0, 5), (0,), (11,)])
+@each_row("steps", [(2, 1, 2, 0, 0, 0, 0, 5), (0,), (11,)], afresh=[path])
 def test_a_table_of_compositions_that_cannot_be_is_refused(path, make_bank, monkeypatch, steps):
     packed = struct.Struct("<II30i")
     foreign = SimpleNamespace(pack=lambda *_: packed.pack(1, *steps, *[0] * (31 - len(steps))))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tables import each_row
 
 from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
@@ -84,7 +85,7 @@ def test_a_bank_without_all_its_entries_is_never_put_in_place(old):
         writer.add(0, WORDS, LEVELS, 1e-9)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("entry", "reason"),
     [
         ((1, WORDS, LEVELS, 1e-9), "not asked for"),
@@ -95,6 +96,7 @@ def test_a_bank_without_all_its_entries_is_never_put_in_place(old):
         ((2, WORDS, LEVELS[:9], 1e-9), "12 rows"),
         ((2, WORDS, LEVELS.astype(float), 1e-9), "9 samples"),
     ],
+    afresh=[old],
 )
 def test_refuses_an_entry_that_does_not_belong(old, entry, reason):
     def misled():

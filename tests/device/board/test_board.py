@@ -214,7 +214,7 @@ def test_refuses_more_than_32_channels(tmp_path):
     assert "actuators are 33" in refused(tmp_path, SHIPPED.replace("]\n\n[plate]", extra, 1))
 
 
-@pytest.mark.parametrize("content", [b"", b"\x00\xff\xfe", b"name = 1"])
+@each_row("content", [b"", b"\x00\xff\xfe", b"name = 1"])
 def test_refuses_a_file_that_is_no_board(tmp_path, content):
     (tmp_path / "board.toml").write_bytes(content)
     with pytest.raises(ConfigError, match=re.escape(str(tmp_path))):

@@ -4,6 +4,7 @@ import re
 import shutil
 
 import pytest
+from tables import each_row
 
 from controller.cli import main
 from controller.device.board.board import load_board
@@ -29,13 +30,14 @@ def rewrite(file, was, becomes):
     file.write_text(text.replace(was, becomes, 1))
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("was", "becomes", "said"),
     [
         ('family = "ecp5"', 'family = "ice40"', "devices: '25k' is no size of family 'ice40', such as 'hx8k'"),
         ('"25k"', '"hx8k"', "devices: 'hx8k' is no size of family 'ecp5', such as '25k'"),
         ('"pins.lpf"', '"pins.pcf"', "constraints = 'pins.pcf': pins of family 'ecp5' are in a file .lpf"),
     ],
+    afresh=[copied],
 )
 def test_keys_that_do_not_go_together_are_refused(copied, was, becomes, said):
     rewrite(copied / "fpga.toml", was, becomes)

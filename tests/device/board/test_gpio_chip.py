@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import gpiod
 import pytest
+from tables import each_row
 
 from controller.device.board import gpio_chip
 from controller.device.board.gpio_chip import find_chip, find_lines, request_lines
@@ -85,7 +86,7 @@ def test_a_name_of_digits_goes_before_a_number(chips):
     assert numbers("7", "8") == {"7": 1, "8": 8}
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("names", "line", "words"),
     [
         ([""] * 54, "GPIO25", 'its lines have no names; a line without a name is given by its number, "0" to "53"'),
@@ -98,6 +99,7 @@ def test_a_name_of_digits_goes_before_a_number(chips):
         (PI_4, "-", "26 lines of GPIO chip 'soc' are named '-': give the number of one: \"28\", \"29\""),
         (["", "", "GPIO0_A2"], "GPIO25", "names like it: GPIO0_A2; a line without a name"),
     ],
+    afresh=[chips],
 )
 def test_a_line_that_is_not_there_is_refused_with_what_there_is(chips, names, line, words):
     chips.add("soc", names)

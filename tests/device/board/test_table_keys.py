@@ -6,6 +6,7 @@ import tomllib
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.board.board import board_file, load_board
 from controller.device.board.lookup import find_board
@@ -107,7 +108,7 @@ def test_a_file_of_another_kind_names_some():
     assert found[-1] == "and 5 more"
 
 
-@pytest.mark.parametrize("start", ["a", "touch.a", "actuators"])
+@each_row("start", ["a", "touch.a", "actuators"])
 def test_a_file_that_is_nested_without_end_is_refused_in_one_line(tmp_path, start):
     """Keys with points nest deeper than brackets: the parser does not recurse for them."""
     file = tmp_path / "board.toml"

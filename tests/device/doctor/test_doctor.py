@@ -93,7 +93,7 @@ def test_a_panel_that_is_not_there_is_one_line(board, touch):
     assert touch.device in text
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("share", "node", "expected"),
     [
         (False, "", "no other program on this machine gets its touches; [touch] share = true hands them on"),
@@ -121,9 +121,7 @@ def test_a_serial_port_that_is_not_there_is_one_line(board):
     assert "there is no serial port /dev/ttyNONE" in text
 
 
-@pytest.mark.parametrize(
-    ("bufsiz", "good", "text"), [(8192, True, "one message"), (4096, True, "two messages"), (4095, False, "8192")]
-)
+@each_row(("bufsiz", "good", "text"), [(8192, True, "one message"), (4096, True, "two messages"), (4095, False, "8192")])
 def test_the_buffer_of_spidev_is_evaluated(board, monkeypatch, bufsiz, good, text):
     monkeypatch.setattr(spi_link, "read_bufsiz", lambda: bufsiz)
     found = said(look(with_tables(board, link=SPI), VirtualClock().now_s), "spidev buffer")
@@ -131,7 +129,7 @@ def test_the_buffer_of_spidev_is_evaluated(board, monkeypatch, bufsiz, good, tex
     assert text in found[1]
 
 
-@pytest.mark.parametrize("limit", [0, 49, 50, resource.RLIM_INFINITY])
+@each_row("limit", [0, 49, 50, resource.RLIM_INFINITY])
 def test_what_a_user_may_ask_of_the_scheduler_is_evaluated(board, monkeypatch, limit):
     monkeypatch.setattr(process_limits.os, "geteuid", lambda: 1000)
     monkeypatch.setattr(process_limits.resource, "getrlimit", lambda _: (limit, limit))

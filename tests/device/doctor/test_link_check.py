@@ -7,6 +7,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import chi2
+from tables import each_row
 
 from controller.clocks import VirtualClock
 from controller.device.doctor.bit_errors import BitErrors, bit_errors
@@ -87,7 +88,7 @@ def test_earlier_errors_are_not_counted_again(board, wired):
     assert (found.frames_refused, found.answers_damaged, found.wrong_bits) == (0, 0, 0)
 
 
-@pytest.mark.parametrize("carried", [1.0, 0.8, 0.55, 0.3])
+@each_row("carried", [1.0, 0.8, 0.55, 0.3], afresh=[wired])
 def test_a_sweep_finds_the_fastest_clock_without_errors(board, wired, carried):
     link, session = wired
     link.carried_hz = carried * board.link.sck_hz

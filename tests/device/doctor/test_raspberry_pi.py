@@ -152,7 +152,7 @@ def test_what_cannot_be_read_is_left_out(tmp_path):
     assert [finding.about for finding in look_at_pi(PI_4, tmp_path)] == ["kernel"]
 
 
-@pytest.mark.parametrize("model", [None, "Radxa ROCK 5B\0", "\xff\xfe"])
+@each_row("model", [None, "Radxa ROCK 5B\0", "\xff\xfe"])
 def test_nothing_is_said_on_another_machine(tmp_path, model):
     if model is not None:
         (tmp_path / "proc/device-tree").mkdir(parents=True)

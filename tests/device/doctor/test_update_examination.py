@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 from types import SimpleNamespace
 
 import pytest
+from tables import each_row
 
 from controller.device.doctor import update_examination
 from controller.device.doctor.update_examination import look_at_updates
@@ -132,7 +133,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize("case", CASES, ids=[f"{about}-{words[0] if words else how}" for _, about, how, *words in CASES])
+@each_row("case", CASES, ids=[f"{about}-{words[0] if words else how}" for _, about, how, *words in CASES], afresh=[device])
 def test_what_is_wrong_is_said_in_one_line(device, case):
     wrong(device, *case)
 

@@ -5,6 +5,7 @@ import signal
 import sys
 
 import pytest
+from tables import each_row
 
 from controller.clocks import VirtualClock
 from controller.device.board.board import load_board
@@ -109,7 +110,7 @@ def test_it_is_not_loaded_where_its_gateware_is_right(tmp_path):
     bench.bring_up()
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("program", "said"),
     [
         (None, "/no/loader cannot be started (No such file or directory)"),
@@ -124,7 +125,7 @@ def test_a_loader_that_is_missing_or_fails_is_said(tmp_path, program, said):
     assert ("after 3 attempts" in refused) == (program is not None), "a missing program has no second"
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("program", "runs"),
     [
         (COUNT + "if runs == 1: sys.exit('unable to open ftdi device')\n" + LOAD, 2),

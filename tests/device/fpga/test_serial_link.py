@@ -238,8 +238,8 @@ def test_a_message_longer_than_a_batch_is_answered_frame_by_frame(open_link):
     assert [status.sequence for status in statuses[1:]] == list(range(10, 10 + len(statuses) - 1))
 
 
-@pytest.mark.parametrize("damage", [lost, flipped], ids=["lost", "flipped"])
-@pytest.mark.parametrize("number", [0, 1, 3, 20, ANSWER_BYTES - 1, ANSWER_BYTES, 2 * ANSWER_BYTES + 9])
+@each_row("damage", [lost, flipped], ids=["lost", "flipped"])
+@each_row("number", [0, 1, 3, 20, ANSWER_BYTES - 1, ANSWER_BYTES, 2 * ANSWER_BYTES + 9], afresh=[clock, line, open_link])
 def test_a_damaged_answer_is_an_error_that_names_the_device(line, open_link, damage, number):
     link = open_link(BRIEF_S)
     line.to_host = at(number, damage)
@@ -253,7 +253,7 @@ def on_wire_byte(number):
     return FRAME_BYTES + 4 + number
 
 
-@pytest.mark.parametrize("number", [2, 3, 5, 6, 20, 33])
+@each_row("number", [2, 3, 5, 6, 20, 33], afresh=[clock, line, open_link])
 def test_a_bit_flipped_on_the_way_there_is_refused_and_reported(line, open_link, number):
     link = open_link(BRIEF_S)
     line.to_panel = at(on_wire_byte(number), flipped)
@@ -355,9 +355,10 @@ def test_a_board_unplugged_in_the_middle_is_an_error_each_time_until_it_is_back(
         link.close()
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("number", "said"),
     [(2, "is the board plugged in"), (13, "dialout"), (16, "in use by another program"), (None, "could not be opened at")],
+    afresh=[clock],
 )
 def test_a_port_that_cannot_be_opened_says_what_to_do(clock, monkeypatch, number, said):
     def refuse(*_args, **_kwargs):

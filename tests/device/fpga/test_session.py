@@ -89,13 +89,14 @@ def test_arming_ramps_to_the_idle_word_and_disarming_to_zero(board, clock, link,
     assert capture.words[-1] == capture.hv[-1] == 0
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("change", "said"),
     [
         ({"build_hash": BUILD + 1}, "BUILD_HASH"),
         ({"clock_hz": 50_000_000, "sck_hz": 8_000_000}, "CLOCK_HZ"),
         ({"slots": 3}, "has 3 slots"),
     ],
+    afresh=[clock],
 )
 def test_refuses_another_fpga_than_the_boards_before_anything_is_armed(board, clock, change, said):
     settings = msgspec.structs.replace(board.link, **{k: v for k, v in change.items() if k != "build_hash"})
@@ -178,7 +179,7 @@ def test_every_limit_of_the_board_is_written_to_the_fpga(board, clock):
     assert {register: session.exchange.read(register) for register in reported} == reported
 
 
-@pytest.mark.parametrize("bit_clock_hz", [500e3, 300e3, 333_333.0, 299_999.0, 1.9e6])
+@each_row("bit_clock_hz", [500e3, 300e3, 333_333.0, 299_999.0, 1.9e6], afresh=[clock])
 def test_any_bit_clock_of_the_gateware_is_met_within_ten_millionths(board, clock, bit_clock_hz):
     waveform = msgspec.structs.replace(board.waveform, bit_clock_hz=bit_clock_hz, duration_ms=500e3 / bit_clock_hz)
     limits = msgspec.structs.replace(board.limits, min_pulse_us=0.5)
@@ -210,8 +211,8 @@ def test_three_heartbeats_are_sent_per_timeout(board, clock, link, armed):
     assert armed.heartbeat_due_s - clock.now_s() == pytest.approx(board.limits.heartbeat_timeout_ms * 1e-3 / 3)
 
 
-@pytest.mark.parametrize("direction", ["to the FPGA", "to the host"])
-@pytest.mark.parametrize("frame", range(4))  # NOP, UNLOCK, ARM, NOP
+@each_row("direction", ["to the FPGA", "to the host"])
+@each_row("frame", range(4), afresh=[clock, link])  # NOP, UNLOCK, ARM, NOP
 def test_a_damaged_frame_while_arming_is_sent_again(board, clock, link, frame, direction):
     session = Session(link, board, BUILD, clock.now_s)
     link.noise = {link.frames + frame: (direction, 9)}
@@ -361,8 +362,8 @@ def test_an_upload_comes_out_of_the_pins_word_by_word(board, clock, link, armed)
     assert words.tobytes() == bytes(WORDS)
 
 
-@pytest.mark.parametrize("chunk", range(8))
-@pytest.mark.parametrize("byte", [0, 3, 5, 7, 100, 510])
+@each_row("chunk", range(8))
+@each_row("byte", [0, 3, 5, 7, 100, 510], afresh=[clock, link, armed])
 def test_a_chunk_damaged_on_its_way_is_sent_again_and_played_right(board, clock, link, armed, chunk, byte):
     link.noise = {link.frames + chunk: ("to the FPGA", byte)}
     armed.upload_and_play(Play(0), WORDS, stop=False)
@@ -396,7 +397,7 @@ def test_a_lost_frame_is_detected_by_its_number(clock, link, armed):
         armed.exchange.control(Control.CLEAR, raise_faults=False)
 
 
-@pytest.mark.parametrize("frame", range(12))
+@each_row("frame", range(12), afresh=[clock, link, armed])
 def test_an_upload_with_a_damaged_answer_is_sent_again_and_played_once(clock, link, armed, frame):
     link.noise = {link.frames + frame: ("to the host", 9)}
     armed.upload_and_play(Play(0), WORDS, stop=False)
@@ -406,7 +407,7 @@ def test_an_upload_with_a_damaged_answer_is_sent_again_and_played_once(clock, li
     assert armed.heartbeat().emissions == 1
 
 
-@pytest.mark.parametrize("byte", [0, 2, 4, 20, 35])
+@each_row("byte", [0, 2, 4, 20, 35], afresh=[clock, link, armed])
 def test_damaged_answers_are_asked_for_again_and_never_believed(link, armed, byte):
     link.noise = {link.frames: ("to the host", byte)}
     assert State.ARMED in armed.heartbeat().state

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from device.board.changed_board import changed
 from pins_and_counters import emissions_on_pins
+from tables import each_row
 
 from controller.clocks import VirtualClock
 from controller.device.bank.reader import Bank
@@ -34,8 +35,8 @@ def words_of(channel, samples=1000, bit_clock_hz=500e3, band_hz=PAPER_HZ):
     return np.frombuffer(chirp_words(channel, samples, bit_clock_hz, IDLE, band_hz), "<u4")
 
 
-@pytest.mark.parametrize("band_hz", BANDS_HZ)
-@pytest.mark.parametrize("channel", [0, 5, 31])
+@each_row("band_hz", BANDS_HZ)
+@each_row("channel", [0, 5, 31])
 def test_one_channel_moves_through_the_band_and_no_other(channel, band_hz):
     words = words_of(channel, band_hz=band_hz)
     assert words.size == 1000

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from loop_parts import context_of, playback_of
+from tables import each_row
 
 from controller.clocks import VirtualClock
 from controller.device.bank.reader import Bank
@@ -110,7 +111,7 @@ def rot(panel, damage):
     return entry
 
 
-@pytest.mark.parametrize("damage", [payload, crc, all_of_it, zeros, another_entry, commands])
+@each_row("damage", [payload, crc, all_of_it, zeros, another_entry, commands], afresh=[panel])
 def test_an_entry_that_rotted_after_its_check_is_never_played_and_is_named_once(panel, damage):
     before = panel.session.heartbeat()
     panel.sent.clear()

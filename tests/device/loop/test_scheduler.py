@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from tables import each_row
 
 from controller.device.loop.commands import Outcome
 from controller.device.loop.scheduler import MAX_WAITING_COMMANDS, Scheduler
@@ -225,8 +226,10 @@ def test_fixed_emitters_too_near_each_other_for_their_amplitudes_are_not_repeate
     assert scheduler_of(load_scene(tmp_path / "spots.toml", board), reported).emitters.common_period_s == 0.04
 
 
-@pytest.mark.parametrize(
-    ("finger_mm", "policy", "together"), [(100, "compose", 2), (65, "compose", 2), (62.5, "compose", 1), (100, "alternate", 1)]
+@each_row(
+    ("finger_mm", "policy", "together"),
+    [(100, "compose", 2), (65, "compose", 2), (62.5, "compose", 1), (100, "alternate", 1)],
+    afresh=[reported],
 )
 def test_a_spot_due_with_a_finger_joins_its_batch_if_the_policy_allows(board, tmp_path, reported, finger_mm, policy, together):
     emitter = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = '
@@ -261,8 +264,8 @@ def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_d
     assert scheduler.due
 
 
-@pytest.mark.parametrize(("effect", "way_mm"), [("texture", 0.5), ("detent", 0.25)])  # from the touch, from line to line
-@pytest.mark.parametrize(("step_mm", "foreseen"), [(0.09, False), (0.11, True)])
+@each_row(("effect", "way_mm"), [("texture", 0.5), ("detent", 0.25)])  # from the touch, from line to line
+@each_row(("step_mm", "foreseen"), [(0.09, False), (0.11, True)], afresh=[reported])
 def test_a_finger_that_hardly_moves_is_at_rest_and_not_predicted(board, tmp_path, reported, step_mm, foreseen, effect, way_mm):
     (tmp_path / "fine.toml").write_text(
         f'[[regions]]\nname = "all"\nshape = "plate"\neffects = [{{ effect = "{effect}", spacing_mm = 0.5 }}]\n'

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.loop.trace_ring import RECORD_BYTES, START, TURN, StartRecord, TraceRing, records_of
 
@@ -41,7 +42,7 @@ def test_a_start_is_kept_with_its_parts_and_a_record_is_small():
     assert START.size == TURN.size == RECORD_BYTES == 48
 
 
-@pytest.mark.parametrize(("pulses", "late_s", "asked"), [((0, 7), 2.1e-3, True), ((0, 7), 1.9e-3, False), ((0, 0), 1.0, False)])
+@each_row(("pulses", "late_s", "asked"), [((0, 7), 2.1e-3, True), ((0, 7), 1.9e-3, False), ((0, 0), 1.0, False)])
 def test_a_pulse_that_is_more_than_2_ms_late_asks_and_nothing_else(pulses, late_s, asked):
     ring, reasons = TraceRing(4), []
     ring.asked = reasons.append

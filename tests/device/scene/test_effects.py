@@ -21,7 +21,7 @@ from controller.device.scene.trains import Train
 from controller.errors import ConfigError
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("region", "words"),
     [
         ('name = "a"\nshape = "star"\neffects = []', "regions[0].shape = 'star'"),
@@ -58,18 +58,18 @@ from controller.errors import ConfigError
         ("", "shape"),
     ],
 )
-def test_a_scene_that_cannot_be_meant_is_refused_with_file_key_and_value(scene_of, tmp_path, region, words):
+def test_a_scene_that_cannot_be_meant_is_refused_with_file_key_and_value(scene_of, region, words):
     with pytest.raises(ConfigError) as caught:
         scene_of(region)
     assert words in str(caught.value)
-    assert str(caught.value).startswith(str(tmp_path / "scene.toml"))
+    assert str(caught.value).startswith(str(scene_of.file))
 
 
 PRESS = 'when = "press"'
 BUZZ = f"{PRESS}, rate_hz = 100"
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("effect", "words"),
     [
         ("{}", ".when is missing"),
@@ -169,16 +169,16 @@ BUZZ = f"{PRESS}, rate_hz = 100"
         (f"{{ {BUZZ}, count = 3, envelope = [[2, 0], [3, 1], [4, 0]] }}", ".envelope is silent at every emission"),
     ],
 )
-def test_an_effect_whose_values_do_not_go_together_is_refused_in_a_region_and_by_name(scene_of, tmp_path, effect, words):
+def test_an_effect_whose_values_do_not_go_together_is_refused_in_a_region_and_by_name(scene_of, effect, words):
     with pytest.raises(ConfigError) as caught:
         scene_of(square(effect))
     assert words in str(caught.value)
-    assert str(caught.value).startswith(f"{tmp_path / 'scene.toml'}: regions[0].effects[0]")
+    assert str(caught.value).startswith(f"{scene_of.file}: regions[0].effects[0]")
     if effect.startswith("{") and "command" not in effect:
         with pytest.raises(ConfigError) as caught:
             scene_of(square(CLICK), effects=f"effects.mine = {effect}\n")
         assert words in str(caught.value)
-        assert str(caught.value).startswith(f"{tmp_path / 'scene.toml'}: effects.mine")
+        assert str(caught.value).startswith(f"{scene_of.file}: effects.mine")
 
 
 @each_row(

@@ -7,6 +7,7 @@ import pytest
 from device.scene.scenes import BOARD
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.scene.fingers import ActiveEffects
 from controller.device.scene.layer_tables import REASON_CHARACTERS, off_plate, read_layer
@@ -98,8 +99,8 @@ def test_a_train_goes_on_while_its_finger_stays_in_the_region_of_the_same_name(e
     assert active.advance(1.0) == ()
 
 
-@pytest.mark.parametrize(
-    "after", [(), (layer(rectangle(x_mm=100, effects=[TRAIN])),), (layer(rectangle(effects=[TRAIN]), owner=2),)]
+@each_row(
+    "after", [(), (layer(rectangle(x_mm=100, effects=[TRAIN])),), (layer(rectangle(effects=[TRAIN]), owner=2),)], afresh=[empty]
 )
 def test_a_train_ends_with_its_layer_or_where_its_region_has_moved_away_or_belongs_to_another(empty, after):
     active = finger(empty.under((layer(rectangle(effects=[TRAIN])),)))
@@ -185,7 +186,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("region", "reason"), REFUSED)
+@each_row(("region", "reason"), REFUSED)
 def test_a_bad_region_is_refused_with_its_key_and_takes_no_other_along(region, reason):
     checked = read(rectangle("first", 0, 10), region, rectangle("last", 100, 10))
     assert [kept.name for kept in checked.regions] == ["first", "last"]
@@ -196,7 +197,7 @@ def test_a_bad_region_is_refused_with_its_key_and_takes_no_other_along(region, r
     assert len(refused.reason) <= REASON_CHARACTERS
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("line", "reason"),
     [
         ({"regions": {}}, "Expected `array`"),

@@ -5,6 +5,7 @@ import pytest
 from device.scene.scenes import ALWAYS, BOARD, LIBRARY_SCENE, TEXTURE, TRAIN, at, press_scene, square, touch
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.bank.grid import Grid
 from controller.device.scene.coverage import cells_needed
@@ -60,7 +61,7 @@ def test_the_longest_rhythm_can_be_handed_to_another_process_and_a_longer_one_is
                 scene_of(square(rhythm))
 
 
-@pytest.mark.parametrize(("length_mm", "width_mm"), [(20.0, 20.0), (20.0, 4000.0), (4000.0, 20.0), (4000.0, 4000.0)])
+@each_row(("length_mm", "width_mm"), [(20.0, 20.0), (20.0, 4000.0), (4000.0, 20.0), (4000.0, 4000.0)])
 def test_a_scene_up_to_the_edge_of_the_largest_and_smallest_plate_can_be_handed_to_another_process(scene_of, length_mm, width_mm):
     plate = msgspec.structs.replace(BOARD.plate, length_mm=length_mm, width_mm=width_mm)
     board = msgspec.structs.replace(BOARD, plate=plate)

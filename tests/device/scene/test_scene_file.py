@@ -34,7 +34,7 @@ def test_a_period_that_rounding_puts_a_tick_off_the_emission_is_the_emissions():
     assert BOARD.period_ticks(1 / 25) == 3_200_000
 
 
-@pytest.mark.parametrize("text", ["", "regions = []", "regions = 3", "not toml", "speed = 3"])
+@each_row("text", ["", "regions = []", "regions = 3", "not toml", "speed = 3"])
 def test_a_file_without_regions_is_refused(tmp_path, text):
     file = tmp_path / "scene.toml"
     file.write_text(text)

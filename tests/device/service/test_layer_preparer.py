@@ -8,6 +8,7 @@ import signal
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.bank.reader import Bank
 from controller.device.loop.layer_source import AcceptedLayer
@@ -90,7 +91,7 @@ def test_what_is_refused_is_named_up_to_a_number_and_counted(preparer):
     assert (len(done.refused), done.refused_count) == (REFUSED_MOST, 50)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("text", "reason"),
     [
         (b"", "checking the regions failed: DecodeError: Input data was truncated"),
@@ -99,6 +100,7 @@ def test_what_is_refused_is_named_up_to_a_number_and_counted(preparer):
         (b'{"regions": [{"name": ' + b"[" * 50_000, "checking the regions failed: RecursionError"),
         (line(effects={"a": {"when": "x"}}), "effects.a.when = 'x'"),
     ],
+    afresh=[bank, preparer],
 )
 def test_a_line_that_is_no_layer_is_a_refusal_and_not_the_end(preparer, text, reason):
     done = prepared(preparer, text)

@@ -4,6 +4,7 @@ import os
 import shutil
 
 import pytest
+from tables import each_row
 
 from controller.device.bank.lookup import find_bank
 from controller.device.bank.provenance import Provenance
@@ -53,8 +54,8 @@ def no_links(*_):
     raise PermissionError(1, "Operation not permitted")
 
 
-@pytest.mark.parametrize("links", [True, False])
-@pytest.mark.parametrize("renewed", [False, True])
+@each_row("links", [True, False])
+@each_row("renewed", [False, True], afresh=[state])
 def test_a_power_cut_at_any_point_leaves_what_was_measured_and_the_next_start_goes_on(
     state, board, make_bank, monkeypatch, links, renewed
 ):

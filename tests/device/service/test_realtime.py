@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-import pytest
+from tables import each_row
 
 from controller.device.service.realtime import group_refusal
 
@@ -38,7 +38,7 @@ numpy.zeros(40_000_000 // 8)  # more than the limit: it must not have become uno
     assert "memory is not locked (ulimit -l is 64 KiB; LimitMEMLOCK=infinity in the unit)" in printed
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("groups", "files", "said"),
     [
         (

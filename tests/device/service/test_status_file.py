@@ -10,6 +10,7 @@ import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.cli import main
 from controller.device.board import panel_status
@@ -185,7 +186,7 @@ def test_it_tells_of_a_trial_and_of_releases_that_failed(tmp_path, capsys, monke
     assert (said["updates"]["trial"], said["updates"]["failed"]) == ("2", ["1.9", "1.8"])
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("fields", "words"),
     [
         ({"ended": True}, "the service has ended"),

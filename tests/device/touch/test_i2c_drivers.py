@@ -148,7 +148,7 @@ def test_without_a_reset_line_a_gt911_is_found_at_its_other_address(bench, given
     assert bench.lines.history == []
 
 
-@pytest.mark.parametrize("product", PRODUCTS)
+@each_row("product", PRODUCTS, afresh=[bench])
 def test_every_chip_of_the_kernels_list_with_the_same_registers_is_driven(bench, product):
     bench.put(Gt911Chip(width=2100, height=1480, contacts=10, product=product.encode().ljust(4, b"\0")))
     source = bench.gt911()
@@ -161,7 +161,7 @@ def test_the_list_is_the_kernels():
     assert set(PRODUCTS) == {"911", "9110", "9111", "927", "9271", "928", "912", "9147", "967"}  # goodix_chip_ids, map at 0x8047
 
 
-@pytest.mark.parametrize("product", [b"1158", b"5688", b"917S", b"9112", b"91\0\0"])
+@each_row("product", [b"1158", b"5688", b"917S", b"9112", b"91\0\0"], afresh=[bench])
 def test_another_goodix_is_refused_by_name_with_the_list(bench, product):
     bench.put(Gt911Chip(product=product))
     with pytest.raises(TouchError) as caught:
@@ -170,8 +170,8 @@ def test_another_goodix_is_refused_by_name_with_the_list(bench, product):
     assert "911, 9110, 9111, 912, 9147, 927, 9271, 928, 967" in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("product", "words"), [(bytes(4), "with 0x00 only"), (b"\xff" * 4, "0xFF"), (b"\x12\x34\x80\0", "no Goodix")]
+@each_row(
+    ("product", "words"), [(bytes(4), "with 0x00 only"), (b"\xff" * 4, "0xFF"), (b"\x12\x34\x80\0", "no Goodix")], afresh=[bench]
 )
 def test_what_is_no_goodix_is_refused(bench, product, words):
     bench.put(Gt911Chip(product=product))
@@ -190,7 +190,7 @@ def test_a_gt911_tells_its_extents_unless_the_board_does(bench):
     assert (axes.x.maximum, axes.y.maximum) == (30, 600)
 
 
-@pytest.mark.parametrize(("trigger", "edge"), [(0, Edge.RISING), (1, Edge.FALLING), (2, Edge.FALLING), (3, Edge.RISING)])
+@each_row(("trigger", "edge"), [(0, Edge.RISING), (1, Edge.FALLING), (2, Edge.FALLING), (3, Edge.RISING)], afresh=[bench])
 def test_the_edge_is_the_one_of_the_chips_configuration(bench, trigger, edge):
     bench.put(Gt911Chip(trigger=trigger))
     bench.gt911()
@@ -349,7 +349,7 @@ def _asked_until(bench, source, end_s):
     raise AssertionError("it is asked without end")
 
 
-@pytest.mark.parametrize(("make", "kind"), CHIPS)
+@each_row(("make", "kind"), CHIPS, afresh=[bench])
 def test_a_panel_whose_interrupt_line_never_comes_is_polled_every_tap_found_and_it_is_said_once(bench, make, kind):
     bench.put(make())
     source = getattr(bench, kind)()
@@ -358,7 +358,7 @@ def test_a_panel_whose_interrupt_line_never_comes_is_polled_every_tap_found_and_
     assert source.next_time_s() - bench.now_s <= 10e-3
 
 
-@pytest.mark.parametrize(("make", "kind"), CHIPS)
+@each_row(("make", "kind"), CHIPS, afresh=[bench])
 def test_a_line_that_breaks_while_the_panel_works_is_noticed_at_the_second_report_that_was_missed(bench, make, kind):
     bench.put(make())
     source = getattr(bench, kind)()
@@ -450,7 +450,7 @@ def test_a_gt911_without_an_interrupt_line_is_reset_and_found_at_the_address_of_
         source.close()
 
 
-@pytest.mark.parametrize(("trigger", "held"), [(1, False), (2, False), (0, True), (3, True)])
+@each_row(("trigger", "held"), [(1, False), (2, False), (0, True), (3, True)], afresh=[bench])
 def test_a_line_that_is_held_active_is_said_at_the_start_and_the_panel_polled(bench, trigger, held):
     bench.put(Gt911Chip(trigger=trigger))
     bench.lines.held, bench.lines.cut = held, True
@@ -561,7 +561,7 @@ def test_a_chip_with_the_registers_of_its_reports_only_works_and_the_others_are_
     assert bench.ft5x06()._reader.description.remark == ""
 
 
-@pytest.mark.parametrize("refused", [0x00, 0xA3, 0xA4, 0xA6, 0xA8, 0xBB])
+@each_row("refused", [0x00, 0xA3, 0xA4, 0xA6, 0xA8, 0xBB], afresh=[bench])
 def test_each_register_of_an_ft5x06_but_those_of_its_reports_may_be_refused(bench, refused):
     chip = bench.put(Ft5x06Chip())
     transfer = chip.transfer
@@ -810,13 +810,13 @@ def test_what_an_ft5x06_holds_from_before_its_start_is_no_touch(bench):
     assert bench.read(source) == [(0, 10, 20, True)]
 
 
-@pytest.mark.parametrize("chip_id", [0x06, 0x36, 0x54, 0x55, 0x64])
+@each_row("chip_id", [0x06, 0x36, 0x54, 0x55, 0x64], afresh=[bench])
 def test_chips_of_the_family_are_known_whatever_their_number(bench, chip_id):
     bench.put(Ft5x06Chip(chip_id=chip_id))
     assert bench.ft5x06()._reader.description.name == f"FT5x06 chip {chip_id:02x}"
 
 
-@pytest.mark.parametrize("byte", [0x00, 0xFF, 0x5A])
+@each_row("byte", [0x00, 0xFF, 0x5A], afresh=[bench])
 def test_an_empty_chip_a_stuck_bus_and_a_chip_without_registers_are_refused(bench, byte):
     """0x5A: such as a PCF8574A, an expander that has the same address and gives its pins whatever it is asked."""
     bench.put(Ft5x06Chip()).garbage = byte
@@ -927,8 +927,8 @@ def test_what_an_edt_m06_holds_from_before_its_start_is_no_touch(bench):
 # ---- whatever happens
 
 
-@pytest.mark.parametrize("make", [Gt911Chip, Ft5x06Chip, EdtM06Chip])
-@pytest.mark.parametrize("seed", range(4))
+@each_row("make", [Gt911Chip, Ft5x06Chip, EdtM06Chip])
+@each_row("seed", range(4), afresh=[bench])
 def test_whatever_the_bus_does_the_reader_goes_on_and_a_panel_that_works_again_is_felt_again(bench, make, seed):
     random = Random(seed)
     chip = bench.put(make())

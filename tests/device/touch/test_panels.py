@@ -11,6 +11,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
@@ -110,7 +111,7 @@ def test_every_kind_of_panel_has_a_driver_that_takes_its_settings():
         assert settings.annotation == record.__name__
 
 
-@pytest.mark.parametrize("kind", [None, 3, "", "nothing", "i2c_reader", "..event_codes", "panel process"])
+@each_row("kind", [None, 3, "", "nothing", "i2c_reader", "..event_codes", "panel process"])
 def test_what_is_no_kind_of_panel_has_no_record(kind):
     assert touch_record(kind) is None
 

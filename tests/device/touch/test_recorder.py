@@ -280,7 +280,7 @@ def test_what_cannot_be_recorded_is_said_in_one_line(tmp_path, capsys):
     assert len(capsys.readouterr().err.splitlines()) == 4
 
 
-@pytest.mark.parametrize("out", ["absent/x.evemu", ".", "nul\0name"])
+@each_row("out", ["absent/x.evemu", ".", "nul\0name"])
 def test_a_file_that_cannot_be_made_is_named(tmp_path, out):
     with pytest.raises(TouchError, match="cannot be written"):
         open_recording(tmp_path / out)

@@ -308,7 +308,7 @@ def test_bytes_that_are_no_text_are_counted(tmp_path):
     assert recording.warnings == {"not_utf8": 2, "garbage_lines": 1}
 
 
-@pytest.mark.parametrize("what", ["absent", "folder", "nul\0name"])
+@each_row("what", ["absent", "folder", "nul\0name"])
 def test_a_file_that_cannot_be_opened_is_named(tmp_path, what):
     path = tmp_path if what == "folder" else tmp_path / what
     with pytest.raises(TouchError, match="cannot be read") as caught:
@@ -375,7 +375,7 @@ def test_any_bytes_are_refused_or_replayed_to_their_end(tmp_path_factory, data):
         assert replay(Recording.open(file))[1].next_time_s() is None
 
 
-@pytest.mark.parametrize("junk", [b"", b"# nothing\n", b"\x00\xff\xfe garbage\n" * 5, b"time,x,y\n0,1,2\n", bytes(5000)])
+@each_row("junk", [b"", b"# nothing\n", b"\x00\xff\xfe garbage\n" * 5, b"time,x,y\n0,1,2\n", bytes(5000)])
 def test_a_file_of_which_nothing_is_a_recording_is_refused(tmp_path, junk):
     file = tmp_path / "junk"
     file.write_bytes(junk)

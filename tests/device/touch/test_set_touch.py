@@ -74,7 +74,7 @@ def test_anything_else_changes_nothing(board, said):
     assert board.read_text() == BOARD
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text",
     [
         BOARD.replace("[touch]", "[tuch]"),

@@ -14,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from tables import each_row
 
 from controller.cli import COMMANDS
 from controller.commands.update import STEPS
@@ -222,7 +223,7 @@ sys.exit(13)
 
 
 @AS_ROOT
-@pytest.mark.parametrize("elsewhere", [(), ("stdin",), ("stdout",), ("stderr",)])
+@each_row("elsewhere", [(), ("stdin",), ("stdout",), ("stderr",)], afresh=[place])
 def test_a_command_does_not_type_into_roots_terminal_nor_keep_it_open(place, elsewhere):
     terminal = Terminal(SYSTEMD / "as-user", "nobody", PYTHON, "-c", TYPES, **dict.fromkeys(elsewhere, place / "file"))
     shown = terminal.close()
@@ -323,7 +324,7 @@ def test_others_run_a_release_as_themselves(installed):
     assert (done.returncode, done.stdout) == (0, "['status', '--json']\n"), done.stderr
 
 
-@pytest.mark.parametrize("left", ["the interpreter", "another interpreter", "nothing", "a name for the terminal"])
+@each_row("left", ["the interpreter", "another interpreter", "nothing", "a name for the terminal"], afresh=[place, installed])
 def test_a_python_that_moved_on_is_one_line_that_says_what_to_do(installed, left):
     python = installed.release / "venv/bin/python"
     name = installed.packages.parent.name

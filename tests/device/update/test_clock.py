@@ -5,6 +5,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 from repository_fixture import Device, copied
+from tables import each_row
 from tiny_release import NOW, PASSPHRASE, TinyRepository, release_folder
 from tuf.api.metadata import Metadata
 
@@ -156,7 +157,7 @@ def test_a_damaged_file_holds_no_time(fleet):
 WRONG = [(-1, "earlier than the last one"), (91, "more than 90 days after the last one"), (3650, "more than 90 days after")]
 
 
-@pytest.mark.parametrize(("days", "said"), WRONG)
+@each_row(("days", "said"), WRONG, afresh=[fleet])
 def test_nothing_is_drafted_by_a_clock_that_is_wrong(fleet, days, said):
     wrong = NOW + days * DAY
     release_folder(fleet.folder / "2.0.0", "2.0.0", 2)
@@ -178,7 +179,7 @@ def test_nothing_is_drafted_by_a_clock_that_is_wrong(fleet, days, said):
         fleet.renew()
 
 
-@pytest.mark.parametrize(("days", "said"), WRONG)
+@each_row(("days", "said"), WRONG, afresh=[fleet])
 def test_no_draft_of_a_clock_that_is_wrong_is_signed(fleet, days, said):
     """Made by an earlier release, or while another timestamp was published."""
     wrong = NOW + days * DAY
@@ -209,7 +210,7 @@ def test_the_commands_take_a_date_that_was_looked_up(fleet, monkeypatch, capsys)
     assert fleet.update() == fleet.one
 
 
-@pytest.mark.parametrize("days", [-1, 91, 3650])
+@each_row("days", [-1, 91, 3650], afresh=[fleet])
 def test_a_signer_with_another_clock_does_not_sign(fleet, monkeypatch, capsys, days):
     """The first draft too, which follows none."""
     monkeypatch.setenv("HAPTIC_PANEL_PASSPHRASE", PASSPHRASE)

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+from tables import each_row
 
 from controller.device.update.layout import Layout
 
@@ -158,7 +159,7 @@ def test_a_trial_that_stands_and_is_not_evaluated_yet_survives_any_number_of_sta
     assert (device.current, device.failed) == ("2.0", [])
 
 
-@pytest.mark.parametrize("how", ["bad", "failed", "late"])
+@each_row("how", ["bad", "failed", "late"], afresh=[device])
 def test_a_trial_that_fails_is_given_up_at_once(device, how):
     device.ask("trial", "2.0")
     device.run("boot")
@@ -283,7 +284,7 @@ def refusing_to_wait(device):
     return folder
 
 
-@pytest.mark.parametrize("command", ["boot", "requests", "failed", "late", "adopt"])
+@each_row("command", ["boot", "requests", "failed", "late", "adopt"], afresh=[device])
 def test_without_the_lock_nothing_is_changed_and_a_start_has_its_release(device, command):
     """Another of these scripts hangs, as a disk does not answer."""
     device.ask("trial", "2.0")
@@ -367,7 +368,7 @@ def test_back_by_hand(device):
     assert (device.current, device.failed) == ("1.0", ["2.0"])
 
 
-@pytest.mark.parametrize("version", ["3.0", "4.0", "../1.0", "-rf", "", ".hidden", "x" * 65, "2.0/../2.0"])
+@each_row("version", ["3.0", "4.0", "../1.0", "-rf", "", ".hidden", "x" * 65, "2.0/../2.0"], afresh=[device])
 def test_what_is_no_complete_release_is_not_tried(device, version):
     assert "haptic-panel: " in device.ask("trial", version).stderr
     assert not list(device.layout.requests.iterdir())
@@ -410,8 +411,8 @@ def test_a_start_does_not_wait_for_what_the_updater_puts_among_its_requests(devi
     assert not device.asked()
 
 
-@pytest.mark.parametrize("name", ["current", "previous", "trial", "tries", "failed"])
-@pytest.mark.parametrize("damage", [b"", b"\0" * 100, b"../../etc\n", b"-rf\n", b"9.9\n", bytes(range(256)) * 20])
+@each_row("name", ["current", "previous", "trial", "tries", "failed"])
+@each_row("damage", [b"", b"\0" * 100, b"../../etc\n", b"-rf\n", b"9.9\n", bytes(range(256)) * 20], afresh=[device])
 def test_a_damaged_state_still_starts_a_whole_release(device, name, damage):
     device.ask("trial", "2.0")
     device.run("boot")

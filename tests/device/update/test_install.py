@@ -11,6 +11,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from tables import each_row
 
 from controller.cli import main
 from controller.device.update.install import install, prune
@@ -220,7 +221,7 @@ def test_an_installation_that_goes_well_is_not_called_failed(device, offered):
     assert (device.requests / "trial").read_text() == "9\n"
 
 
-@pytest.mark.parametrize("damaged", [b"", b"{", b'{"version": 1}', b"\xff", b"[" * 100_000])
+@each_row("damaged", [b"", b"{", b'{"version": 1}', b"\xff", b"[" * 100_000], afresh=[device])
 def test_what_is_remembered_may_be_damaged(device, damaged):
     (device.download / "install_failed.json").write_bytes(damaged)
     assert update_state(device).not_installed == ""

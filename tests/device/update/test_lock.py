@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from tables import each_row
 from tiny_release import NOW, TinyRepository
 
 from controller.device.update.lock import alone
@@ -52,7 +53,7 @@ def test_a_lock_that_an_earlier_release_has_left_open_to_others_is_closed_to_the
             pass
 
 
-@pytest.mark.parametrize("kind", ["link", "pipe", "folder"])
+@each_row("kind", ["link", "pipe", "folder"])
 def test_what_is_no_file_is_no_lock(tmp_path, kind):
     lock, other = tmp_path / "lock", tmp_path / "other"
     other.touch(0o644)

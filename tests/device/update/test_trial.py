@@ -7,6 +7,7 @@ import msgspec
 import pytest
 from msgspec.structs import replace
 from repository_fixture import Publisher
+from tables import each_row
 
 from controller.cli import main
 from controller.device.board.panel_state import PanelState
@@ -120,7 +121,7 @@ def test_a_trial_that_is_over_is_not_evaluated(layout):
     assert not list(layout.requests.iterdir())
 
 
-@pytest.mark.parametrize("broken", ["import", "root absent", "root damaged", "no root"])
+@each_row("broken", ["import", "root absent", "root damaged", "no root"], afresh=[layout])
 def test_a_release_that_could_not_update_again_goes_at_once(layout, monkeypatch, broken):
     assert why_no_updater(layout) == ""
     if broken == "import":

@@ -8,6 +8,7 @@ import msgspec
 import numpy as np
 import pytest
 from small_plate import WHOLE, small_board
+from tables import each_row
 
 from controller.cli import main
 from controller.device.bank.grid import Grid
@@ -129,7 +130,7 @@ def test_the_hash_of_the_inputs_depends_on_the_measured_files(built, tmp_path):
     assert bank_info(tmp_path / "again")["parameters"]["inputs_sha256"] == hashes[1]
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("changes", "said"),
     [
         ({"bit_clock_hz": 501e3}, "for a bit clock of 501000 Hz, the board has 500000 Hz"),

@@ -179,7 +179,7 @@ def test_ffmpeg_gets_every_frame_and_its_refusal_is_reported(emission, tmp_path,
         assert not path.exists()
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("arguments", "said"),
     [
         (("--at", "100", "70", "--movie", "a.avi"), ".png, .apng, .gif, .mp4"),

@@ -204,7 +204,7 @@ def test_a_sensor_at_a_serial_port(board):
     recorder.close()
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("hello", "answer", "error", "said"),
     [
         (b"hello\n", b"", LinkError, "answers b'hello"),

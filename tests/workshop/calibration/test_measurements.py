@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from small_plate import small_board
+from tables import each_row
 
 from controller.errors import CalibrationError
 from controller.workshop.calibration.records.measurement_file import (
@@ -46,7 +47,7 @@ def folder_of(folder, values=VALUES, **reported):
     return folder
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("files", "points", "tolerance"),
     [
         ("point_{point}.npy", "points.csv", 0),
@@ -112,7 +113,7 @@ def test_records_that_run_through_are_cut_at_the_periods(tmp_path):
         read_measurement(tmp_path, board()).records(1)
 
 
-@pytest.mark.parametrize(("bits", "largest"), [(8, 1 << 7), (16, 1 << 15), (24, 1 << 23), (32, 1 << 31)])
+@each_row(("bits", "largest"), [(8, 1 << 7), (16, 1 << 15), (24, 1 << 23), (32, 1 << 31)])
 def test_wav_of_any_width_is_read_in_its_unit(tmp_path, bits, largest):
     """As recorders write them: the wave module of Python, not the writer under test."""
     samples = (np.linspace(-0.9, 0.9, 50) * largest).astype(np.int64)
@@ -179,7 +180,7 @@ def test_clipped_records_are_seen(tmp_path):
 WORDS = WordsDrive(file="drive.npy", bit_clock_hz=500e3, supply_v=60.0)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("damage", "said"),
     [
         ({"points.csv": "x,y\n"}, r"points.csv: its first line is not point,x_mm,y_mm"),
@@ -219,7 +220,7 @@ def test_a_damaged_folder_is_refused_with_file_and_point(tmp_path, damage, said)
     assert error.value.exit_code == 78
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("old", "new", "said"),
     [
         ('unit = "m/s"', 'unit = "mm/s"', r"records.unit = 'mm/s': must be one of 'V', 'm', 'm/s', 'm/s\^2'"),

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.cli import main
 from controller.device.board.board import load_board
@@ -186,7 +187,7 @@ def test_no_damage_of_a_file_gives_a_traceback_or_an_effect_that_no_scene_takes(
     assert "damaged" in load_scene(scene, NARROW).effects
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("name", "content", "said"),
     [
         ("a.txt", "{}", ".txt is no known format; there are: .ahap, .haptic, .hjif, .haps, .xml"),

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.cli import main
 from controller.device.board.board import load_board
@@ -55,7 +56,7 @@ def test_pulses_come_back_from_either_file_and_from_one_by_way_of_the_other(tmp_
         close(returned(folder, pulses, *way), pulses)
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+@each_row("file", FILES, ids=lambda file: file.name)
 def test_each_shipped_clip_comes_back_from_either_file(file, tmp_path):
     text, _ = imported([file], BOARD, "command", 50, 150)
     (effect,) = tomllib.loads(text)["effects"].values()
@@ -85,7 +86,7 @@ def test_the_command_writes_a_new_file_and_says_what_is_in_it(tmp_path, capsys):
     assert main(["effect", "import", str(out)]) == 0
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("arguments", "code", "said"),
     [
         (["heartbeat", "--out", "a.wav"], 2, "--out a.wav: .wav cannot be written; there are: .ahap, .haptic"),

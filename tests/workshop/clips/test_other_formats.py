@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
+from tables import each_row
 
 from controller.cli import main
 from controller.workshop.clips.android import read_android
@@ -152,7 +153,7 @@ def reference_to_nothing(whole, perception, channel):
     channel["bands"][0]["effects"] = [{"effect_type": "Reference", "id": 3}]
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("name", "content", "said"),
     [
         ("a.hmpg", "", "is the binary form of HJIF: save it as .hjif"),

@@ -120,7 +120,7 @@ def test_the_table_replaces_the_one_that_is_there():
             with_table(wrong, TABLE)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("name", "old", "new"),
     [
         ("registers.vh", "`define FAULT_DUTY 8", "`define FAULT_DUTY 9"),
@@ -132,6 +132,7 @@ def test_the_table_replaces_the_one_that_is_there():
         ("README.md", "| PLAY | 8–9 | first |", "| PLAY | 8–9 | last |"),
         ("registers.vh", "`define PLAY_START_BITS 55:48", "`define PLAY_START_BITS 55:49"),
     ],
+    afresh=[folder],
 )
 def test_changes_by_hand_are_overwritten(folder, name, old, new):
     path = folder / name
@@ -142,13 +143,14 @@ def test_changes_by_hand_are_overwritten(folder, name, old, new):
     assert differing == {path: right}
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("name", "old", "new", "what"),
     [
         ("registers.vh", "`define QUEUE_PLAYS 8'd8", "`define OTHER 8'd8", "OTHER, QUEUE_PLAYS"),
         ("register_file.v", "// end of read", "", "has the generated blocks"),
         ("haptic_core.v", "// generated: wires", "", "has the generated blocks"),
     ],
+    afresh=[folder],
 )
 def test_a_file_without_the_generated_blocks_is_refused(folder, name, old, new, what):
     path = folder / name

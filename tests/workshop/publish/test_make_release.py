@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from tables import each_row
 from tiny_release import wheel
 
 from controller.cli import main
@@ -130,7 +131,7 @@ def test_the_bill_has_licences_and_every_file(place, bank_file):
     assert "model" in reported["haptic-panel:responses"]
 
 
-@pytest.mark.parametrize("version", ["spring", "1.0-beta", "01.0", "1.0\n", "v1"])
+@each_row("version", ["spring", "1.0-beta", "01.0", "1.0\n", "v1"], afresh=[place])
 def test_a_version_that_no_wheel_can_have_is_refused(place, version, capsys):
     assert make(place, "a", "--version", version) == 2
     assert capsys.readouterr().err.count("\n") == 1

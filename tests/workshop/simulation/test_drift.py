@@ -250,7 +250,7 @@ def test_options_that_make_no_sense_are_refused(arguments, code, said, capsys):
     assert refused.count("\n") == 1
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("table", "said"),
     [
         ("coefficient_per_k = 8e-3", r"lowest_c = -20 .* by 0\.656: an emission of 3\.0"),

@@ -4,7 +4,7 @@ import itertools
 import math
 
 import numpy as np
-import pytest
+from tables import each_row
 
 from controller.device.touch.recordings.replay import RecordingSource
 from controller.workshop.simulation.served_panel import SWINGS_MM, moving
@@ -20,7 +20,7 @@ def samples(board, fingers, seconds=4.0):
     return reports
 
 
-@pytest.mark.parametrize("fingers", range(1, len(SWINGS_MM) + 1))
+@each_row("fingers", range(1, len(SWINGS_MM) + 1))
 def test_they_stay_on_the_plate_and_apart(board, fingers):
     down = {}
     for report in samples(board, fingers):

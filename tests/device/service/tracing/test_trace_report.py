@@ -6,6 +6,7 @@ import json
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.cli import main
 from controller.device.loop.trace_ring import StartRecord, TurnRecord
@@ -37,7 +38,7 @@ def written(folder, records, reason="a pulse was late"):
     return folder / "t.json"
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("records", "late_ms", "parts_ms"),
     [
         ([pulse(2.0, begun_s=2.003)], 4.5, {"begun too late, with no turn in the way": 4.5}),
@@ -78,7 +79,7 @@ def test_a_late_pulse_is_explained_in_a_sentence_and_for_machines(tmp_path, caps
     assert json.loads(capsys.readouterr().out)["pulses_late"] == 1
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("content", "said"),
     [
         (None, "cannot be read (No such file or directory)"),
