@@ -3,9 +3,11 @@
 import gc
 import os
 import re
+import sys
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # two processes of tests keep two cores busy
+sys.dont_write_bytecode = False  # of the tests as pytest rewrites them: 10 s of each process of every run but the first
 
 import pytest
 from hypothesis import HealthCheck, settings

@@ -87,7 +87,8 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
 
 @contextlib.contextmanager
 def _one_at_a_time(folder: Path) -> Iterator[None]:
-    """Lock a file beside the folder: another process of this user may be building the same library."""
+    """Lock a file beside the folder, wherever a link leads: another process of this user may be building the same library."""
+    folder = folder.resolve()
     descriptor = open_private(folder.with_name(f".{folder.name}.lock"))
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)

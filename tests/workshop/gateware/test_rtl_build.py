@@ -1,5 +1,7 @@
 """Compiling the gateware: once for each set of parameters, and a plain word when it cannot be."""
 
+import os
+
 import pytest
 
 from controller.errors import LinkError
@@ -38,6 +40,24 @@ def test_is_built_once_for_each_set_of_parameters_and_leaves_nothing_else(cache,
     other = build_library(PARAMETERS | {"SLOTS": 3}, lambda: reported.append("other"))
     assert reported == ["first", "other"]
     assert sorted(cache.iterdir()) == sorted([first, other])
+
+
+def test_caches_that_lead_to_one_folder_build_one_at_a_time(tmp_path, quick, monkeypatch):
+    """Each test process has a cache of its own, and all of them one folder of libraries."""
+    (tmp_path / "all").mkdir()
+    for name in ("one", "other"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "gateware").symlink_to(tmp_path / "all")
+
+    def build_meanwhile():
+        monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "other"))
+        monkeypatch.setattr(rtl_build.fcntl, "flock", lambda fd, _: locked.append(os.fstat(fd).st_ino))
+        build_library(PARAMETERS | {"SLOTS": 3})
+
+    locked = []
+    monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "one"))
+    build_library(PARAMETERS, build_meanwhile)
+    assert locked == [(tmp_path / ".all.lock").stat().st_ino]
 
 
 def test_another_verilator_another_library(cache, quick, monkeypatch):
