@@ -405,3 +405,8 @@ def test_any_board_is_evaluated_without_a_traceback(keys):
     if not verdict.refused:  # what is not refused can be built
         parameters = BuildParameters.of(board, 0)
         assert parameters.bit_period_reset >= 4 << 16
+
+
+def test_a_driver_that_misses_the_band_is_named_by_the_frequency_of_its_filter():
+    (said,) = NAMED["_driver_band"].broken(changed(BOARD, driver__inductance_h=10e-3, driver__capacitance_f=100e-9))
+    assert said.partition("a filter of ")[2].startswith("5.03e+03 Hz; match")

@@ -52,7 +52,7 @@ def bank(bank_file, board):
 
 @pytest.fixture
 def preparer(board, bank):
-    preparer = LayerPreparer(board, bank, [])
+    preparer = LayerPreparer(board, bank, [], limit_s=60)  # however busy the machine
     yield preparer
     preparer.close()
 
