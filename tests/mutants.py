@@ -1,10 +1,12 @@
-"""Do the tests notice a fault of the Python? A sample of mutants, each run against the tests of its module until one fails.
+"""Do the tests notice a fault of the Python? A sample of mutants, each run against the tests that reach it until one fails.
 
-usage: python -m tests.mutants [--count N] [--seed N] [--under FOLDER] [--mark EXPRESSION]
+usage: python -m tests.mutants [--count N] [--seed N] [--under FOLDER ...] [--reached FILE] [--only FILE]
 
 A mutant is one small change of a function: a comparison, an operator, a constant, a negated condition, a call left out. What may
-kill it are the test files that import its module, those of its name first; its own process has a limit of processor time, so that
-one that loops for ever is killed too. Mutants are made in a copy of the checkout; a test that fails without them decides nothing.
+kill it is what reaches its statement in one run of README's line: the quick tests first, then the others, each form for at most
+`BUDGET_S` as that run took them, of each test file its first ones. --reached keeps that run in a file, --only takes mutants again
+that a list of verdicts has as alive. A process of tests has a limit of processor time, so that one that loops for ever is killed
+too. Mutants are made in a copy of the checkout; a test that fails without them decides nothing.
 """
 
 import argparse
@@ -15,13 +17,23 @@ import os
 import random
 import re
 import resource
+import select
 import shutil
+import signal
 import sys
 import tempfile
+from collections import Counter
+from functools import partial
 from pathlib import Path
 
+from tests.mutants_reached import inside_functions, read_reached, rewrite, run_whole
+from tests.patience import processor_s
+
 ROOT = Path(__file__).parent.parent
-CPU_S = 120
+PURE = ["bank_builder", "calibration", "clips", "physics"]
+UNDER = ["controller/device", *(f"controller/workshop/{room}" for room in PURE)]
+CPU_S, BUDGET_S, HANGS_S = 180, 60, 100
+IMPORTED = ["pytest", "hypothesis", "numpy.testing", "scipy.linalg", "matplotlib.figure", "jsonschema", "msgspec"]  # once, for all
 SWAPPED = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Is: ast.IsNot,
     ast.IsNot: ast.Is, ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div,
@@ -48,40 +60,53 @@ def changed(node):
 
 
 class Replace(ast.NodeTransformer):
-    """Puts another node in place of one."""
+    """Puts others in place of some nodes."""
 
-    def __init__(self, node, other):
-        self.node, self.other = node, other
+    def __init__(self, others):
+        self.others = others
 
     def visit(self, node):
-        return self.other if node is self.node else self.generic_visit(node)
+        return self.others[node] if node in self.others else self.generic_visit(node)
 
 
 def places(path):
     """Line and index of whatever can be changed inside the functions of a file."""
-    functions = (node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.FunctionDef))
-    inside = {id(node): node for function in functions for statement in function.body for node in ast.walk(statement)}
-    return [(node.lineno, index) for index, node in enumerate(inside.values()) if changed(node)]
+    nodes = inside_functions(ast.parse(path.read_text()))
+    return [(node.lineno, index) for index, node in enumerate(nodes) if changed(node)]
 
 
 def mutate(path, index):
     """Write the mutant in place of the file; its line before and after."""
     tree = ast.parse(path.read_text())
-    functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
-    inside = {id(node): node for function in functions for statement in function.body for node in ast.walk(statement)}
-    node = list(inside.values())[index]
+    node = inside_functions(tree)[index]
     other = changed(node)
     before, after = ast.unparse(node).splitlines()[0], ast.unparse(other).splitlines()[0]
-    path.write_text(ast.unparse(ast.fix_missing_locations(Replace(node, other).visit(tree))))
+    rewrite(path, tree, Replace({node: other}))
     return f"{before}  ->  {after}"
 
 
-def killers(module, files):
-    """Test files that name a module, those named after it first; where there are none, those of its room."""
-    name, room = module.rpartition(".")[2], "/".join(["tests", *module.split(".")[1:-1]])
-    naming = [file for file, text in files.items() if re.search(rf"\b{re.escape(module)}\b|\bimport .*\b{name}\b", text)]
-    near = [file for file in files if file.as_posix().startswith(f"{room}/")]
-    return sorted(naming or near, key=lambda file: (name not in file.stem, file not in near))
+def affordable(tests, path, took):
+    """Those of `BUDGET_S`: files named after the module first, then its room's, and one test of each file before the next ones."""
+    room = "/".join(["tests", *path.parent.parts[1:]])
+    turns = Counter()
+    ranked = []
+    for test in sorted(tests, key=took.get):
+        file = test.partition("::")[0]
+        turns[file] += 1
+        ranked.append((turns[file] - (5 if path.stem in file else 2 if file.startswith(f"{room}/") else 0), took[test], test))
+    chosen, spent = [], 0.0
+    for _, seconds, test in sorted(ranked):
+        spent += seconds
+        if not chosen or spent < BUDGET_S:
+            chosen.append(test)
+    return chosen
+
+
+def nearest_first(tests):
+    """Those of the first files, since to import many lasts longer than to run them; then the others."""
+    files = list(dict.fromkeys(test.partition("::")[0] for test in tests))[:3]
+    near = [test for test in tests if test.partition("::")[0] in files]
+    return [some for some in (near, [test for test in tests if test not in near]) if some]
 
 
 class First:
@@ -93,62 +118,103 @@ class First:
         self.failed = self.failed or (report.nodeid if report.failed else "")
 
 
-def failing(checkout, tests, mark):
+def end_if_it_hangs(child, reading):
+    """Kill a process of tests, and what it started, that computes nothing for `HANGS_S`."""
+    used_s = -1.0
+    while not select.select([reading], [], [], HANGS_S)[0]:
+        before_s, used_s = used_s, processor_s(child)
+        if used_s - before_s < 0.1:
+            os.killpg(child, signal.SIGKILL)
+
+
+def failing(checkout, tests):
     """Name of the first test that fails, in a process of its own, which has its imports from this one; None if none does."""
     reading, writing = os.pipe()
     child = os.fork()
     if child:
         os.close(writing)
+        end_if_it_hangs(child, reading)
         with os.fdopen(reading) as reported:
             failed = reported.read()
         code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-        return failed if code == 1 else None if code in {0, 4, 5} else "it does not end, or cannot be imported"
+        return failed if code == 1 else None if code in {0, 5} else f"{tests[0]}: it does not end, or cannot be imported"
     code = 2
     try:
+        os.setsid()
         resource.setrlimit(resource.RLIMIT_CPU, (CPU_S, CPU_S))
         os.chdir(checkout)
         sys.path.insert(0, str(checkout))
         os.environ["PYTHONPATH"] = str(checkout)
-        quiet = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(quiet, 1)
-        os.dup2(quiet, 2)
+        silent = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(silent, 1)
+        os.dup2(silent, 2)
         first = First()
-        code = importlib.import_module("pytest").main(["-n0", "-x", "-q", "-m", mark, *map(str, tests)], [first])
+        code = importlib.import_module("pytest").main(["-n0", "-x", "-q", "-W", "ignore:Module already imported", *tests], [first])
         os.write(writing, first.failed.encode())
     finally:
         os._exit(code)
 
 
+PASSES = set()  # tests that were tried without a mutant
+
+
+def restored(checkout, path):
+    rewrite(checkout / path, ast.parse((ROOT / path).read_text()), ast.NodeTransformer())
+
+
+def verdict(checkout, tests, path, took, quick, restore):
+    """What kills the mutant that stands there: `quick` tests, `slower` ones, or none."""
+    for form, chosen in (("quick", tests & quick), ("slower", tests - quick)):
+        failed = next(filter(None, (failing(checkout, some) for some in nearest_first(affordable(chosen, path, took)))), None)
+        if failed:
+            restore()
+            known = failed.partition(": ")[0]
+            if known not in PASSES and failing(checkout, [known]):
+                return f"undecided: without it {known} fails too"
+            PASSES.add(known)
+            return f"{form}: {failed}"
+    return "lives" if tests else "lives: nothing reaches it"
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--count", type=int, default=100)
+    arguments.add_argument("--count", type=int, default=300)
     arguments.add_argument("--seed", type=int, default=2015)
-    arguments.add_argument("--under", default="controller")
-    arguments.add_argument("--mark", default="not slow and not stress and not kernel")
+    arguments.add_argument("--under", nargs="+", default=UNDER)
+    arguments.add_argument("--reached", type=Path)
+    arguments.add_argument("--only", type=Path)
     given = arguments.parse_args()
-    for name in ("matplotlib.figure", "scipy.linalg"):  # what most tests import, once
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.dont_write_bytecode = False  # of tests, in the copy
+    for name in IMPORTED:
         importlib.import_module(name)
 
-    everything = [(path, *place) for path in sorted((ROOT / given.under).rglob("*.py")) for place in places(path)]
+    files = [path for under in given.under for path in sorted((ROOT / under).rglob("*.py"))]
+    everything = [(path.relative_to(ROOT), *place) for path in files for place in places(path)]
     chosen = random.Random(given.seed).sample(everything, min(given.count, len(everything)))
-    verdicts = []
+    again = given.only and {int(line.split()[0]) for line in given.only.read_text().splitlines() if ": lives" in line}
+    by_room = {}
     with tempfile.TemporaryDirectory() as folder:
-        checkout = Path(folder) / "checkout"
+        checkout, reached = Path(folder) / "checkout", given.reached or Path(folder) / "reached"
         Path(folder).chmod(0o755)  # some tests are run as nobody
         shutil.copytree(ROOT, checkout, ignore=shutil.ignore_patterns(".venv", ".git", "build", ".*_cache"), symlinks=True)
-        files = {file.relative_to(checkout): file.read_text() for file in sorted((checkout / "tests").rglob("test_*.py"))}
-        for number, (path, line, index) in enumerate(chosen, 1):
-            mutated = checkout / path.relative_to(ROOT)
-            what = mutate(mutated, index)
-            tests = killers(".".join(path.relative_to(ROOT).with_suffix("").parts), files)
-            failed = failing(checkout, tests, given.mark) if tests else None
-            shutil.copy(path, mutated)
-            verdict = f"killed by {failed}" if failed else "lives"
-            if failed and "::" in failed and failing(checkout, [failed], given.mark):
-                verdict = f"undecided: without it {failed} fails too"
-            verdicts.append(verdict.split()[0].rstrip(":"))
-            print(f"{number} {path.relative_to(ROOT)}:{line}  {what}: {verdict}", flush=True)
-    print({verdict: verdicts.count(verdict) for verdict in set(verdicts)})
+        if not reached.exists():
+            run_whole(checkout, chosen, reached.absolute())
+            for path in {path for path, *_ in chosen}:
+                restored(checkout, path)
+        tests, took, quick = read_reached(reached)
+        for number, (path, line, index) in enumerate(chosen):
+            if again is not None and number not in again:
+                continue
+            what = mutate(checkout / path, index)
+            restore = partial(restored, checkout, path)
+            found = verdict(checkout, set(tests.get(number, [])), path, took, quick, restore)
+            restore()
+            by_room.setdefault("/".join(path.parts[1:3]), Counter())[re.match(r"\w+", found)[0]] += 1
+            print(f"{number} {path}:{line}  {what}: {found}", flush=True)
+    for room, counts in sorted(by_room.items()):
+        print(f"{room:30}", dict(counts))
+    print(f"{'all':30}", dict(sum(by_room.values(), Counter())))
 
 
 if __name__ == "__main__":
