@@ -11,6 +11,7 @@ sys.dont_write_bytecode = False  # of the tests as pytest rewrites them: 10 s of
 
 import pytest
 from hypothesis import HealthCheck, settings
+from hypothesis.configuration import set_hypothesis_home_dir
 from scripted_evemu import evemu
 from xdist.scheduler import LoadFileScheduling
 
@@ -31,7 +32,9 @@ pytest_plugins = ["random_banks"]
 untimed = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("explore", untimed, max_examples=1000)
 settings.register_profile("repeatable", untimed, derandomize=True)
+settings.register_profile("quick", settings.get_profile("repeatable"), max_examples=20)
 settings.load_profile("repeatable")
+set_hypothesis_home_dir(Path(sys.prefix, "hypothesis"))  # not in the checkout
 
 HERE = Path(__file__).parent
 
@@ -91,6 +94,18 @@ SLOWER = [
     "workshop/publish/test_make_release.py",
     "workshop/simulation/",
 ]
+SECONDS = {  # tests of other files that take longest
+    "test_a_calibrated_bank_focuses_where_the_models_own_does_not",
+    "test_a_decoder_sees_exactly_the_contacts_of_each_report",
+    "test_a_hundred_thousand_events_and_controls_take_seconds",
+    "test_a_planted_file_of_a_release_never_runs_as_root_whatever_is_called",
+    "test_any_sequence_of_failures_is_recovered",
+    "test_audible_energy_adds_up_to_the_energy_over_time",
+    "test_each_shipped_clip_comes_back_from_either_file",
+    "test_every_tick_is_as_in_the_reference",
+    "test_pulses_come_back_from_either_file_and_from_one_by_way_of_the_other",
+    "test_whatever_is_sent_each_region_is_taken_or_refused",
+}
 COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells of the coverage of the Verilog
 
 
@@ -104,6 +119,12 @@ def pytest_xdist_auto_num_workers(config):
     if not everything or config.option.capture == "no":
         return 0
     return 3 if marked == "kernel" else 2
+
+
+def pytest_configure(config):
+    """Before any test is imported: `-m quick` tries fewer examples, where a test has no number of its own."""
+    if config.option.markexpr == "quick" and settings.get_current_profile_name() == "repeatable":
+        settings.load_profile("quick")
 
 
 class ByFileOrMachine(LoadFileScheduling):
@@ -134,7 +155,10 @@ def pytest_ignore_collect(collection_path, config):
 
 def pytest_collection_modifyitems(items):
     for item in items:
-        if is_quick(item.path) and not any(item.get_closest_marker(name) for name in ("slow", "stress", "kernel")):
+        slower = getattr(item, "originalname", "") in SECONDS or any(
+            item.get_closest_marker(name) for name in ("slow", "stress", "kernel")
+        )
+        if is_quick(item.path) and not slower:
             item.add_marker(pytest.mark.quick)
     items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
 
