@@ -262,6 +262,9 @@ def test_commands_of_one_user_do_not_push_out_those_of_another(panel_with):
         panel.socket.outcome(ticket, Outcome.PLAYED, 0.0)
     panel.ask(hog[0], PLAY)
     assert panel.socket.waiting == 1
+    for client in hog:
+        panel.ask(client, *[PLAY] * 50)
+    assert panel.socket.waiting == MAX_WAITING_COMMANDS // 2, "each that was answered is given back once"
 
 
 def test_a_share_is_not_had_anew_by_connecting_again(panel_with):
