@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # two processes of tests keep two cores busy
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # processes of tests keep all cores busy
 sys.dont_write_bytecode = False  # of the tests as pytest rewrites them: 10 s of each process of every run but the first
 
 import pytest
@@ -38,7 +38,7 @@ set_hypothesis_home_dir(Path(sys.prefix, "hypothesis"))  # not in the checkout
 
 HERE = Path(__file__).parent
 
-# Files that take longest begin first, so that both processes end at about the same time.
+# Files that take longest begin first, so that all processes end at about the same time.
 LONGEST = ["test_rtl.py", "test_readme_runs.py", "test_project.py", "test_cli.py", "test_build.py", "test_kernel_guest.py"]
 # What `-m quick` leaves out, and does not even import: what compiles, simulates, starts services or builds banks, for seconds each.
 SLOWER = [
@@ -110,15 +110,10 @@ COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells
 
 
 def pytest_xdist_auto_num_workers(config):
-    """All tests run in two processes; what is chosen on the command line, or to be seen as it runs, in this one.
-
-    Tests in containers, which wait half of their time, and those beside them: in three.
-    """
+    """All tests run in three processes, which keep two cores busy: some wait; what is chosen on the command line, in this one."""
     marked = config.option.markexpr
     everything = config.args_source is config.ArgsSource.TESTPATHS and ("not slow" in marked or marked in {"kernel", "quick"})
-    if not everything or config.option.capture == "no":
-        return 0
-    return 3 if marked == "kernel" else 2
+    return 3 if everything and config.option.capture != "no" else 0
 
 
 def pytest_configure(config):
