@@ -30,7 +30,7 @@ from tests.mutants_reached import inside_functions, read_reached, rewrite, run_w
 from tests.patience import processor_s
 
 ROOT = Path(__file__).parent.parent
-PURE = ["bank_builder", "calibration", "clips", "physics"]
+PURE = ["physics", "bank_builder", "calibration", "clips"]
 UNDER = ["controller/device", *(f"controller/workshop/{room}" for room in PURE)]
 CPU_S, BUDGET_S, HANGS_S = 180, 15, 100
 IMPORTED = ["pytest", "hypothesis", "numpy.testing", "scipy.linalg", "matplotlib.figure", "jsonschema", "msgspec"]  # once, for all

@@ -9,6 +9,7 @@ import signal
 import msgspec
 import pytest
 from device.service.test_scene_reload import prepared, works
+from tables import each_row
 
 from controller.device.application_socket.messages import request_decoder
 from controller.device.scene.scene_file import find_scene, read_scene
@@ -111,7 +112,7 @@ def test_whoever_may_not_look_into_the_folder_finds_none_and_the_boards_own(own,
 HOSTILE = ("../x", "a/b", ".", "..", "", "a.toml", ".hidden", "a\0b", "a\nb", "-rf", "a b", "x" * 65, "ä", "mine\n", "/etc/passwd")
 
 
-@pytest.mark.parametrize("name", HOSTILE)
+@each_row("name", HOSTILE)
 def test_a_name_that_is_none_does_not_come_this_far(name):
     line = msgspec.json.encode({"kind": "save_scene", "name": name, "toml": MINE})
     with pytest.raises(msgspec.ValidationError, match="name"):

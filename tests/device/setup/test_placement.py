@@ -5,6 +5,7 @@ import math
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.board.parts import Parts
 from controller.device.setup.placement import APART_MM, actuators_around, centres_around
@@ -32,9 +33,7 @@ def test_discs_lie_on_the_glass_and_not_on_each_other(length_mm, width_mm, disc_
         assert all(math.dist((x_mm, y_mm), other) >= disc_mm + APART_MM - 0.03 for other in centres[:index])
 
 
-@pytest.mark.parametrize(
-    ("length_mm", "width_mm", "discs"), [(217, 136, 7), (217, 136, 8), (210, 148, 8), (150, 70, 6), (150, 150, 4)]
-)
+@each_row(("length_mm", "width_mm", "discs"), [(217, 136, 7), (217, 136, 8), (210, 148, 8), (150, 70, 6), (150, 150, 4)])
 def test_no_disc_is_the_mirror_image_of_another(length_mm, width_mm, discs):
     centres = centres_around(length_mm, width_mm, 12.0, discs, 3.0)
     mirrored = [image for x, y in centres for image in ((length_mm - x, y), (x, width_mm - y))]
