@@ -40,7 +40,17 @@ def wrong_lines(tmp_path_factory):
     """Lines of RIGHT and WRONG that mypy refuses."""
     program = tmp_path_factory.mktemp("mixed") / "mixed.py"
     program.write_text(PROGRAM + "".join(f"    {line}\n" for line in (*RIGHT, *WRONG)))
-    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "--no-error-summary", str(program)]
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--cache-dir",
+        f"{sys.prefix}/mypy_cache",
+        "--follow-imports=silent",
+        "--no-error-summary",
+        str(program),
+    ]
     said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert not said.stderr
     numbers = {int(line.split(":")[1]) - PROGRAM.count("\n") for line in said.stdout.splitlines() if ": error: " in line}

@@ -48,7 +48,8 @@ class BuildReport:
     # model_seconds, response_seconds: processor time of the plate model (none of another source) and of the responses
     model_seconds: float
     response_seconds: float
-    # Additions and multiplications that the responses need, in 10^9 for a second of `response_seconds`; None: no model's
+    # Additions and multiplications that the responses need, in 10^9 for a second of `response_seconds`; None: no model's, or
+    # too few to be timed
     response_gflops: float | None
     peak_memory_mb: float  # in MB of 10^6 bytes
     worst_edge_rate_hz: float  # edges per second of the busiest channel of all entries
@@ -98,7 +99,7 @@ def build_bank(request: BankRequest) -> BuildReport:
         seconds=time.perf_counter() - started,
         model_seconds=model_seconds,
         response_seconds=response_seconds,
-        response_gflops=plan.flops() / response_seconds / 1e9 if plan.model else None,
+        response_gflops=plan.flops() / response_seconds / 1e9 if plan.model and response_seconds else None,  # of few cells, no time
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=entries.worst_edge_rate_hz,
         interpolation_error=results["interpolation_error"],
