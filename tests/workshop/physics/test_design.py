@@ -93,6 +93,13 @@ def test_modes_in_the_band_are_those_that_are_counted(changes, high_hz):
     same(found["modes_counted"], found["modes_in_band"] - around_m * (high - low) / (4 * math.pi), 0.0045, "modes")
 
 
+def test_wavelengths_are_those_of_both_edges_and_the_middle_of_the_band():
+    found = design_figures(BOARD, {"band_low_hz": 20e3, "band_high_hz": 80e3})
+    for key, theory in (("wavelength_mm", kirchhoff_wavelength_m), ("mindlin_wavelength_mm", mindlin_wavelength_m)):
+        expected = {"low": theory(BOARD.plate, 20e3), "middle": theory(BOARD.plate, 50e3), "high": theory(BOARD.plate, 80e3)}
+        assert found[key] == pytest.approx({edge: 1e3 * length_m for edge, length_m in expected.items()})
+
+
 def flat_focus(board):
     """A focus of a flat band: patches of no size drive k^2 = w alike, and the driver passes all."""
     driver = msgspec.structs.replace(board.driver, inductance_h=1e-9, resistance_ohm=1.0, capacitance_f=1e-12)
