@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from quick import SECONDS, SLOWER
 from readme_commands import works
 from tables import each_row
 
@@ -87,8 +88,6 @@ def test_the_way_of_a_touch_names_functions_that_are_there():
 
 
 def test_what_the_quick_form_leaves_out_is_there():
-    from conftest import SECONDS, SLOWER
-
     assert all((ROOT / "tests" / name).exists() for name in SLOWER)
     text = "\n".join(file.read_text() for file in (ROOT / "tests").rglob("test_*.py"))
     assert not [name for name in SECONDS if f"def {name}(" not in text]
