@@ -13,6 +13,7 @@ from small_plate import small_board
 from tables import each_row
 
 from controller.errors import CalibrationError
+from controller.workshop.calibration.records import drives
 from controller.workshop.calibration.records.measurement_file import (
     ImpulsesDrive,
     MeasurementFile,
@@ -294,6 +295,20 @@ def test_drives_are_checked(tmp_path):
     write_measurement(tmp_path, described(drive=WORDS), NAMES, POINTS_M)
     with pytest.raises(CalibrationError, match=r"drive.npy: cannot be read"):
         read_measurement(tmp_path, board())
+
+
+def test_a_drive_has_a_largest_size(tmp_path, monkeypatch):
+    for drive, array, said in (
+        (WORDS, np.arange(200, dtype=np.uint32).reshape(2, 100), "drive.npy: 200 drive words, more than 199"),
+        (SamplesDrive(file="drive.npy", rate_hz=1e6, channels=(1, 2)), np.ones((2, 100)), "drive.npy: 200 samples, more than 199"),
+    ):
+        write_measurement(tmp_path, described(drive=drive), NAMES, POINTS_M)
+        np.save(tmp_path / "drive.npy", array)
+        monkeypatch.setattr(drives, "MOST_WORDS", 200)
+        assert read_measurement(tmp_path, board()).drive.emissions == 2
+        monkeypatch.setattr(drives, "MOST_WORDS", 199)
+        with pytest.raises(CalibrationError, match=said):
+            read_measurement(tmp_path, board())
 
 
 @pytest.fixture(scope="module")
