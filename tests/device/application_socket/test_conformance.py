@@ -4,10 +4,10 @@ import json
 import socket
 import threading
 
-import pytest
 from device.application_socket.test_protocol_schema import fits
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.application_socket.protocol.conformance import CONVERSATION, has, main, named, steps_of
 from controller.device.application_socket.protocol.schema import protocol_schema
@@ -25,7 +25,7 @@ def test_whatever_is_said_has_itself_and_anything(value):
     assert has(value, "…")
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("value", "wanted", "found"),
     [
         ({"a": 1, "b": 2}, {"a": 1}, True),
@@ -60,7 +60,7 @@ def test_the_recorded_conversation_asks_for_all_there_is():
             assert fits("Request", {**step.say, "finger": 1} if "finger" in step.say else step.say)
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text", ["", "{", "[]", '{"steps"', json.dumps({"step": []}), json.dumps({"steps": [{"says": 1}]}), json.dumps({"steps": [7]})]
 )
 def test_a_file_that_is_none_is_one_line(tmp_path, text, capsys):

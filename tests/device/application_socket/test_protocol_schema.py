@@ -3,8 +3,8 @@
 import json
 
 import jsonschema
-import pytest
 from device.application_socket.test_readme import conversations
+from tables import each_row
 
 from controller.device.application_socket.protocol.schema import protocol_schema
 
@@ -21,14 +21,14 @@ def test_it_is_a_schema():
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
-@pytest.mark.parametrize("line", [line for lines in conversations() for line in lines])
+@each_row("line", [line for lines in conversations() for line in lines])
 def test_every_line_of_the_readme_fits(line):
     side = "Request" if line.startswith("> ") else "Message"
     if "clik" not in line or side == "Message":
         assert fits(side, json.loads(line[2:]))
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("request_", "good"),
     [
         ({"kind": "regions", "regions": [REGION]}, True),

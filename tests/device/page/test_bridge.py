@@ -15,6 +15,7 @@ import pytest
 from device.page.conftest import PLAYS
 from device.page.test_screen import PLACE, SCREEN
 from patience import wait_for
+from tables import each_row
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from controller.device.application_socket.client import PanelClient
@@ -338,7 +339,7 @@ class NoRedirect(urllib.request.HTTPRedirectHandler):
         return None
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("options", "code", "said"),
     [
         (["--settings", "/none.toml"], 78, "/none.toml: cannot be read"),

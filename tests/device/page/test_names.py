@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from tables import each_row
 
 from controller.device.board.devices import MIN_AMPLITUDE
 from controller.device.page import names
@@ -25,7 +26,7 @@ def test_the_standards_words_are_there():
     assert {"hint", "edge", "tick", "align"} <= names.load_names().keys()
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("text", "error"),
     [
         ("[a]\nx = ['click', 2.0]", ConfigError),

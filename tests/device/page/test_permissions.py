@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.page.addresses import Origin, authority, origin_of
 from controller.device.page.permissions import RIGHT_OF, Permissions, Refusal, refused
@@ -19,14 +20,12 @@ def permissions(**settings):
     return Permissions(PageSettings(**settings), FILE)
 
 
-@pytest.mark.parametrize(
-    "host", ["localhost", "LOCALHOST:8750", "127.0.0.1:1", "[::1]:8750", "[0:0::1]", "localhost.", "Kiosk.local:80"]
-)
+@each_row("host", ["localhost", "LOCALHOST:8750", "127.0.0.1:1", "[::1]:8750", "[0:0::1]", "localhost.", "Kiosk.local:80"])
 def test_names_of_the_bridge_are_accepted_in_any_case_and_with_any_port(host):
     assert permissions(hosts=("kiosk.local",)).host_refusal([host]) is None
 
 
-@pytest.mark.parametrize(
+@each_row(
     "host",
     [
         "evil.com",
@@ -64,7 +63,7 @@ def test_a_refusal_names_the_line_of_the_file_that_allows_it():
     assert "'HTTP://Evil.com:80'" in said.reason
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("origin", "host", "rights"),
     [
         ("http://localhost:8750", "localhost:8750", {"look", "play", "regions"}),
@@ -138,7 +137,7 @@ def test_any_text_is_an_origin_or_none_and_one_stays_the_same(text):
     assert authority(name if port is None else f"{name}:{port}") == (name, port)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("text", "said"),
     [
         ('listen = ["0.0.0.0"]', "beyond this machine"),

@@ -6,6 +6,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.application_socket.token_bucket import TokenBucket
@@ -40,7 +41,7 @@ def test_the_panel_reads_what_was_evaluated():
     assert judge('{"kind": "stop", "kind": "arm", "id": 5}', PLAYS)["outcome"] == "refused"
 
 
-@pytest.mark.parametrize(
+@each_row(
     "frame",
     [
         "",

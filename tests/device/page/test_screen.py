@@ -8,6 +8,7 @@ import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.page.screen import Screen, ScreenPlace
 from controller.device.page.settings import PageSettings
@@ -41,7 +42,7 @@ def test_what_the_settings_say_wins(tmp_path):
     assert "settings say where the screen lies" in screen.keep(SCREEN)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("changed", "reason"),
     [
         ({"x_mm_from_pixels": [0.1, 0.0]}, "Expected `array` of length 3"),
@@ -72,7 +73,7 @@ def test_every_turn_and_mirror_of_a_screen_is_taken(degrees, pixel_mm, mirrored)
     assert msgspec.convert(place, ScreenPlace).wrong() == ""
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", json.dumps(turned(0, 9.0)), '{"x_mm_from_pixels": [1, 2, 3]}', "x" * 5000])
+@each_row("text", ["", "{", "[]", json.dumps(turned(0, 9.0)), '{"x_mm_from_pixels": [1, 2, 3]}', "x" * 5000])
 def test_a_damaged_file_counts_as_none_and_is_reported(tmp_path, text, capsys):
     (tmp_path / "screen.json").write_text(text)
     assert Screen(PageSettings(), tmp_path / "screen.json").place is None

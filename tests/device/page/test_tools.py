@@ -6,6 +6,7 @@ import shutil
 
 import pytest
 from patience import wait_for
+from tables import each_row
 
 from controller.device.page.traces import PART_BYTES, Traces
 from controller.device.service.tracing.trace_report import read_trace
@@ -46,7 +47,7 @@ def test_a_trace_is_read_in_parts_and_never_mixed_with_a_newer_one(tmp_path):
         traces.part(message)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("changed", "reason"),
     [
         ({"name": "../panel.sock"}, "must be one of 'trace-1.json'"),
