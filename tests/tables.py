@@ -53,12 +53,14 @@ def each_row(names, table, ids=repr, afresh=()):
     def decorate(test):
         @functools.wraps(test)
         def every_row(**fixtures):
-            failed = []
+            failed, skips = [], []
             for number, row in enumerate(table):
                 try:
                     with own(fixtures, afresh, number) as ready:
                         arguments = dict(zip(names, row, strict=True)) | ready
                         test(**{name: arguments[name] for name in inspect.signature(test).parameters})
+                except pytest.skip.Exception as skipped:
+                    skips.append(skipped)
                 except (Exception, BaseExceptionGroup, pytest.fail.Exception) as error:
                     error.add_note(f"row {number} of {test.__name__}: {called(number, row)}")
                     failed.append(error)
@@ -66,6 +68,8 @@ def each_row(names, table, ids=repr, afresh=()):
                 raise BaseExceptionGroup(f"{len(failed)} of {len(table)} rows of {test.__name__}", failed)
             if failed:
                 raise failed[0]
+            if len(skips) == len(table):
+                raise skips[0]
 
         asked = {
             name: argument for function in (test, *afresh) for name, argument in inspect.signature(function).parameters.items()

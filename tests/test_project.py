@@ -25,7 +25,7 @@ def tracked():
     return [Path(line) for line in listed.stdout.splitlines()]
 
 
-@each_row(
+@pytest.mark.parametrize(
     "command",
     [
         ["ruff", "check", "--no-cache"],

@@ -36,6 +36,21 @@ def test_of_several_rows_that_fail_each_is_named_one_table_within_the_other():
     assert [row.__notes__ for row in first.exceptions] == [["row 0 of never: first"], ["row 1 of never: second"]]
 
 
+def test_a_row_that_is_skipped_keeps_no_other_from_running():
+    ran = []
+
+    @each_row("number", (1, 2))
+    def some(number, least):
+        if number < least:
+            pytest.skip("too few")
+        ran.append(number)
+
+    some(least=2)
+    assert ran == [2]
+    with pytest.raises(pytest.skip.Exception, match="too few"):
+        some(least=3)
+
+
 def test_a_table_without_rows_is_no_test():
     with pytest.raises(AssertionError, match="without any row"):
         each_row("value", [])
