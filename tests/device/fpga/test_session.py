@@ -407,6 +407,19 @@ def test_an_upload_with_a_damaged_answer_is_sent_again_and_played_once(clock, li
     assert armed.heartbeat().emissions == 1
 
 
+def test_a_play_whose_answer_was_damaged_waits_behind_the_one_before_it(clock, link, armed):
+    armed.upload(0, WORDS)
+    first, second = (link.tick(clock.now_s() + ahead_s) for ahead_s in (20e-3, 30e-3))
+    armed.play(Play(0, start=Start.TIME, when_ticks=first), stop=False)
+    link.noise = {link.frames + frame: ("to the host", 9) for frame in (0, 1)}
+    armed.play(Play(0, start=Start.TIME, when_ticks=second), stop=False)
+    assert armed.counters.first_copies_taken == 1
+    assert armed.belief.waiting == [first, second]
+    wait(clock, link, 40e-3)
+    assert armed.heartbeat().emissions == 2
+    assert armed.counters.emissions_lost == 0
+
+
 @each_row("byte", [0, 2, 4, 20, 35], afresh=[clock, link, armed])
 def test_damaged_answers_are_asked_for_again_and_never_believed(link, armed, byte):
     link.noise = {link.frames: ("to the host", byte)}
