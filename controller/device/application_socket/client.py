@@ -21,7 +21,7 @@ from controller.device.application_socket import messages
 from controller.device.application_socket.client_link import PanelLink, T
 from controller.device.application_socket.messages import (
     Answer,
-    Contact,
+    ContactNotice,
     Description,
     Emissions,
     FaultNotice,
@@ -180,7 +180,7 @@ class PanelClient:
         """Every touch from this call on, until the iterator is closed."""
         return self._link.follow(Touch, "touches")
 
-    def contacts(self) -> Iterator[Contact]:
+    def contacts(self) -> Iterator[ContactNotice]:
         """Every contact as the touch panel has it, ghosts too, from this call on, until the iterator is closed, as for `states`.
 
         Raises
@@ -188,7 +188,7 @@ class PanelClient:
         ControllerError
             If this user does not have the right to operate.
         """
-        return self._link.follow(Contact, "contacts")
+        return self._link.follow(ContactNotice, "contacts")
 
     def subscribe(self, *topics: messages.Topic) -> None:
         """Have the panel send what belongs to these topics, for `heard`.

@@ -50,15 +50,9 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
             answer = panel.play(effect, **where, amplitude=options.amplitude)
             _show(answer)
             return 0 if answer.outcome in ("played", "merged") else 1
-        case "touches":
-            for touch in panel.touches():
-                _show(touch)
-        case "contacts":
-            for contact in panel.contacts():
-                _show(contact)
-        case "emissions":
-            for emissions in panel.emissions():
-                _show(emissions)
+        case "touches" | "contacts" | "emissions" | "faults" | "log" as topic:
+            for notice in getattr(panel, topic)():
+                _show(notice)
         case "regions":
             from controller.device.board.records import read_tables  # no other request needs a board's modules
 
@@ -94,12 +88,6 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
                 _show(description)
         case "describe":
             _show(panel.describe())
-        case "faults":
-            for fault in panel.faults():
-                _show(fault)
-        case "log":
-            for line in panel.log():
-                _show(line)
         case "hello":
             _show(panel.hello())
     return 0

@@ -19,7 +19,7 @@ from controller.device.application_socket.messages import (
     Answer,
     AnyMessage,
     AnyRequest,
-    Contact,
+    ContactNotice,
     Data,
     Description,
     Emissions,
@@ -37,7 +37,7 @@ D = TypeVar("D", bound="Reply")
 RECEIVE_BYTES = 65536
 MAX_KEPT = 1000  # of each kind that arrive while an answer is awaited; older ones are dropped
 
-Notice = Touch | Contact | Emissions | StateAnswer | FaultNotice | Description | LogLine
+Notice = Touch | ContactNotice | Emissions | StateAnswer | FaultNotice | Description | LogLine
 Reply = Answer | LayerAnswer | Data
 
 

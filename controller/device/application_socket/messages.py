@@ -222,7 +222,7 @@ class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc
     size_mm: float
 
 
-class Contact(Touch, frozen=True, kw_only=True, tag="contact", gc=False):
+class ContactNotice(Touch, frozen=True, kw_only=True, tag="contact", gc=False):
     """As `Touch`, of each contact as the touch panel has it, before it is decided which are fingers: ghosts too.
 
     `finger` is the source's own number, which may differ from that of the same finger as a `Touch`.
@@ -370,7 +370,7 @@ AnyRequest = AnyOrder | AnyQuestion
 OPERATIONS = Arm | Disarm | LoadScene | SaveScene | ChannelTest | WriteTrace  # for operators
 LONG = Regions | SaveScene  # lines of these kinds have at most `layer_bytes`
 Data = Greeting | FiguresAnswer | StateAnswer | Description
-AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | Contact | Emissions | LogLine | Farewell
+AnyMessage = Answer | LayerAnswer | Data | FaultNotice | Touch | ContactNotice | Emissions | LogLine | Farewell
 
 
 def request_decoder() -> msgspec.json.Decoder[AnyRequest]:

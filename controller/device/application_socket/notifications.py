@@ -54,7 +54,7 @@ class Notifications:
         for client in self._clients.places:
             if client.overhears:
                 wanted = True
-                self._send(client, samples, messages.Contact)
+                self._send(client, samples, messages.ContactNotice)
         if not wanted and self._control is not None:
             self._control.hear(None)
 

@@ -19,7 +19,7 @@ from controller.device.page.requests import OwnKinds, evaluated, outcome
 from controller.device.page.screen import Screen, ScreenPlace
 from controller.device.page.settings import PageSettings
 from controller.device.page.tools import PageTools
-from controller.device.page.traces import Traces
+from controller.device.page.traces import TraceFolder
 
 LINE_BYTES_MAX: Final = 1 << 20  # of the panel, whose figures are the longest
 SLOW_S: Final = 10.0  # that a frame may wait for a page to read
@@ -66,7 +66,7 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
 
     greet()
     forget = screen.watch(greet)
-    tools = PageTools(settings.socket, Traces(Path(settings.socket).parent), running, put)
+    tools = PageTools(settings.socket, TraceFolder(Path(settings.socket).parent), running, put)
     own = {"screen": lambda message: {"kind": "answer"} | outcome(screen.keep(message))} | dict(tools.kinds)
     judge = _Judge(rights, TokenBucket(settings.messages_per_s, settings.burst), own)
     tasks = [

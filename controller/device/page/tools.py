@@ -13,7 +13,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.page.requests import OwnKinds, outcome
-from controller.device.page.traces import Traces
+from controller.device.page.traces import TraceFolder
 from controller.errors import ConfigError
 
 LINE_BYTES: Final = 1 << 16
@@ -47,7 +47,7 @@ class PageTools:
         Sends a line to the page.
     """
 
-    def __init__(self, socket: str, traces: Traces, running: set[str], put: Callable[[bytes], None]) -> None:
+    def __init__(self, socket: str, traces: TraceFolder, running: set[str], put: Callable[[bytes], None]) -> None:
         self._socket = socket
         self._traces = traces
         self._running = running

@@ -17,7 +17,7 @@ NAMES: Final = ("trace-1.json", "trace-2.json", "trace-3.json")  # as the servic
 
 
 class ReadTrace(msgspec.Struct, forbid_unknown_fields=True, tag_field="kind", tag="read_trace"):
-    """Request for a part of a trace that was `written` when `Traces.listed` says: what has replaced it is another."""
+    """Request for a part of a trace that was `written` when `TraceFolder.listed` says: what has replaced it is another."""
 
     name: str
     written: str
@@ -25,7 +25,7 @@ class ReadTrace(msgspec.Struct, forbid_unknown_fields=True, tag_field="kind", ta
     id: int | str | None = None
 
 
-class Traces:
+class TraceFolder:
     """The traces in a folder.
 
     Parameters

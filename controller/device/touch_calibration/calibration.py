@@ -36,7 +36,7 @@ MAX_SKEW_DEG: Final = 15.0  # of an axis against the plate's side
 Point = tuple[float, float]
 
 
-class Plate(Protocol):
+class PlateSize(Protocol):
     """What a calibration has to know of a plate."""
 
     @property
@@ -123,7 +123,7 @@ class Calibration:
         return max(self.residuals_mm, default=None)
 
 
-def default_targets(plate: Plate, count: int) -> list[Point]:
+def default_targets(plate: PlateSize, count: int) -> list[Point]:
     """Targets (x_mm, y_mm) near the corners of a `plate`; `count` 3: without the last corner, 5: with the middle."""
     near_x, near_y = INSET * plate.length_mm, INSET * plate.width_mm
     far_x, far_y = plate.length_mm - near_x, plate.width_mm - near_y
@@ -131,7 +131,7 @@ def default_targets(plate: Plate, count: int) -> list[Point]:
     return [*corners, (plate.length_mm / 2, plate.width_mm / 2)][:count]
 
 
-def check_targets(targets: Sequence[Point], plate: Plate) -> None:
+def check_targets(targets: Sequence[Point], plate: PlateSize) -> None:
     """Refuse `targets`, each (x_mm, y_mm) on the `plate`, that determine no calibration, before they are touched.
 
     Raises CalibrationError if there are not three to five, one is not on the plate, two coincide, or all lie on one line.
@@ -148,7 +148,7 @@ def check_targets(targets: Sequence[Point], plate: Plate) -> None:
         raise CalibrationError("the targets lie on one line: move one of them aside")
 
 
-def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) -> Calibration:
+def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: PlateSize) -> Calibration:
     """Fit the least-squares affine map from touches to targets.
 
     `targets` are three to five points (x_mm, y_mm) on the plate; `touches` are on the panel's axes, normalised to 0..1. Raises
@@ -196,7 +196,7 @@ def _leave_one_out_mm(columns: NDArray[np.float64], off_mm: NDArray[np.float64])
     return residuals_mm
 
 
-def _check_axes(found: NDArray[np.float64], plate: Plate) -> None:
+def _check_axes(found: NDArray[np.float64], plate: PlateSize) -> None:
     """Refuse axes that are not nearly parallel to different sides of the plate, or of implausible length."""
     sides = []
     for name, (along_x, along_y) in zip("xy", np.abs(found[:2]), strict=True):

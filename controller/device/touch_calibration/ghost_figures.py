@@ -28,7 +28,7 @@ MARGIN_FEW_MS = 20.0  # of fewer
 RULE_OF_THREE = 3.0  # none among n: below 3 / n at 95 %
 
 
-class Contact(NamedTuple):
+class ContactSpan(NamedTuple):
     """One contact that a panel has reported."""
 
     begin_s: float
@@ -77,14 +77,14 @@ def ghost_figures(recording: Recording, board: Board) -> GhostFigures:
     return figures_of(emissions, _contacts(recording, board), recording.name)
 
 
-def figures_of(emissions: Sequence[tuple[float, float]], contacts: Sequence[Contact], name: str) -> GhostFigures:
+def figures_of(emissions: Sequence[tuple[float, float]], contacts: Sequence[ContactSpan], name: str) -> GhostFigures:
     """Evaluate emissions on an untouched panel.
 
     Parameters
     ----------
     emissions : sequence of (float, float)
         Start and end of each in s, in order; at least one.
-    contacts : sequence of Contact
+    contacts : sequence of ContactSpan
         All that the panel reported meanwhile, in order.
     name : str
         Of the measurement, for messages.
@@ -115,23 +115,23 @@ def figures_of(emissions: Sequence[tuple[float, float]], contacts: Sequence[Cont
     )
 
 
-def _contacts(recording: Recording, board: Board) -> list[Contact]:
+def _contacts(recording: Recording, board: Board) -> list[ContactSpan]:
     source = RecordingSource(recording, recording.axes(board), 0.0)
-    down: dict[int, Contact] = {}
-    found: list[Contact] = []
+    down: dict[int, ContactSpan] = {}
+    found: list[ContactSpan] = []
     while (at_s := source.next_time_s()) is not None:
         samples = source.read(at_s)
         ending = source.next_time_s() is None  # then it releases what is still down
         for sample in samples:
             if sample.contact:
-                before = down.get(sample.finger, Contact(sample.time_s, inf, 0.0))
+                before = down.get(sample.finger, ContactSpan(sample.time_s, inf, 0.0))
                 down[sample.finger] = before._replace(size_m=max(before.size_m, sample.size_m))
             elif sample.finger in down:
                 found.append(down.pop(sample.finger)._replace(end_s=inf if ending else sample.time_s))
     return sorted(found + list(down.values()))
 
 
-def _emissions_of(contacts: Sequence[Contact], emissions: Sequence[tuple[float, float]]) -> list[int]:
+def _emissions_of(contacts: Sequence[ContactSpan], emissions: Sequence[tuple[float, float]]) -> list[int]:
     """Index of the emission that caused each contact; refuses contacts that none can have caused."""
     starts_s = [start_s for start_s, _ in emissions]
     of = [bisect_right(starts_s, contact.begin_s) - 1 for contact in contacts]
@@ -144,5 +144,5 @@ def _emissions_of(contacts: Sequence[Contact], emissions: Sequence[tuple[float, 
     return of
 
 
-def _stray(number: int, contact: Contact, emissions: Sequence[tuple[float, float]]) -> bool:
+def _stray(number: int, contact: ContactSpan, emissions: Sequence[tuple[float, float]]) -> bool:
     return number < 0 or max(contact.begin_s, contact.end_s) - emissions[number][1] > MAX_GHOST_LIFE_S

@@ -18,7 +18,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from controller.device.application_socket.client import PanelClient
-from controller.device.application_socket.messages import Contact, Description, Emissions, Touch
+from controller.device.application_socket.messages import ContactNotice, Description, Emissions, Touch
 from controller.device.touch.source import TouchSample
 from controller.device.touch_calibration import ghost_figures
 from controller.device.touch_calibration.calibration import Calibration, Point, StationaryTouches, calibrate
@@ -109,21 +109,21 @@ class _Survey:
 
     def __init__(self, panel: PanelClient) -> None:
         self.starts_s: set[float] = set()
-        self.contacts: list[ghost_figures.Contact] = []
+        self.contacts: list[ghost_figures.ContactSpan] = []
         self._panel = panel
-        self._down: dict[int, ghost_figures.Contact] = {}
+        self._down: dict[int, ghost_figures.ContactSpan] = {}
 
     def watch(self, until_s: float) -> None:
         """Take what the panel says until a time."""
         while (left_s := until_s - time.monotonic()) > 0:
             for emissions in self._panel.heard(Emissions, left_s):
                 self.starts_s |= {focus.time_s for focus in emissions.foci}
-            for touch in self._panel.heard(Contact, 0.0):
+            for touch in self._panel.heard(ContactNotice, 0.0):
                 self._take(touch)
 
-    def _take(self, touch: Contact) -> None:
+    def _take(self, touch: ContactNotice) -> None:
         if touch.contact:
-            before = self._down.get(touch.finger, ghost_figures.Contact(touch.time_s, inf, 0.0))
+            before = self._down.get(touch.finger, ghost_figures.ContactSpan(touch.time_s, inf, 0.0))
             self._down[touch.finger] = before._replace(size_m=max(before.size_m, touch.size_mm * 1e-3))
         elif touch.finger in self._down:
             self.contacts.append(self._down.pop(touch.finger)._replace(end_s=touch.time_s))

@@ -8,7 +8,7 @@ import pytest
 from patience import wait_for
 from tables import each_row
 
-from controller.device.page.traces import PART_BYTES, Traces
+from controller.device.page.traces import PART_BYTES, TraceFolder
 from controller.device.service.tracing.trace_report import read_trace
 from controller.errors import ConfigError
 
@@ -32,7 +32,7 @@ def whole(read):
 
 
 def test_a_trace_is_read_in_parts_and_never_mixed_with_a_newer_one(tmp_path):
-    traces = Traces(tmp_path)
+    traces = TraceFolder(tmp_path)
     assert traces.listed({}) == {"kind": "traces", "files": []}
     long = "x" * (2 * PART_BYTES + 5)
     stored(tmp_path, "trace-2.json", long, 2_000)
@@ -63,7 +63,7 @@ def test_a_trace_is_read_in_parts_and_never_mixed_with_a_newer_one(tmp_path):
 def test_what_is_no_trace_is_refused(tmp_path, changed, reason):
     message = {"kind": "read_trace", "name": "trace-1.json", "written": "0"} | changed
     with pytest.raises(ConfigError, match=reason):
-        Traces(tmp_path).part(message)
+        TraceFolder(tmp_path).part(message)
 
 
 def test_links_and_pipes_are_no_traces(tmp_path):
@@ -72,7 +72,7 @@ def test_links_and_pipes_are_no_traces(tmp_path):
     for name in ("trace-1.json", "trace-2.json"):
         written = str((tmp_path / name).lstat().st_mtime_ns)
         with pytest.raises(ConfigError, match="cannot be read"):
-            Traces(tmp_path).part({"kind": "read_trace", "name": name, "written": written})
+            TraceFolder(tmp_path).part({"kind": "read_trace", "name": name, "written": written})
 
 
 @pytest.fixture
