@@ -46,7 +46,7 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
     with open_bank(options, board, load_scene(scene := find_scene(board, board.scene), board), scene, keep=True) as bank:
         if not simulated:
             tell("hands off the panel for one to three minutes: it plays by itself")
-            for warning in enter_realtime(board.realtime):  # a heartbeat that is missed ends it
+            for warning in enter_realtime(board.realtime):  # each heartbeat that is missed costs a second
                 tell(warning)
         link = open_fpga_of(board)(board, clock.now_s)
         try:

@@ -129,7 +129,7 @@ class Knocks:
         self._asked = 0
         self._asked_s = self._next_s = -NEVER
         self._gap_s = GAP_S[1]
-        self._begin_s = NEVER
+        self._begin_s = self._refused_s = NEVER
         self._on = False
         self._wait = os.eventfd(0)  # the loop needs a file to wait on; this one is never readable
 
@@ -168,7 +168,18 @@ class Knocks:
             try:
                 control.play(self._asked, KNOCK, *self._random.choice(self._places), None, 1.0, now_s)
             except ControllerError as error:
-                self._give_up(error)
+                self._refused(error, now_s)
+            else:
+                self._refused_s = NEVER
+
+    def _refused(self, error: ControllerError, now_s: float) -> None:
+        """Outputs that went off, as after a heartbeat that a busy host missed, are switched on again, and settle; or stay off."""
+        self._asked -= 1
+        self._refused_s = min(self._refused_s, now_s)
+        if now_s - self._refused_s > PATIENCE_S:
+            self._give_up(error)
+        else:
+            self._next_s = now_s + SETTLED_S
 
     def _give_up(self, error: ControllerError | None) -> None:
         self.error = error
@@ -199,7 +210,7 @@ class Knocks:
         """Ignored: no layer is sent."""
 
     def changed(self, condition: Condition) -> None:
-        """Ignored: outputs that go off refuse the next click."""
+        """Ignored: outputs that are off refuse the next click."""
 
     def close(self) -> None:
         """Close the file."""

@@ -8,6 +8,7 @@ from controller.clocks import NEVER
 from controller.device.loop.commands import Outcome
 from controller.device.touch_calibration.ghost_figures import MAX_GHOST_LIFE_S
 from controller.device.touch_calibration.ghost_survey import MOST_EMISSIONS, Knocks, Overheard
+from controller.errors import FaultError
 
 T_S = 2e-3
 
@@ -22,12 +23,14 @@ class Silent:
 class Control:
     """The loop, over a link that takes so long for what is not resident."""
 
-    def __init__(self, upload_s, refuses=lambda _: False):
-        self.starts_s, self._upload_s, self._refuses = [], upload_s, refuses
+    def __init__(self, upload_s, refuses=lambda _: False, off_s=(NEVER, NEVER)):
+        self.starts_s, self._upload_s, self._refuses, self._off_s = [], upload_s, refuses, off_s
         self.knocks = Knocks(Overheard(Silent()), [(0.1, 0.07)], T_S, self.stop, lambda *_: None)
         self.running = True
 
     def play(self, ticket, _effect, _x_m, _y_m, _finger, _amplitude, now_s):
+        if self._off_s[0] <= now_s < self._off_s[1]:
+            raise FaultError("the outputs are off")
         if self._refuses(ticket):
             self.knocks.outcome(ticket, Outcome.REFUSED, 0.0)
             return
@@ -70,3 +73,18 @@ def test_one_that_was_refused_is_followed_by_the_next_and_the_survey_ends():
     control.run()
     assert control.knocks.played == MOST_EMISSIONS // 2
     assert control.knocks.next_time_s() == NEVER
+
+
+def test_outputs_that_go_off_and_on_again_are_waited_for_and_the_clicks_go_on():
+    control = Control(1e-3, off_s=(5.0, 12.0))
+    control.run()
+    assert control.knocks.error is None
+    assert control.knocks.played == MOST_EMISSIONS
+    assert not [start for start in control.starts_s if 5.0 <= start < 12.0]
+
+
+def test_outputs_that_stay_off_end_the_survey_with_their_reason():
+    control = Control(1e-3, off_s=(5.0, NEVER))
+    control.run()
+    assert str(control.knocks.error) == "the outputs are off"
+    assert max(control.starts_s) < 5.0
