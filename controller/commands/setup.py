@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from controller.device.board.board import Board
 
 FIELDS = {field.encode_name: field for field in structs_of(type_info(SetupAnswers))[0].fields}
+STDERR = 2  # of this process, also where sys.stderr is no file
 POSSIBLE_MM = 20.0  # of every length that is still to be asked
 
 
@@ -129,7 +130,7 @@ def _build(board: Board) -> list[str]:
         ("bitstream", ["gateware", "build", "--board", str(board.folder), "--out", str(board.folder / board.bitstream)]),
         ("bank", ["bank", "build", "--board", str(board.folder)]),
     ):
-        if subprocess.run([sys.executable, "-m", "controller", *arguments], stdout=sys.stderr, check=False).returncode == 0:
+        if subprocess.run([sys.executable, "-m", "controller", *arguments], stdout=STDERR, check=False).returncode == 0:
             built.append(name)
         else:
             tell(f"the {name} was not built; later: haptic-panel {' '.join(arguments)}")

