@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec.inspect import StrType
+
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.descriptions import described, structs_of, type_info, unit_of
@@ -81,7 +83,7 @@ def _asked(given: dict[str, Any]) -> SetupAnswers:
     for name, field in FIELDS.items():
         while name not in found:
             kind = described(field.type, unit_of(name))
-            answer = input(f"{texts[name].rstrip('.')} ({kind}{_default(field, '; Enter: ', '')}): ").strip()
+            answer = _ask(f"{texts[name].rstrip('.')} ({kind}{_default(field, '; Enter: ', '')})")
             if not answer and not field.required:
                 break
             problem = _problem(name, _number(answer), found)
@@ -104,21 +106,31 @@ def _problem(name: str, value: Any, found: dict[str, Any]) -> str:
 
 def _touch_keys(kind: str, pairs: list[str], *, asks: bool) -> dict[str, Any]:
     """Keys of [touch] by KEY=VALUE, and those that this kind needs besides."""
+    record = touch_record(kind)
+    assert record is not None
+    texts = attributes(record)
+    words = {field.encode_name for field in structs_of(type_info(record))[0].fields if isinstance(field.type, StrType)}
     found: dict[str, Any] = {}
     for pair in pairs:
         key, equals, value = pair.partition("=")
         if not equals:
             raise ConfigError(f"--touch-key {pair}: give KEY=VALUE, such as bus=/dev/i2c-1")
-        found[key] = _number(value)
-    record = touch_record(kind)
-    assert record is not None
-    texts = attributes(record)
+        found[key] = value if key in words else _number(value)  # a line of a GPIO chip may be called "25"
     missing = [field for field in wanted_of(kind) if field.name not in found]
     if missing and not asks:
         raise ConfigError("; ".join(f"touch {kind} needs --touch-key {field.name}=…: {texts[field.name]}" for field in missing))
     for field in missing:
-        found[field.name] = _number(input(f"{texts[field.name].rstrip('.')} (touch.{field.name}): ").strip())
+        answer = _ask(f"{texts[field.name].rstrip('.')} (touch.{field.name})")
+        found[field.name] = answer if field.name in words else _number(answer)
     return found
+
+
+def _ask(question: str) -> str:
+    """What is typed at the terminal; its end, Ctrl-D, ends all questions."""
+    try:
+        return input(f"{question}: ").strip()
+    except EOFError:
+        raise ConfigError("the questions were not answered to their end: nothing is written") from None
 
 
 def _build(board: Board) -> list[str]:

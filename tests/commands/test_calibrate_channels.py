@@ -119,3 +119,13 @@ def test_an_open_interlock_ends_it(begun):
     with pytest.raises(FaultError):
         next(going)
     assert not is_on(link)
+
+
+def test_what_was_said_before_a_channel_buzzed_is_not_of_that_channel(begun):
+    going, _, _, person = begun
+    next(going)
+    person._says_nothing = True
+    channel, place = next(going)
+    assert channel == 1
+    assert place is not None
+    going.close()

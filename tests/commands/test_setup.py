@@ -56,6 +56,27 @@ def test_options_take_the_place_of_questions(tmp_path, capsys):
     assert main(["board", "check", str(folder)]) == 0
 
 
+def test_the_end_of_the_answers_is_one_line_and_nothing_is_written(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
+
+    def ended(_):
+        raise EOFError
+
+    monkeypatch.setattr("builtins.input", ended)
+    assert main(["setup", str(tmp_path / "panel")]) == 78
+    assert capsys.readouterr().err.endswith("not answered to their end: nothing is written\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_gpio_line_that_is_called_by_a_number_is_a_text(tmp_path, monkeypatch):
+    monkeypatch.setattr("sys.stdin", None)
+    keys = ["bus=/dev/i2c-1", "interrupt_chip=pinctrl-bcm2711", "interrupt_line=17", "address=20"]
+    touch = [word for key in keys for word in ("--touch-key", key)]
+    assert main(["setup", str(tmp_path / "panel"), *GIVEN, "--touch", "gt911", *touch]) == 0
+    board = load_board(tmp_path / "panel")
+    assert (board.touch.interrupt_line, board.touch.address) == ("17", 20)
+
+
 @each_row(
     ("arguments", "code", "said"),
     [

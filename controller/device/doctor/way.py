@@ -32,7 +32,7 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
 
     command, bitstream = "haptic-panel {} --board " + board.called, board.folder / board.bitstream
     return [
-        WayStep("board.toml and its scene are valid", f"haptic-panel board check {board.called}", True),
+        WayStep("board.toml and its scene are valid", f"haptic-panel board check {board.called}", good("scene") is not False),
         WayStep("the bitstream has this board's limits", f"{command.format('gateware build')} --out {bitstream}", _built(board)),
         WayStep("the FPGA is loaded with it", f"{command.format('gateware load')} --flash", good("identity and settings")),
         WayStep("its link carries every bit", command.format("doctor --link"), good("bits")),

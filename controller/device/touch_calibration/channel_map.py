@@ -1,7 +1,7 @@
 """Which disc each channel moves, from where a finger felt it: swapped wires between discs, and channels that move nothing.
 
-A voltage on one channel bulges the glass at its own quadrant by 1 um, at the others of its disc by half of that, at any other disc
-by a thirtieth: a finger tells the disc, not the quadrant.
+A voltage on one channel bulges the glass most at its own quadrant, less at the others of its disc, and at any other disc by less
+than a fifth of that: a finger tells the disc, not the quadrant.
 """
 
 from __future__ import annotations

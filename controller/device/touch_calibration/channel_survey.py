@@ -86,6 +86,7 @@ def survey(
             for channel in channels:
                 play = Play(SLOT, emissions=0, start=Start.NOW, period_ticks=period_ticks, mask=1 << channel)
                 session.play(play, stop=False)
+                person.feels_nothing()  # what was said before is not of this channel
                 ask(channel)
                 yield channel, wait(math.inf)
                 session.stop()

@@ -65,7 +65,7 @@ def test_every_channel_of_any_wiring_is_named_exactly_if_its_disc_is_another(wir
 
 
 def test_a_channel_bulges_its_own_disc_and_hardly_another():
-    """What a finger can tell, by the plate's model: its own disc 13 times as much as the next."""
+    """What a finger can tell, by the plate's model: any quadrant of its own disc at least five times as much as another disc."""
     model = ResponseModel(BOARD)
     shapes = np.asarray(model.plate_modes.shapes(np.array(list(PLACES.values()))))
     bulge_um = abs(shapes @ (model.step.static[:, None] * model.forces)) * BOARD.driver.supply_v * 1e6
