@@ -181,7 +181,38 @@ def test_a_page_of_the_bridge_lays_regions_plays_and_stops_the_panel():
         panel.arm()
         wait_for("outputs that are on", lambda: panel.state().outputs_on)
     assert plays()
+
+
+def greeting():
+    """What a page of the bridge is told first; None if no page can be opened."""
+    with contextlib.suppress(OSError), connect("ws://127.0.0.1:8750/panel", origin="http://127.0.0.1:8750") as socket:
+        return json.loads(socket.recv(timeout=120))
+    return None
+
+
+def test_a_scene_that_an_operator_saves_and_the_screen_of_a_page_outlive_both_services():
+    place = {"x_mm_from_pixels": [0.1, 0.0, 0.0], "y_mm_from_pixels": [0.0, -0.1, 148.0]}
+    Path("/etc/haptic-panel/page.toml").write_text('[origins]\nself = ["play", "screen"]\n')
+    done("systemctl", "restart", "haptic-panel-page")
+    wait_for("the live page", bridge_is_there)
+    with page() as ask:
+        assert ask(kind="screen", **place)["outcome"] == "done"
+        assert "may not save_scene" in ask(kind="save_scene", name="mine", toml="")["reason"]
+    with PanelClient("/run/haptic-panel/panel.sock") as panel:
+        panel.save_scene("kept", '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n')
+    (kept,) = Path("/var/lib/haptic-panel/scenes").glob("*/kept.toml")
+    assert kept.owner() == "haptic-panel"
+    assert Path("/var/lib/haptic-page/screen.json").owner() == "haptic-page"
+    done("systemctl", "restart", UNIT, "haptic-panel-page")
+    screen = wait_for("a page", greeting)
+    assert {key: screen[key] for key in place} == place
+    wait_for("the socket", Path("/run/haptic-panel/panel.sock").exists)
+    with PanelClient("/run/haptic-panel/panel.sock") as panel:
+        panel.load_scene("kept")
+        assert [region.name for region in panel.describe().regions] == ["all"]
     done("systemctl", "disable", "--now", "haptic-panel-page")
+    done("systemctl", "restart", UNIT)
+    assert plays()
 
 
 def test_the_same_package_again_changes_nothing_and_the_panel_plays_on():
