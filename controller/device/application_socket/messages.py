@@ -21,6 +21,7 @@ Id = Annotated[int, Meta(ge=-(2**53), le=2**53)] | Annotated[str, Meta(max_lengt
 Word = Annotated[str, Meta(min_length=1, max_length=64)]
 # Never a path: a client chooses among the installed scenes.
 PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
+BY_CHARACTERS = 120
 Right = Literal["look", "play", "regions", "operate"]
 ShiftMm = Annotated[float, Meta(ge=-MOST_SHIFT_MM, le=MOST_SHIFT_MM)]
 Topic = Literal["touches", "contacts", "emissions", "state", "description", "faults", "log"]
@@ -121,7 +122,12 @@ class Disarm(Request, frozen=True, kw_only=True, tag="disarm", gc=False):
 
 
 class Stop(Request, frozen=True, kw_only=True, tag="stop", gc=False):
-    """As `Disarm`, for every client, whatever its rights and its rate: outputs off, and off they stay."""
+    """As `Disarm`, for every client, whatever its rights and its rate: outputs off, and off they stay.
+
+    `by`: for whom a client that speaks for others asks; log and state name it, behind the client's own user.
+    """
+
+    by: Annotated[str, Meta(max_length=BY_CHARACTERS, pattern=r"^[ -~]*\Z")] = ""
 
 
 class ChannelTest(Request, frozen=True, kw_only=True, tag="test_channel", gc=False):

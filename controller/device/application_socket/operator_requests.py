@@ -35,7 +35,7 @@ class OperatorRequests:
 
     def switch(self, client: Connection, request: Arm | Disarm | Stop, control: PanelControl) -> None:
         """Arm the panel or switch it off."""
-        on, who = isinstance(request, Arm), self._rights.called(client.peer)
+        on, who = isinstance(request, Arm), self._who(client, request)
         control.switch(on=on, by=who)  # before anything that could take time
         changed = self._switched_off.remember("" if on else who)
         if changed or "operate" in client.rights:  # not each line of whoever asks to stop again and again
@@ -43,9 +43,9 @@ class OperatorRequests:
             log(f"{who} {did} the panel", Event.OPERATED)
         self._answers.answer(client, request.id, "done")
 
-    def switch_off(self, client: Connection, control: PanelControl) -> None:
+    def switch_off(self, client: Connection, request: Stop, control: PanelControl) -> None:
         """Carry out a request to stop before its turn, in which it will be answered."""
-        who = self._rights.called(client.peer)
+        who = self._who(client, request)
         control.switch(on=False, by=who)
         if self._switched_off.remember(who):
             log(f"{who} stops the panel", Event.OPERATED)
@@ -59,6 +59,11 @@ class OperatorRequests:
                 self._test_channel(client, request, now_s, control)
             case WriteTrace():
                 self._write_trace(client, request, control)
+
+    def _who(self, client: Connection, request: Arm | Disarm | Stop) -> str:
+        """Who asks: the client's user as the kernel has it, and for whom it says that it does."""
+        by = request.by if isinstance(request, Stop) else ""
+        return self._rights.called(client.peer) + (f" for {by}" if by else "")
 
     def _load_or_save(self, client: Connection, request: LoadScene | SaveScene, control: PanelControl) -> None:
         ticket = self._answers.ticket(client, request.id)

@@ -15,7 +15,7 @@ from controller.device.application_socket.messages import LINE_BYTES, AnyRequest
 from controller.device.application_socket.operator_requests import OperatorRequests
 from controller.device.application_socket.play_requests import PlayRequests
 from controller.device.application_socket.questions import Questions
-from controller.device.application_socket.stop_ahead import AHEAD_BYTES, STOP, stops_ahead
+from controller.device.application_socket.stop_ahead import AHEAD_BYTES, STOP, stop_ahead
 from controller.device.board.descriptions import type_info
 from controller.device.board.validation import NO_JSON, explain
 from controller.device.loop.commands import PanelControl
@@ -63,8 +63,10 @@ class Requests:
         A client over its rate is read slowly from then on; if it has sent a request to stop, that takes effect now.
         """
         done = self._serve_lines(client, most, now_s, control)
-        if client.resume_s > now_s and stops_ahead(self._ahead, client.peek(self._ahead), self._stops):
-            self._operators.switch_off(client, control)
+        if client.resume_s > now_s:
+            stop = stop_ahead(self._ahead, client.peek(self._ahead), self._stop_of)
+            if stop is not None:
+                self._operators.switch_off(client, stop, control)
         return done
 
     def _serve_lines(self, client: Connection, most: int, now_s: float, control: PanelControl) -> int:
@@ -87,7 +89,7 @@ class Requests:
                 self._answer_line(client, line, now_s, control)
                 continue
             self._clients.pause(client, now_s)
-            if self._stops(line):
+            if self._stop_of(line) is not None:
                 self._answer_line(client, line, now_s, control)
             else:
                 self._answers.over_rate(client, self._id_of(line))
@@ -124,14 +126,15 @@ class Requests:
             case _:
                 self._questions.answer(client, request, now_s, control)
 
-    def _stops(self, line: memoryview) -> bool:
-        """Whether a line is the one request that no rate refuses."""
+    def _stop_of(self, line: memoryview) -> messages.Stop | None:
+        """A line that is the one request that no rate refuses."""
         if STOP not in bytes(line):
-            return False
+            return None
         try:
-            return isinstance(self._decoder.decode(line), messages.Stop)
+            request = self._decoder.decode(line)
         except (*NO_JSON, UnicodeDecodeError):
-            return False
+            return None
+        return request if isinstance(request, messages.Stop) else None
 
     def _id_of(self, line: memoryview) -> Id:
         """Id of a line that is refused; None if it has none that can be read."""

@@ -238,8 +238,8 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     operate_group: str = ""
     regions_group: str = ""
     look_group: str = LOOK_GROUP
-    max_clients: Annotated[int, Meta(ge=1, le=64)] = 8
-    clients_per_user: Annotated[int, Meta(ge=1, le=64)] = 4
+    max_clients: Annotated[int, Meta(ge=1, le=64)] = 9
+    clients_per_user: Annotated[int, Meta(ge=1, le=64)] = 5
     idle_s: Annotated[float, Meta(ge=0, le=86_400)] = 10.0
     commands_per_s: Annotated[float, Meta(ge=1, le=10_000)] = 500.0
     burst: Annotated[int, Meta(ge=1, le=10_000)] = 50

@@ -26,11 +26,13 @@ from controller.device.page.relay import relay
 from controller.device.page.requests import FRAME_BYTES
 from controller.device.page.screen import Screen
 from controller.device.page.settings import PageSettings
+from controller.device.page.stops import StopLine, page_name, stop_page, why
 from controller.errors import ConfigError, ControllerError
 from controller.log import Priority, log
 from controller.regular_file import read_regular
 
 SOCKET_PATH: Final = "/panel"
+STOP_PATH: Final = "/stop"
 COOKIE: Final = "haptic-panel-token"
 OTHER_CONNECTIONS: Final = 64  # besides the pages: files that are fetched, and what is half open
 HANDSHAKE_S: Final = 10.0
@@ -40,9 +42,10 @@ REFUSALS_SHOWN: Final = 100  # in the log, each once
 
 
 class PageConnection(ServerConnection):
-    """A connection, with the rights of its page."""
+    """A connection, with the rights of its page, and what it is called."""
 
     rights: frozenset[str] = frozenset()
+    called = ""
 
 
 class Bridge:
@@ -74,7 +77,8 @@ class Bridge:
         self._token = _token(Path(settings.token_file)) if settings.token_file else ""
         self._tls = _tls(settings)
         self._connections = 0
-        self._pages = 0
+        self._open = {SOCKET_PATH: 0, STOP_PATH: 0}  # at most `max_pages` of each
+        self._stop_line = StopLine(settings.socket)
         self._shown: set[str] = set()
         self._running: set[str] = set()  # for its pages
 
@@ -147,7 +151,7 @@ class Bridge:
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
                 bridge._connections += 1
                 super().connection_made(transport)
-                if bridge._connections > bridge._settings.max_pages + OTHER_CONNECTIONS:
+                if bridge._connections > 2 * bridge._settings.max_pages + OTHER_CONNECTIONS:
                     self.transport.abort()
 
             def connection_lost(self, error: Exception | None) -> None:
@@ -165,23 +169,44 @@ class Bridge:
             return self._refused(refusal)
         if self._token and (answer := self._without_token(request)) is not None:
             return answer
-        if request.path.partition("?")[0] != SOCKET_PATH:
+        path = request.path.partition("?")[0]
+        if path not in self._open:
             return _response(await asyncio.to_thread(served, self._www, request.path, self._field), self._settings)
-        rights = self._permissions.rights(request.headers.get_all("Origin"), hosts[0])
+        origins = request.headers.get_all("Origin")
+        rights = self._permissions.rights(origins, hosts[0])
         if isinstance(rights, Refusal):
             return self._refused(rights)
-        if self._pages >= self._settings.max_pages:
-            return self._refused(Refusal(HTTPStatus.SERVICE_UNAVAILABLE, f"max_pages = {self._settings.max_pages} are open"))
-        connection.rights = rights
+        reason = await self._no_place(path)
+        if reason:
+            return self._refused(Refusal(HTTPStatus.SERVICE_UNAVAILABLE, reason))
+        connection.rights, connection.called = rights, page_name(origins[0], connection)
         return None
+
+    async def _no_place(self, path: str) -> str:
+        """Why a page cannot be connected now; empty if it can."""
+        if path == STOP_PATH:
+            try:
+                await self._stop_line.open()
+            except OSError as error:
+                self._stop_line.close()
+                return f"no place for stops at {self._settings.socket} ({why(error)})"
+        most = self._settings.max_pages
+        return f"max_pages = {most} are open" if self._open[path] >= most else ""
 
     async def _page(self, connection: ServerConnection) -> None:
         assert isinstance(connection, PageConnection)
-        self._pages += 1
+        assert connection.request is not None
+        path = connection.request.path.partition("?")[0]
+        self._open[path] += 1
         try:
-            await relay(connection, connection.rights, self._settings, self._screen, self._running)
+            if path == STOP_PATH:
+                await stop_page(connection, self._stop_line, connection.called)
+            else:
+                await relay(connection, connection.rights, connection.called, self._settings, self._screen, self._running)
         finally:
-            self._pages -= 1
+            self._open[path] -= 1
+            if not self._open[STOP_PATH]:
+                self._stop_line.close()
 
     def _refused(self, refusal: Refusal) -> Response:
         if refusal.reason not in self._shown and len(self._shown) < REFUSALS_SHOWN:

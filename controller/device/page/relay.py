@@ -37,11 +37,15 @@ class Ended(Exception):
         self.code = code
 
 
-async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSettings, screen: Screen, running: set[str]) -> None:
+async def relay(
+    page: ServerConnection, rights: frozenset[str], called: str, settings: PageSettings, screen: Screen, running: set[str]
+) -> None:
     """Pass messages on until page or panel ends the connection; the other side is then ended too.
 
     Parameters
     ----------
+    called : str
+        What the page is called where it stops the panel.
     screen : Screen
         Where the screen lies on the plate: the page is greeted with it, and again when it changes.
     running : set of str
@@ -68,7 +72,7 @@ async def relay(page: ServerConnection, rights: frozenset[str], settings: PageSe
     forget = screen.watch(greet)
     tools = PageTools(settings.socket, TraceFolder(Path(settings.socket).parent), running, put)
     own = {"screen": lambda message: {"kind": "answer"} | outcome(screen.keep(message))} | dict(tools.kinds)
-    judge = _Judge(rights, TokenBucket(settings.messages_per_s, settings.burst), own)
+    judge = _Judge(rights, TokenBucket(settings.messages_per_s, settings.burst), own, called)
     tasks = [
         asyncio.create_task(_requests(page, to_panel, outbox, news, judge)),
         asyncio.create_task(_lines(from_panel, outbox, news)),
@@ -101,15 +105,16 @@ def greeting(rights: frozenset[str], place: ScreenPlace | None) -> bytes:
 class _Judge:
     """Judges the frames of one page."""
 
-    def __init__(self, rights: frozenset[str], rate: TokenBucket, own: OwnKinds) -> None:
+    def __init__(self, rights: frozenset[str], rate: TokenBucket, own: OwnKinds, called: str = "") -> None:
         self._rights = rights
         self._rate = rate
         self._clock = asyncio.get_running_loop().time
         self._own = own
+        self._called = called
         rate.fill(self._clock())
 
     def __call__(self, frame: str) -> tuple[bytes, str]:
-        return evaluated(frame, self._rights, self._rate, self._clock(), self._own)
+        return evaluated(frame, self._rights, self._rate, self._clock(), self._own, self._called)
 
 
 async def _requests(

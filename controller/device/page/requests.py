@@ -23,7 +23,9 @@ NOTHING: Final[Mapping[str, Any]] = {}
 OwnKinds = Mapping[str, Callable[[dict[str, Any]], Mapping[str, Any] | None]]
 
 
-def evaluated(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, own: OwnKinds = NOTHING) -> tuple[bytes, str]:
+def evaluated(
+    frame: str, rights: frozenset[str], rate: TokenBucket, now_s: float, own: OwnKinds = NOTHING, called: str = ""
+) -> tuple[bytes, str]:
     """A line for the panel, or an answer to the page; one of the two is empty, or both where the bridge answers later.
 
     A request to stop is always within the rate.
@@ -36,6 +38,8 @@ def evaluated(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: floa
         Of the page.
     own : mapping
         What carries out the kinds of messages that are for the bridge.
+    called : str
+        The page, for whom a stop is asked for.
     """
     try:
         message = _decoder.decode(frame)
@@ -45,6 +49,8 @@ def evaluated(frame: str, rights: frozenset[str], rate: TokenBucket, now_s: floa
         return b"", answer(None, "must be one JSON object")
     if reason := refused(message, rights):
         return b"", answer(message.get("id"), reason)
+    if message["kind"] == "stop" and called:
+        message["by"] = called
     try:
         line = _encoder.encode(message) + b"\n"
     except (ValueError, RecursionError, UnicodeError) as error:  # a surrogate alone, a number beyond 64 bits

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from controller.device.application_socket.client import PanelClient
+from controller.device.application_socket.messages import BY_CHARACTERS
 from controller.device.application_socket.peers import Peer, Rights
 from controller.device.application_socket.pending_commands import WAITING_PER_CLIENT
 from controller.device.application_socket.switched_off import SwitchedOff
@@ -166,6 +167,17 @@ def test_every_client_may_stop_whatever_its_rights_and_its_rate_and_only_an_oper
         assert not panel.control.switched
 
 
+def test_for_whom_a_client_stops_stands_behind_its_user(panel, capsys):
+    client = panel.connect(KIOSK)
+    panel.ask(client, {"kind": "stop", "by": "a page of 'http://kiosk' at 127.0.0.1"})
+    who = f"uid {KIOSK.uid} (pid {KIOSK.pid}) for a page of 'http://kiosk' at 127.0.0.1"
+    assert panel.control.switched_by == panel.socket.disarmed_by == who
+    assert f"{who} stops the panel" in capsys.readouterr().err
+    for by in ("a\nb", "\x1b[2J", "ü", "x" * (BY_CHARACTERS + 1), 7, None):
+        (answer,) = panel.ask(client, {"kind": "stop", "by": by, "id": 1})
+        assert answer["reason"].startswith("by = ")
+
+
 def test_without_groups_whoever_may_connect_plays_and_only_the_services_own_user_and_root_operate(panel_with):
     panel = panel_with()
     for peer, rights in (
@@ -196,13 +208,13 @@ def is_served(panel, client):
 def test_silent_clients_of_one_user_do_not_keep_out_another(panel):
     hogs = [panel.connect(GUEST) for _ in range(8)]
     panel.settle()
-    assert panel.socket.counters.turned_away == 4
-    assert json.loads(hogs[-1].recv(1000))["reason"] == "4 clients of uid 50002 (pid 12) are connected already"
+    assert panel.socket.counters.turned_away == 8 - panel.settings.clients_per_user
+    assert json.loads(hogs[-1].recv(1000))["reason"] == "5 clients of uid 50002 (pid 12) are connected already"
     assert is_served(panel, panel.connect(KIOSK))
 
 
 def test_silent_clients_of_many_users_give_way_when_they_were_silent_for_long_the_longest_first(panel):
-    silent = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(8)]
+    silent = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(panel.settings.max_clients)]
     panel.settle()
     panel.now_s += 1.0
     assert is_served(panel, silent[0])
@@ -217,32 +229,32 @@ def test_silent_clients_of_many_users_give_way_when_they_were_silent_for_long_th
 
 
 def test_one_that_waits_for_something_is_not_silent(panel):
-    others = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(8)]
+    others = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(panel.settings.max_clients)]
     for number, client in enumerate(others):
         panel.ask(client, ({"kind": "subscribe"}, {"kind": "subscribe", "to": ["state"]}, PLAY)[number % 3])
     panel.now_s += 1000.0
     late = panel.connect(KIOSK)
     panel.settle()
-    assert json.loads(late.recv(1000))["reason"] == "8 clients are connected already"
+    assert json.loads(late.recv(1000))["reason"] == "9 clients are connected already"
 
 
 def test_an_operator_always_finds_a_place(panel):
-    others = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(8)]
+    others = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(panel.settings.max_clients)]
     for client in others:
         panel.ask(client, {"kind": "subscribe"})
     operator = panel.connect(OPERATOR)
     assert panel.ask(operator, {"kind": "disarm", "id": 1}) == [{"kind": "answer", "id": 1, "outcome": "done"}]
     assert panel.socket.counters.gave_way == 1
-    assert panel.socket._clients.touch_subscribers == 7
+    assert panel.socket._clients.touch_subscribers == panel.settings.max_clients - 1
 
 
 def test_when_one_gives_way_while_it_speaks_nothing_is_mixed_up(panel):
     """In one turn of the loop: those who have to go say something or hang up, and operators knock."""
-    others = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(8)]
+    others = [panel.connect(Peer(60_000 + number, 1, KIOSK.groups)) for number in range(panel.settings.max_clients)]
     panel.settle()
     for number, client in enumerate(others):
         client.close() if number % 2 else client.sendall(b'{"kind": "hello"}\n')
-    operators = [panel.connect(OPERATOR) for _ in range(8)]
+    operators = [panel.connect(OPERATOR) for _ in range(panel.settings.max_clients)]
     panel.settle()
     assert all(is_served(panel, operator) for operator in operators)
 

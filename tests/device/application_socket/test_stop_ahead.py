@@ -23,13 +23,14 @@ def test_it_waits_for_no_line_before_it(panel_with, read_all):
     panel.settle()
     words = [{**POINT, "effect": "stop"}] * (MOST_WORDS - 1)
     before = [{**POINT, "id": number} for number in range(1000)]
-    client.sendall(lines(*before, {"kind": "stop", "id": "stop"}, *words) + b'{"kind": "arm", "id": "half')
+    client.sendall(lines(*before, {"kind": "stop", "id": "stop", "by": "a page"}, *words) + b'{"kind": "arm", "id": "half')
     turns = 0
     while not panel.control.switched:
         assert panel.turn()
         turns += 1
     assert turns <= 10 // LINES_A_CLIENT + 2  # those within its rate, and one more
     assert (panel.control.switched[0], panel.socket.disarmed_by) == (False, panel.control.switched_by)
+    assert panel.socket.disarmed_by.endswith(" for a page")
     panel.settle()
     answers = read_all(client)
     assert len(answers) == len(words) + len(before) + 1 - len(panel.control.plays)

@@ -130,7 +130,37 @@ def test_effects_are_those_of_attribute_property_and_other_names(elements):
     assert effects["on"] == [{"effect": "click", "when": ["press", "enter"]}]
 
 
-def test_calls_play_at_places_elements_and_pointers_and_stop(elements):
+WAYS = """
+  window.ways = [];
+  window.WebSocket = class extends WebSocket {
+    constructor(address) { super(String(address).replace(/stop$/, "%s")); }
+    send(text) { ways.push([new URL(this.url).pathname, JSON.parse(text).kind]); super.send(text); }
+  };
+"""
+FLOODS = """(async () => {
+  for (let i = 0; i < 10000; i++) HapticPanel.send({ kind: "state" });
+  const before = performance.now(), { outcome } = await HapticPanel.stop();
+  return [outcome, performance.now() - before, ...ways.at(-1)];
+})()"""
+
+
+@pytest.mark.parametrize("way", ["stop", "panel"])
+def test_a_stop_has_a_way_of_its_own_and_without_it_takes_that_of_all_messages(elements, way):
+    """With 10,000 messages in front: how long each takes is printed."""
+    script = elements.call("Page.addScriptToEvaluateOnNewDocument", source=WAYS % ("stop" if way == "stop" else "none"))
+    try:
+        elements.call("Page.reload")
+        elements.until("window.layers?.length")
+        outcome, took_ms, *taken = elements.value(FLOODS)
+    finally:
+        elements.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
+    assert (outcome, taken) == ("done", [f"/{way}", "stop"])
+    print(f"by /{way}, with 10,000 messages before it: {took_ms:.0f} ms")
+    if way != "stop":
+        assert "/none" in elements.said.pop()  # the browser names what it could not open
+
+
+def test_calls_play_at_places_elements_and_pointers(elements):
     for where in ("{x: 500, y: 350}", "document.getElementById('plain')"):
         assert elements.value(f"HapticPanel.play('tick', {where})")["outcome"] == "played"
     assert elements.value("HapticPanel.play('click', 77)")["reason"] == "no such place"

@@ -1,14 +1,14 @@
-// A page describes its elements; the panel's loop plays them under each finger: README.md
+// A page describes its elements, the panel's loop plays them: README.md
 (() => {
   "use strict";
   if (window.HapticPanel) return;
   const RETRY_MS = 1000, SEND_MS = 40;
-  const SETTLE_MS = 100; // after the last event of a scroll
+  const SETTLE_MS = 100;
   const LOOK_MS = 500; // for what no event announces
   const panel = new EventTarget(), roots = new Set(), names = new WeakMap();
   const waiting = new Map(), scrolling = new Map(), pointers = new Map();
-  const address = new URL("panel", document.currentScript?.src || location);
-  let socket, greeting, plate, lastPoint, known, shown, sentAt = 0, frame = 0, last = 0;
+  const address = document.currentScript?.src || location;
+  let socket, stopper, greeting, plate, lastPoint, known, shown, sentAt = 0, frame = 0, last = 0;
   let root = window; // the page that describes its frames, too
   try { while (root.parent !== root && root.parent.document) root = root.parent; } catch {}
 
@@ -19,11 +19,13 @@
       if (defaultView) Object.assign(defaultView.HapticPanel, greeting, { plate }).dispatchEvent(new CustomEvent(type, { detail }));
   }
   function connect() {
-    socket = new WebSocket(address);
-    socket.onmessage = ({ data }) => receive(JSON.parse(data));
+    [socket, stopper] = ["panel", "stop"].map((way) => new WebSocket(new URL(way, address)));
+    stopper.onmessage = socket.onmessage = ({ data }) => receive(JSON.parse(data));
+    stopper.onopen = () => { stopper.onclose = () => socket.close(); };
     socket.onclose = ({ reason }) => {
       waiting.forEach((answer) => answer(refused(reason || "no panel")));
       waiting.clear();
+      stopper.onclose = stopper.close();
       plate = shown = "";
       tell("close", reason);
       setTimeout(connect, RETRY_MS);
@@ -43,11 +45,11 @@
   async function send(message) {
     if (root !== window) return root.HapticPanel?.send(message) ?? refused("no panel");
     if (socket?.readyState !== 1) return refused("no panel");
-    socket.send(JSON.stringify({ ...message, id: ++last }));
+    (message.kind === "stop" && stopper.readyState === 1 ? stopper : socket).send(JSON.stringify({ ...message, id: ++last }));
     return new Promise((answer) => waiting.set(last, answer));
   }
 
-  // ---- where things lie, in CSS pixels of the outermost page
+  // ---- places, in CSS pixels of the outermost page
   const up = (node) => node.assignedSlot || node.parentNode || node.host || node.defaultView?.frameElement;
   const nearest = (node, is) => { while (node && !is(node)) node = up(node); return node; };
   const inside = (element) => element.shadowRoot || element.contentDocument;
@@ -158,7 +160,7 @@
             one.touched = true;
             over.forEach((other) => one.over.add(other));
           }
-          if (around(hit)) break; // itself, or its parent
+          if (around(hit)) break;
           if (clipped([p], visible(hit)).length) over.push(hit); // hit tests round
         }
       }
@@ -166,7 +168,7 @@
     const append = (element) => {
       const one = found.get(element) || put(element, { effects: [], ...found.get(felt(element)), points: visible(element), over: [], touched: true });
       if (!one.touched) return;
-      one.touched = false; // by this: in its place
+      one.touched = false;
       one.over.forEach(append);
       result.push(region(one, m));
     };
@@ -226,7 +228,7 @@
     for (const type of ["resize", "scroll"]) visualViewport.addEventListener(type, soon);
     addEventListener("pagehide", () => socket.close());
     setInterval(soon, LOOK_MS);
-    setInterval(() => moving() && soon(), LOOK_MS / 5); // scripts' animations
+    setInterval(() => moving() && soon(), LOOK_MS / 5);
     connect();
   }
 
