@@ -40,19 +40,9 @@ DEFAULT_PATH = "/run/haptic-panel/panel.sock"
 class PanelClient:
     """A connection to a running panel, for use by one thread at a time.
 
-    Parameters
-    ----------
-    path : str
-        Path of the panel's socket.
-    timeout_s : float
-        Longest wait for an answer.
-
-    Raises
-    ------
-    LinkError
-        By every method: if no panel listens at the path, it does not answer in time, or it ends the connection.
-    ControllerError
-        If this user may not connect, or not play.
+    Every method raises LinkError if no panel listens at the path, it does not answer within `timeout_s`, or it ends the
+    connection; ControllerError if this user may not connect or lacks the right that is needed, or if the panel refuses the
+    request.
     """
 
     def __init__(self, path: str = DEFAULT_PATH, timeout_s: float = 5.0) -> None:
@@ -79,23 +69,13 @@ class PanelClient:
     ) -> Answer:
         """Play an effect at a point of the plate, at a finger or at all fingers in a region, and wait for the outcome.
 
-        Parameters
-        ----------
-        effect : str or mapping
-            One of `hello().effects`, a name given to `keep_clip`, or a table with the keys of a scene's [effects.NAME].
-        at_mm : (float, float), optional
-            Place on the plate from its corner, x and y in mm.
-        finger : int, optional
-            Instead of a place: a finger, as numbered by `touches`; the effect follows it.
-        region : str, optional
-            Instead of a place: a region of this client's layer, or of the scene, by its name.
-        amplitude : float, optional
-            Share of the full amplitude, 0.1 to 1; default: the largest that the board allows.
+        The effect is one of `hello().effects`, a name given to `keep_clip`, or a table with the keys of a scene's
+        [effects.NAME]. A place is in mm from the plate's corner; a finger is numbered as by `touches`, and the effect follows
+        it; a region is one of this client's layer or of the scene. `amplitude` is a share of the full amplitude, 0.1 to 1;
+        default: the largest that the board allows.
 
-        Returns
-        -------
-        Answer
-            `outcome` is "played", "merged" (replaced by a newer command), "skipped" or "refused", with its `reason`.
+        `outcome` of the answer is "played", "merged" (replaced by a newer command), "skipped" or "refused", with its
+        `reason`.
         """
         return self._link.answer(self.start_play(effect, at_mm=at_mm, finger=finger, region=region, amplitude=amplitude))
 
@@ -117,18 +97,7 @@ class PanelClient:
         return self._link.ask(messages.Clip(id=number, effect=Raw(msgspec.json.encode(effect)), **where))
 
     def keep_clip(self, name: str, effect: Mapping[str, Any]) -> None:
-        """Have the panel keep an effect for this client, to be played by that name.
-
-        Parameters
-        ----------
-        effect : mapping
-            A table with the keys of a scene's [effects.NAME].
-
-        Raises
-        ------
-        ControllerError
-            If it is not valid, or this user may not play.
-        """
+        """Have the panel keep an effect, a table with the keys of a scene's [effects.NAME], to be played by that name."""
         self._link.done(messages.Clip(id=self._link.new_id(), effect=Raw(msgspec.json.encode(effect)), name=name))
 
     def wait(self, number: int) -> Answer:
@@ -144,22 +113,9 @@ class PanelClient:
     ) -> LayerAnswer:
         """Replace this client's layer of regions, which lies over the scene as long as this client is connected.
 
-        Parameters
-        ----------
-        regions, effects
-            Tables of a scene, as they stand in a scene.toml; lengths in mm.
-        transform : Transform, optional
-            Where the layer lies; default: where the one before lay.
-
-        Returns
-        -------
-        LayerAnswer
-            The layer is in force; `refused` names the regions that are not in it.
-
-        Raises
-        ------
-        ControllerError
-            If it was refused as a whole; the layer before stays.
+        Regions and effects are tables of a scene, as they stand in a scene.toml, lengths in mm; without a transform the layer
+        lies where the one before lay. The answer comes when the layer is in force; its `refused` names the regions that are
+        not in it. A layer that is refused as a whole leaves the one before.
         """
         number = self._link.new_id()
         raw = Raw(msgspec.json.encode(effects or {}))
@@ -167,13 +123,7 @@ class PanelClient:
         return self._link.question(messages.Regions(id=number, regions=tables, effects=raw, transform=transform), LayerAnswer)
 
     def move_regions(self, *, x_mm: float = 0.0, y_mm: float = 0.0, scale: float = 1.0) -> None:
-        """Move this client's layer: its point (x, y) is at (x_mm + scale x, y_mm + scale y) on the plate.
-
-        Raises
-        ------
-        ControllerError
-            If this client has sent no regions, or may not.
-        """
+        """Move this client's layer: its point (x, y) is at (x_mm + scale x, y_mm + scale y) on the plate."""
         self._link.done(messages.MoveRegions(id=self._link.new_id(), x_mm=x_mm, y_mm=y_mm, scale=scale))
 
     def touches(self) -> Iterator[Touch]:
@@ -181,23 +131,11 @@ class PanelClient:
         return self._link.follow(Touch, "touches")
 
     def contacts(self) -> Iterator[ContactNotice]:
-        """Every contact as the touch panel has it, ghosts too, from this call on, until the iterator is closed, as for `states`.
-
-        Raises
-        ------
-        ControllerError
-            If this user does not have the right to operate.
-        """
+        """Every contact as the touch panel has it, ghosts too, as for `states`; for operators."""
         return self._link.follow(ContactNotice, "contacts")
 
     def subscribe(self, *topics: messages.Topic) -> None:
-        """Have the panel send what belongs to these topics, for `heard`.
-
-        Raises
-        ------
-        ControllerError
-            If it is refused.
-        """
+        """Have the panel send what belongs to these topics, for `heard`."""
         self._link.done(messages.Subscribe(id=self._link.new_id(), to=topics))
 
     def heard(self, kind: type[T], wait_s: float) -> list[T]:
@@ -221,33 +159,15 @@ class PanelClient:
         return self._link.follow(Description, "description")
 
     def log(self) -> Iterator[LogLine]:
-        """The last lines of the service's log, and every one from then on, until the iterator is closed, as for `states`.
-
-        Raises
-        ------
-        ControllerError
-            If this user does not have the right to operate.
-        """
+        """The last lines of the service's log, and every one from then on, as for `states`; for operators."""
         return self._link.follow(LogLine, "log")
 
     def arm(self) -> None:
-        """Switch the outputs on as soon as the FPGA allows it; `states` reports when they are.
-
-        Raises
-        ------
-        ControllerError
-            If this user does not have the right to operate.
-        """
+        """Switch the outputs on as soon as the FPGA allows it; `states` reports when they are. For operators."""
         self._link.done(messages.Arm(id=self._link.new_id()))
 
     def disarm(self) -> None:
-        """Ramp the outputs down to 0 V; they stay off until a client arms.
-
-        Raises
-        ------
-        ControllerError
-            If this user does not have the right to operate.
-        """
+        """Ramp the outputs down to 0 V; they stay off until a client arms. For operators."""
         self._link.done(messages.Disarm(id=self._link.new_id()))
 
     def test_channel(self, channel: int) -> Answer:
@@ -255,12 +175,9 @@ class PanelClient:
         return self._link.answer(self._link.ask(messages.ChannelTest(id=self._link.new_id(), channel=channel)))
 
     def write_trace(self) -> None:
-        """Have the service write what its loop did in the last seconds; its log names the file, `haptic-panel trace` explains it.
+        """Have the service write what its loop did in the last seconds; for operators.
 
-        Raises
-        ------
-        ControllerError
-            If this user does not have the right to operate.
+        The service's log names the file, `haptic-panel trace` explains it.
         """
         self._link.done(messages.WriteTrace(id=self._link.new_id()))
 
@@ -273,28 +190,11 @@ class PanelClient:
         return self._link.question(messages.AskState(id=self._link.new_id()), StateAnswer)
 
     def load_scene(self, name: str) -> None:
-        """Load another scene of the board; returns when it is in force.
-
-        Raises
-        ------
-        ControllerError
-            If it is refused; the panel keeps the scene before.
-        """
+        """Load another scene of the board; returns when it is in force. If it is refused, the panel keeps the scene before."""
         self._link.done(messages.LoadScene(id=self._link.new_id(), name=name))
 
     def save_scene(self, name: str, toml: str) -> None:
-        """Keep a scene on the device, so that `load_scene` finds it by its name.
-
-        Parameters
-        ----------
-        toml : str
-            A scene.toml.
-
-        Raises
-        ------
-        ControllerError
-            If it is refused.
-        """
+        """Keep a scene.toml, given as text, on the device, so that `load_scene` finds it by its name."""
         self._link.done(messages.SaveScene(id=self._link.new_id(), name=name, toml=toml))
 
     def figures(self) -> dict[str, Any]:

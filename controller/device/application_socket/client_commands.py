@@ -27,13 +27,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def send(options: argparse.Namespace) -> int:
-    """Send the request that was asked for, and show what the panel says, until Ctrl-C where that has no end.
-
-    Raises
-    ------
-    ControllerError
-        If there is no panel, or it refuses.
-    """
+    """Send the request that was asked for, and show what the panel says, until Ctrl-C where that has no end."""
     try:
         with PanelClient(options.socket) as panel:
             return _run(panel, options)
@@ -94,13 +88,7 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
 
 
 def _table(file: Path, name: str) -> dict[str, Any]:
-    """The table [effects.NAME] of a file.
-
-    Raises
-    ------
-    ConfigError
-        If it has none of this name.
-    """
+    """The table [effects.NAME] of a file; ConfigError if it has none of this name."""
     from controller.device.board.records import read_tables
 
     effects = read_tables(file).get("effects")
@@ -111,13 +99,7 @@ def _table(file: Path, name: str) -> dict[str, Any]:
 
 
 def _text(file: Path) -> str:
-    """Text of a file.
-
-    Raises
-    ------
-    ConfigError
-        If it cannot be read.
-    """
+    """Text of a file; ConfigError if it cannot be read."""
     try:
         return read_text(file, TEXT_BYTES)
     except OSError as error:

@@ -46,22 +46,7 @@ class Silent(LinkError):
 
 
 class PanelLink:
-    """A connection to a running panel, for use by one thread at a time.
-
-    Parameters
-    ----------
-    path : str
-        Path of the panel's socket.
-    timeout_s : float
-        Longest wait for an answer.
-
-    Raises
-    ------
-    LinkError
-        By every method: if no panel listens at the path, it does not answer in time, or it ends the connection.
-    ControllerError
-        If this user may not connect.
-    """
+    """A connection to a running panel, for use by one thread at a time; its methods raise what those of `PanelClient` do."""
 
     def __init__(self, path: str, timeout_s: float) -> None:
         self._path = path
@@ -132,25 +117,13 @@ class PanelLink:
         return request.id
 
     def done(self, request: AnyRequest) -> None:
-        """Send a request, and wait until it is done.
-
-        Raises
-        ------
-        ControllerError
-            If it is refused.
-        """
+        """Send a request, and wait until it is done; ControllerError if it is refused."""
         answer = self.answer(self.ask(request))
         if answer.outcome != "done":
             raise _refused(answer)
 
     def question(self, request: AnyRequest, kind: type[D]) -> D:
-        """Send a question, and wait for its answer.
-
-        Raises
-        ------
-        ControllerError
-            If it is refused.
-        """
+        """Send a question, and wait for its answer; ControllerError if it is refused."""
         answer = self._wait(self.ask(request))
         if isinstance(answer, kind):
             return answer

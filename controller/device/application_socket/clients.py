@@ -30,42 +30,15 @@ LEAVE_S = 1.0  # for a client that was commanded to leave, to read why
 class Clients:
     """A fixed number of places for clients, each with the buffers of one `Connection`.
 
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        Path and mode of the socket, number of clients, and what each may send.
-    peer_of : callable
-        Identifies the process at the other end of an accepted socket.
-
-    Attributes
-    ----------
-    places : list of Connection
-        One for each client that may be connected; those without a client are not `open`.
-    first : int
-        Index of the place that is served first in the next turn.
-    rights : Rights
-        What users may do.
-    next_s : float
-        When to serve although nothing is readable, in s of the host's clock; inf: never.
-    users : int
-        Different users among the clients that may play.
-    gone : list of int
-        Serial numbers of clients that have gone and had sent regions; whoever removes those empties it.
-    touch_subscribers : int
-        Clients that subscribed to touches.
-
-    Raises
-    ------
-    ConfigError, ControllerError
-        If the socket cannot be created, or belongs to a running service.
+    Raises ConfigError or ControllerError if the socket cannot be created, or belongs to a running service.
     """
 
     def __init__(self, settings: ApplicationSocket, counters: SocketCounters, peer_of: Callable[[socket.socket], Peer]) -> None:
         self.rights = Rights(settings)
-        self.next_s = NEVER
-        self.users = 0
-        self.touch_subscribers = 0
-        self.gone: list[int] = []
+        self.next_s = NEVER  # when to serve although nothing is readable
+        self.users = 0  # different ones among the clients that may play
+        self.touch_subscribers = 0  # clients
+        self.gone: list[int] = []  # serial numbers of clients that had sent regions; whoever removes those empties it
         self._counters = counters
         self._peer_of = peer_of
         self._settings = settings

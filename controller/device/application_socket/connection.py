@@ -33,16 +33,8 @@ class MessageTooLong(ValueError):
 class Connection:
     """A place for one client at a time; the next client gets the same buffers.
 
-    Parameters
-    ----------
-    rate_hz : float
-        Lines a second that the client may send in the long run.
-    burst : int
-        Lines that it may send at once.
-    longest_bytes : int
-        Longest line of a client with the right to regions; that of others is LINE_BYTES.
-    layers_hz : float
-        Times a second that the client may replace its regions in the long run.
+    A client may send `rate_hz` lines a second in the long run, and `burst` at once; likewise replace its regions `layers_hz`
+    times. Its longest line is `longest_bytes` if it has the right to regions, else LINE_BYTES.
     """
 
     def __init__(self, rate_hz: float, burst: int, longest_bytes: int = LINE_BYTES, layers_hz: float = 1.0) -> None:
@@ -81,21 +73,7 @@ class Connection:
         self._line = bytearray()
 
     def begin(self, client: socket.socket, serial: int, now_s: float, peer: Peer = NOBODY, rights: tuple[Right, ...] = ()) -> None:
-        """Serve a new client.
-
-        Parameters
-        ----------
-        client : socket.socket
-            Connected and non-blocking.
-        serial : int
-            Number that no other client of this socket has had.
-        now_s : float
-            Host time.
-        peer : Peer
-            The process at the other end.
-        rights : tuple of str
-            What it may do.
-        """
+        """Serve a new client on a connected, non-blocking socket; no other client has had this serial number."""
         self._socket = client
         self.peer, self.rights, self.heard_s = peer, rights, now_s
         self.fd = client.fileno()
@@ -170,10 +148,7 @@ class Connection:
     def next_line(self) -> memoryview | None:
         """The next complete line without its newline; None if there is none. The view is valid until the next `receive`.
 
-        Raises
-        ------
-        LineTooLong
-            Once for a line that does not fit.
+        Raises LineTooLong once for a line that does not fit.
         """
         at = self._received.find(NEWLINE, self._start, self._end)
         if at >= 0 and self._skipping:
@@ -211,10 +186,7 @@ class Connection:
     def put(self, message: AnyMessage) -> None:
         """Queue one message; if the queue is full, queue a farewell instead, after which the client gets nothing more.
 
-        Raises
-        ------
-        MessageTooLong
-            If it would not even fit an empty queue.
+        Raises MessageTooLong if it would not even fit an empty queue.
         """
         if self.deaf or self.leaving_reason:
             return

@@ -55,15 +55,7 @@ class Faults:
 
 
 class Describer:
-    """Describes one panel.
-
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        What clients may ask for.
-    faults : Faults
-        Those of the panel so far.
-    """
+    """Describes one panel, with what clients may ask for and its faults so far."""
 
     def __init__(
         self, board: Board, settings: ApplicationSocket, faults: Faults, clients: Clients, counters: SocketCounters

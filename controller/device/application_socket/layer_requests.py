@@ -13,13 +13,7 @@ from controller.errors import ControllerError
 
 
 class LayerRequests:
-    """Takes the layers of one panel's clients.
-
-    Parameters
-    ----------
-    settings : ApplicationSocket
-        Its `layer_regions`.
-    """
+    """Takes the layers of one panel's clients."""
 
     def __init__(self, settings: ApplicationSocket, answers: Answers) -> None:
         self._most_regions = settings.layer_regions

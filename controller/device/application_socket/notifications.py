@@ -16,18 +16,10 @@ from controller.log import LAST_LINES, LOG
 
 
 class Notifications:
-    """Sends touches and conditions to the clients that subscribed to them.
-
-    Attributes
-    ----------
-    condition : Condition
-        The panel's, as last reported.
-    faults : Faults
-        The last ones.
-    """
+    """Sends touches and conditions to the clients that subscribed to them."""
 
     def __init__(self, clients: Clients) -> None:
-        self.condition = Condition()
+        self.condition = Condition()  # as last reported
         self.faults = Faults()
         self._clients = clients
         self._lines_sent = NOT_LOGGED

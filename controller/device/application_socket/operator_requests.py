@@ -17,15 +17,7 @@ OperatorRequest = LoadScene | SaveScene | ChannelTest | WriteTrace
 
 
 class OperatorRequests:
-    """Carries out the orders to one panel.
-
-    Parameters
-    ----------
-    board : Board
-        Its actuators are what `test_channel` drives.
-    rights : Rights
-        What clients are called in the log.
-    """
+    """Carries out the orders to one panel."""
 
     def __init__(self, board: Board, rights: Rights, answers: Answers, switched_off: SwitchedOff) -> None:
         self._board = board

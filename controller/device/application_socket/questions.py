@@ -32,15 +32,7 @@ FIGURES_S: Final = 1.0  # for which the same figures are sent: collecting them t
 
 
 class Questions:
-    """Answers questions of one panel's clients.
-
-    Parameters
-    ----------
-    notifications : Notifications
-        Holds the panel's condition.
-    emissions : EmissionNotices
-        Sends what is played to the clients that ask for it.
-    """
+    """Answers questions of one panel's clients."""
 
     def __init__(
         self,

@@ -25,11 +25,6 @@ class Tickets:
     A ticket is the index of its place plus a multiple of the capacity that grows each time the place is taken: a second
     outcome for the same ticket finds no holder. Free places form a list linked through an array, so that nothing is moved or
     resized.
-
-    Parameters
-    ----------
-    capacity : int
-        Tickets that can be taken at a time.
     """
 
     def __init__(self, capacity: int) -> None:

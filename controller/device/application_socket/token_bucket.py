@@ -4,15 +4,7 @@ from __future__ import annotations
 
 
 class TokenBucket:
-    """Tokens that come at a constant rate, up to a number.
-
-    Parameters
-    ----------
-    rate_hz : float
-        Tokens a second in the long run.
-    burst : int
-        Tokens that can be taken at once.
-    """
+    """Tokens that come at a constant rate in the long run; at most `burst` can be taken at once."""
 
     def __init__(self, rate_hz: float, burst: int) -> None:
         self._rate_hz = rate_hz

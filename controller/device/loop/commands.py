@@ -26,84 +26,43 @@ class Outcome(Enum):
 
 
 class PanelControl(Protocol):
-    """What commands may ask of the loop.
+    """What commands may ask of the loop."""
 
-    Attributes
-    ----------
-    emissions : EmissionRing
-        The last emissions, noted while they are wanted.
-    skipped : Skipped
-        Counters of what was due and is not played.
-    """
-
-    emissions: EmissionRing
-    skipped: Skipped
+    emissions: EmissionRing  # the last ones, noted while they are wanted
+    skipped: Skipped  # what was due and is not played
 
     def play(
         self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
     ) -> None:
-        """Play an effect at a point, or at a finger wherever it moves; exactly one `CommandSource.outcome` follows.
+        """Play an effect at a point, or at a finger wherever it moves, `amplitude` times the effect's own, MIN_AMPLITUDE to 1.
 
-        Parameters
-        ----------
-        ticket : int
-            The outcome is reported with it; 0: nobody waits for it.
-        effect : str or ClientEffect
-            One of `effects`, or one that a client has sent.
-        x_m, y_m : float
-            Place on the plate; unused with a finger.
-        amplitude : float
-            `MIN_AMPLITUDE` to 1, times the effect's own.
-        now_s : float
-            Host time of the command.
-
-        Raises
-        ------
-        ControllerError
-            If the outputs are off, or the effect or the finger is unknown. No outcome follows then.
+        Exactly one `CommandSource.outcome` follows, with the ticket; 0: nobody waits for it. Raises ControllerError, and no
+        outcome follows, if the outputs are off, or the effect or the finger is unknown.
         """
 
     def test_channel(self, ticket: int, channel: int, x_m: float, y_m: float, now_s: float) -> None:
-        """Play a chirp on one channel alone; exactly one `CommandSource.outcome` follows.
+        """Play a chirp on one channel alone, whose actuator is at the point; exactly one `CommandSource.outcome` follows.
 
-        Parameters
-        ----------
-        x_m, y_m : float
-            Place of its actuator.
-
-        Raises
-        ------
-        ControllerError
-            If the outputs are off. No outcome follows then.
+        Raises ControllerError, and no outcome follows, if the outputs are off.
         """
 
     def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
         """Fingers in a region, by its name: of the layer of the client with this number, else of the scene.
 
-        Raises
-        ------
-        ConfigError
-            If neither has a region of this name.
+        Raises ConfigError if neither has a region of this name.
         """
 
     def switch(self, *, on: bool, by: str = "a client") -> None:
         """Disarm the outputs, or arm them as soon as the FPGA allows it; `CommandSource.changed` reports when they are.
 
-        A disarmed panel stays disarmed, through faults and reconnections, until it is switched on.
-
-        Parameters
-        ----------
-        by : str
-            Who wants it, for the cause of the panel's state.
+        A disarmed panel stays disarmed, through faults and reconnections, until it is switched on. `by` stands in the cause
+        of its state.
         """
 
     def write_trace(self, reason: str) -> None:
         """Have written what the loop did in the last seconds, with the reason; the log says where.
 
-        Raises
-        ------
-        ConfigError
-            If nothing writes it.
+        Raises ConfigError if nothing writes it.
         """
 
     def hear(self, heard: Heard | None) -> None:
@@ -112,54 +71,25 @@ class PanelControl(Protocol):
     def load_scene(self, ticket: int, name: str) -> None:
         """Prepare another scene outside the loop and take it over; `CommandSource.loaded` follows.
 
-        Raises
-        ------
-        ControllerError
-            If this panel cannot change its scene. `loaded` does not follow then.
+        Raises ControllerError, and `loaded` does not follow, if this panel cannot change its scene.
         """
 
     def save_scene(self, ticket: int, name: str, toml: str) -> None:
-        """Check a scene outside the loop and keep it, so that `load_scene` finds it; `CommandSource.loaded` follows.
+        """Check a scene.toml outside the loop and keep it, so that `load_scene` finds it; `CommandSource.loaded` follows.
 
-        Parameters
-        ----------
-        toml : str
-            A scene.toml.
-
-        Raises
-        ------
-        ControllerError
-            If this panel cannot change its scene. `loaded` does not follow then.
+        Raises ControllerError, and `loaded` does not follow, if this panel cannot change its scene.
         """
 
     def put_layer(self, ticket: int, owner: int, line: bytes, placement: Placement | None, now_s: float) -> None:
         """Replace a client's layer of regions, once it is checked outside the loop; `CommandSource.layered` follows.
 
-        Parameters
-        ----------
-        owner : int
-            Number of the client; the layer of a higher one lies on top.
-        line : bytes
-            JSON, as `layer_tables.read_layer` takes it.
-        placement : Placement or None
-            Where the layer is to lie; None: where the one before lies.
-        now_s : float
-            Host time of the command.
-
-        Raises
-        ------
-        ControllerError
-            If this panel takes no layers. `layered` does not follow then.
+        The layer of a higher owner lies on top. `line` is JSON, as `layer_tables.read_layer` takes it. With no placement the
+        layer lies where the one before lies. Raises ControllerError, and `layered` does not follow, if this panel takes no
+        layers.
         """
 
     def move_layer(self, owner: int, placement: Placement) -> None:
-        """Move a client's layer: at once, or with the one that is being prepared.
-
-        Raises
-        ------
-        ControllerError
-            If this client has sent no layer.
-        """
+        """Move a client's layer: at once, or with the one that is being prepared; ControllerError if it has sent none."""
 
     def drop_layer(self, owner: int, now_s: float) -> None:
         """Remove the layer of a client that has gone."""

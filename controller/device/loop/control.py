@@ -18,15 +18,7 @@ from controller.errors import ConfigError, FaultError
 
 
 class LoopControl:
-    """`PanelControl` of one loop.
-
-    Parameters
-    ----------
-    layers : Layers
-        Of clients, over the scene.
-    change : SceneChange or None
-        None: scenes cannot be changed.
-    """
+    """`PanelControl` of one loop; without a `change` its scene cannot be changed."""
 
     def __init__(
         self,
@@ -52,15 +44,7 @@ class LoopControl:
     def play(
         self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
     ) -> None:
-        """Play an effect; see `PanelControl.play`.
-
-        Raises
-        ------
-        FaultError
-            While the outputs are off, with the cause.
-        ConfigError
-            If the effect or the finger is unknown.
-        """
+        """Play an effect; see `PanelControl.play`. FaultError with the cause while the outputs are off."""
         self._require_on()
         self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
 
@@ -70,13 +54,7 @@ class LoopControl:
         self._scheduler.test_channel(ticket, channel, x_m, y_m, self._clock_estimate.fpga_s(now_s))
 
     def _require_on(self) -> None:
-        """Wake outputs that idle.
-
-        Raises
-        ------
-        FaultError
-            If they are off, with the cause.
-        """
+        """Wake outputs that idle; FaultError, with the cause, if they are off."""
         if not self._outputs.wanted:
             raise FaultError("the outputs are off: the panel is disarmed; a client that may operate it has to arm it")
         if self._outputs.idle:
@@ -103,23 +81,11 @@ class LoopControl:
         self._source.heard = heard
 
     def load_scene(self, ticket: int, name: str) -> None:
-        """Prepare another scene; see `PanelControl.load_scene`.
-
-        Raises
-        ------
-        ConfigError
-            If this loop cannot change its scene.
-        """
+        """Prepare another scene; see `PanelControl.load_scene`."""
         self._changer().begin(name, ticket)
 
     def save_scene(self, ticket: int, name: str, toml: str) -> None:
-        """Save a scene under a name; see `PanelControl.save_scene`.
-
-        Raises
-        ------
-        ConfigError
-            If this loop has no helper for scenes.
-        """
+        """Save a scene under a name; see `PanelControl.save_scene`."""
         self._changer().save(name, toml, ticket)
 
     def _changer(self) -> SceneChange:

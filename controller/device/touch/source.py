@@ -119,15 +119,9 @@ Heard = Callable[[Sequence[TouchSample]], None]
 
 
 class TrackedTouch(TouchSource, Protocol):
-    """A source behind the tracker: confirmed fingers with predicted positions.
+    """A source behind the tracker: confirmed fingers with predicted positions."""
 
-    Attributes
-    ----------
-    heard : callable or None
-        Given the contacts of each report as the source has them, before it is decided which are fingers.
-    """
-
-    heard: Heard | None
+    heard: Heard | None  # given the contacts of each report before it is decided which are fingers
 
     def down(self) -> Sequence[int]:
         """Numbers of the fingers that are down."""
