@@ -38,47 +38,28 @@ SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; a
 class Board(Record, frozen=True):
     """One panel: the whole board.toml. Names of scenes and recordings are relative to its folder.
 
-    Attributes
-    ----------
-    name
-        Name of the board: lower case letters, digits, - and _.
-    scene
-        Scene that is played unless another is asked for: a name beside board.toml, or a path.
-    plate
-        The plate.
-    actuators
-        The piezo patches; each channel at most once, each patch on the plate and none on another.
-    driver
-        The driver stages.
-    waveform
-        The waveform of one emission.
-    bank
-        The bank of precomputed waveforms.
-    compose
-        Left out: as `bank` says.
-    touch
-        The touch panel.
-    link
-        The link to the FPGA.
-    limits
-        Limits.
-    patches
-        Left out: the patches neither weigh anything nor stiffen the plate.
-    parts
-        Left out: [driver] and [patches] give all their keys.
-    temperature
-        Left out: the plate is taken to be as warm as the bank assumes.
-    gateware
-        Left out: an FPGA with another gateware is refused.
-    realtime
-        Left out: the defaults.
-    application_socket
-        Left out: there is no socket.
-    idle_disarm_s
-        After so long without a touch, a command or a fixed emitter the outputs ramp to 0 V, and nothing is sent to the FPGA until
-        the next touch or command, felt a ramp later. A scene with a region that has `keep_armed` stays armed. Left out: never.
-    folder
-        Folder of the board.toml; set on reading, not a key of the file.
+    Attributes:
+    name: Name of the board: lower case letters, digits, - and _.
+    scene: Scene that is played unless another is asked for: a name beside board.toml, or a path.
+    plate: The plate.
+    actuators: The piezo patches; each channel at most once, each patch on the plate and none on another.
+    driver: The driver stages.
+    waveform: The waveform of one emission.
+    bank: The bank of precomputed waveforms.
+    compose: Left out: as `bank` says.
+    touch: The touch panel.
+    link: The link to the FPGA.
+    limits: Limits.
+    patches: Left out: the patches neither weigh anything nor stiffen the plate.
+    parts: Left out: [driver] and [patches] give all their keys.
+    temperature: Left out: the plate is taken to be as warm as the bank assumes.
+    gateware: Left out: an FPGA with another gateware is refused.
+    realtime: Left out: the defaults.
+    application_socket: Left out: there is no socket.
+    idle_disarm_s: After so long without a touch, a command or a fixed emitter the outputs ramp to 0 V, and nothing is sent to the
+        FPGA until the next touch or command, felt a ramp later. A scene with a region that has `keep_armed` stays armed. Left out:
+        never.
+    folder: Folder of the board.toml; set on reading, not a key of the file.
     """
 
     name: Annotated[str, Meta(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}\Z")]

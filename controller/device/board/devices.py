@@ -44,32 +44,20 @@ def divided_hz(source_hz: int, asked_hz: int) -> float:
 class LinkSettings(Record, frozen=True, kw_only=True):
     """The link to the FPGA.
 
-    Attributes
-    ----------
-    kind
-        `simulated`: no FPGA, its gateware is computed; `serial`: UART; `spi`: SPI and GPIO lines.
-    clock_hz
-        Clock of the FPGA's logic.
-    sck_hz
-        SCK that is asked for; at most half of `clock_hz`.
-    slots
-        Waveforms that the FPGA's memory holds.
-    device
-        Serial port, or /dev/spidevB.C.
-    spi_source_hz
-        Clock of the SPI controller, which divides it by an even number: 400e6 on a Pi 3, 500e6 on a Pi 4, 200e6 on a Pi 5;
-        left out: SCK is taken to be as asked.
-    baud
-        Baud rate of a serial link.
-    gpio_chip
-        Label of the GPIO chip with the following lines, each given by its name or, where it has none of its own, by its number on
-        the chip, such as "25". Where several chips have the label: the path of a udev link to the chip.
-    trigger_line
-        Output: starts the waveform that was prepared.
-    configured_line
-        Input: high while the FPGA is configured, has its clock and is out of reset; may be left out.
-    permit_line
-        Output: run permit that this host gives while it plays; may be left out where a switch gives it.
+    Attributes:
+    kind: `simulated`: no FPGA, its gateware is computed; `serial`: UART; `spi`: SPI and GPIO lines.
+    clock_hz: Clock of the FPGA's logic.
+    sck_hz: SCK that is asked for; at most half of `clock_hz`.
+    slots: Waveforms that the FPGA's memory holds.
+    device: Serial port, or /dev/spidevB.C.
+    spi_source_hz: Clock of the SPI controller, which divides it by an even number: 400e6 on a Pi 3, 500e6 on a Pi 4, 200e6 on a Pi
+        5; left out: SCK is taken to be as asked.
+    baud: Baud rate of a serial link.
+    gpio_chip: Label of the GPIO chip with the following lines, each given by its name or, where it has none of its own, by its
+        number on the chip, such as "25". Where several chips have the label: the path of a udev link to the chip.
+    trigger_line: Output: starts the waveform that was prepared.
+    configured_line: Input: high while the FPGA is configured, has its clock and is out of reset; may be left out.
+    permit_line: Output: run permit that this host gives while it plays; may be left out where a switch gives it.
     """
 
     kind: Literal["simulated", "serial", "spi"]
@@ -107,22 +95,14 @@ class Temperature(Record, frozen=True, kw_only=True):
     The bit clock is scaled by 1 + coefficient_per_k * (temperature - reference_c): warm glass is softer and its waves slower, so
     that waveforms computed for `reference_c` have to be played as much slower.
 
-    Attributes
-    ----------
-    kind
-        `hwmon`: a sensor with a kernel driver; `lm75`: an LM75, TMP75 or TMP102 on an I2C bus.
-    device
-        hwmon: name of the chip, or path of a temp*_input; lm75: the bus, such as /dev/i2c-1.
-    address
-        Address of an lm75 on the bus.
-    reference_c
-        Temperature that the bank was built for.
-    coefficient_per_k
-        Relative change of the bit clock per kelvin.
-    period_s
-        Time between readings.
-    lowest_c, highest_c
-        A reading beyond these is a fault of the sensor.
+    Attributes:
+    kind: `hwmon`: a sensor with a kernel driver; `lm75`: an LM75, TMP75 or TMP102 on an I2C bus.
+    device: hwmon: name of the chip, or path of a temp*_input; lm75: the bus, such as /dev/i2c-1.
+    address: Address of an lm75 on the bus.
+    reference_c: Temperature that the bank was built for.
+    coefficient_per_k: Relative change of the bit clock per kelvin.
+    period_s: Time between readings.
+    lowest_c, highest_c: A reading beyond these is a fault of the sensor.
     """
 
     kind: Literal["hwmon", "lm75"]
@@ -146,16 +126,12 @@ class Temperature(Record, frozen=True, kw_only=True):
 class GatewareLoading(Record, frozen=True, kw_only=True):
     """How an FPGA is loaded that answers with another gateware than this software's, before its outputs may be on.
 
-    Attributes
-    ----------
-    load
-        Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file. It is to load the
+    Attributes:
+    load: Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file. It is to load the
         FPGA's memory, not its flash: what the flash holds is what a lost supply goes back to.
-    bitstream
-        The file: in the folder `gateware` of the release that runs, else beside board.toml. Left out: `NAME.bit`, after the
+    bitstream: The file: in the folder `gateware` of the release that runs, else beside board.toml. Left out: `NAME.bit`, after the
         board's folder, as `haptic-panel gateware build` calls it; so a copy of a board does not load the bitstream of the original.
-    limit_s
-        Longest time that it may take; then it is ended, and the FPGA refused.
+    limit_s: Longest time that it may take; then it is ended, and the FPGA refused.
     """
 
     load: Annotated[tuple[Annotated[str, Meta(min_length=1)], ...], Meta(min_length=1)]
@@ -170,14 +146,10 @@ class GatewareLoading(Record, frozen=True, kw_only=True):
 class Realtime(Record, frozen=True, kw_only=True):
     """Scheduling of the event loop's thread; one warning where it is not permitted.
 
-    Attributes
-    ----------
-    priority
-        Priority of SCHED_FIFO; 0: an ordinary process.
-    cpu
-        Core to run on; left out: any.
-    lock_memory
-        Whether to keep what the loop uses in memory.
+    Attributes:
+    priority: Priority of SCHED_FIFO; 0: an ordinary process.
+    cpu: Core to run on; left out: any.
+    lock_memory: Whether to keep what the loop uses in memory.
     """
 
     priority: Annotated[int, Meta(ge=0, le=98)] = 50
@@ -191,43 +163,25 @@ LOOK_GROUP: Final = "haptic-look"  # made by the Debian package, for haptic-pane
 class ApplicationSocket(Record, frozen=True, kw_only=True):
     """The Unix socket through which a user interface drives the panel.
 
-    Attributes
-    ----------
-    path
-        Path of the socket.
-    owner
-        User who owns it; empty: that of the service.
-    group
-        Its group; empty: that of the service.
-    mode
-        Its file mode, octal.
-    play_group
-        Group that may play; empty: whoever may connect.
-    look_group
-        Group that may only look: read state and figures, whatever other groups a user is in. Where there is none of the default's
-        name, nobody.
-    operate_group
-        Group that may also arm, disarm and load scenes; empty: root and the service's own user only.
-    regions_group
-        Group that may lay regions of its own over the scene, whether it may play or not; empty: only who may operate.
-    max_clients
-        Clients at a time.
-    clients_per_user
-        Clients of one user who may play and not operate.
-    idle_s
-        A client silent for this long gives way to one that finds no place.
-    commands_per_s
-        Commands a second of one client in the long run.
-    burst
-        Commands that a client may send at once.
-    max_amplitude
-        Largest amplitude that a client may ask for.
-    layer_regions
-        Regions of one client.
-    layer_bytes
-        Length of one line with regions.
-    layers_per_s
-        How often a second one client may replace its regions in the long run.
+    Attributes:
+    path: Path of the socket.
+    owner: User who owns it; empty: that of the service.
+    group: Its group; empty: that of the service.
+    mode: Its file mode, octal.
+    play_group: Group that may play; empty: whoever may connect.
+    look_group: Group that may only look: read state and figures, whatever other groups a user is in. Where there is none of the
+        default's name, nobody.
+    operate_group: Group that may also arm, disarm and load scenes; empty: root and the service's own user only.
+    regions_group: Group that may lay regions of its own over the scene, whether it may play or not; empty: only who may operate.
+    max_clients: Clients at a time.
+    clients_per_user: Clients of one user who may play and not operate.
+    idle_s: A client silent for this long gives way to one that finds no place.
+    commands_per_s: Commands a second of one client in the long run.
+    burst: Commands that a client may send at once.
+    max_amplitude: Largest amplitude that a client may ask for.
+    layer_regions: Regions of one client.
+    layer_bytes: Length of one line with regions.
+    layers_per_s: How often a second one client may replace its regions in the long run.
     """
 
     path: Name = "/run/haptic-panel/panel.sock"

@@ -39,20 +39,13 @@ BAUD = re.compile(r"\.BAUD\(([\d_]+)\)")
 class FpgaPart(Record, frozen=True, kw_only=True):
     """The whole fpga.toml.
 
-    Attributes
-    ----------
-    family
-        Which of nextpnr's programs places it.
-    devices
-        Sizes that fit the board with the same pins, as nextpnr calls them; the first is built unless another is asked for.
-    package
-        Its package, as nextpnr calls it.
-    speed
-        Speed grade; left out where the family has none.
-    constraints
-        File with its pins, beside this one.
-    seed
-        Of nextpnr's placement: one that is known to meet the clock.
+    Attributes:
+    family: Which of nextpnr's programs places it.
+    devices: Sizes that fit the board with the same pins, as nextpnr calls them; the first is built unless another is asked for.
+    package: Its package, as nextpnr calls it.
+    speed: Speed grade; left out where the family has none.
+    constraints: File with its pins, beside this one.
+    seed: Of nextpnr's placement: one that is known to meet the clock.
     """
 
     family: Literal["ecp5", "ice40"]

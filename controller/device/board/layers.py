@@ -27,16 +27,11 @@ MOST_SHEAR_LEFT_OUT = 2.0
 class PlateLayer(Record, frozen=True):
     """A layer of the plate, from the bottom up; the layers stick to each other.
 
-    Attributes
-    ----------
-    thickness_mm
-        Thickness.
-    young_modulus_pa
-        Young's modulus at the frequencies of the band: that of glue is 10 to 100 times its static one.
-    poisson_ratio
-        Poisson's ratio.
-    density_kg_m3
-        Density.
+    Attributes:
+    thickness_mm: Thickness.
+    young_modulus_pa: Young's modulus at the frequencies of the band: that of glue is 10 to 100 times its static one.
+    poisson_ratio: Poisson's ratio.
+    density_kg_m3: Density.
     """
 
     thickness_mm: Annotated[float, Meta(ge=1e-3, le=20)]

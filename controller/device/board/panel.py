@@ -24,16 +24,11 @@ Support = Literal["simply_supported", "clamped", "free", "foam"]
 class Edges(Record, frozen=True):
     """How each side of the plate is supported.
 
-    Attributes
-    ----------
-    x0
-        The side at x = 0.
-    x1
-        The side at the far end of x.
-    y0
-        The side at y = 0.
-    y1
-        The side at the far end of y.
+    Attributes:
+    x0: The side at x = 0.
+    x1: The side at the far end of x.
+    y0: The side at y = 0.
+    y1: The side at the far end of y.
     """
 
     x0: Support
@@ -45,15 +40,12 @@ class Edges(Record, frozen=True):
 class Foam(Record, frozen=True):
     """The foam strip under each edge that is "foam".
 
-    Attributes
-    ----------
-    stiffness_n_m3
-        Young's modulus over thickness: the force per area, per displacement.
-    width_mm
-        From the plate's edge inwards.
-    dashpot_pa_s_m
-        Wave impedance of the foam, the root of density times Young's modulus: damping above the frequency at which the foam is a
-        quarter of a wave thick, added to the plate's own. 1.15e4 is soft foam (0.3 MPa, 400 kg/m³): 1 ms on the paper's plate.
+    Attributes:
+    stiffness_n_m3: Young's modulus over thickness: the force per area, per displacement.
+    width_mm: From the plate's edge inwards.
+    dashpot_pa_s_m: Wave impedance of the foam, the root of density times Young's modulus: damping above the frequency at which the
+        foam is a quarter of a wave thick, added to the plate's own. 1.15e4 is soft foam (0.3 MPa, 400 kg/m³): 1 ms on the paper's
+        plate.
     """
 
     stiffness_n_m3: Annotated[float, Meta(ge=1e5, le=1e11)]
@@ -67,12 +59,9 @@ PlateMm = Annotated[float, Meta(ge=20, le=LONGEST_PLATE_MM)]
 class DecayAt(Record, frozen=True):
     """Decay at one frequency; between two of them, straight in the logarithms of both; beyond the first and the last, as there.
 
-    Attributes
-    ----------
-    frequency_hz
-        Frequency; they rise from one to the next.
-    decay_time_ms
-        Time in which a free vibration of that frequency falls to 1/e.
+    Attributes:
+    frequency_hz: Frequency; they rise from one to the next.
+    decay_time_ms: Time in which a free vibration of that frequency falls to 1/e.
     """
 
     frequency_hz: Annotated[float, Meta(gt=0, le=10e6)]
@@ -82,12 +71,9 @@ class DecayAt(Record, frozen=True):
 class Damping(Record, frozen=True):
     """Damping that is not the same for all modes.
 
-    Attributes
-    ----------
-    loss_factor
-        Of the plate's material: it adds half of it times the angular frequency to each mode's rate of decay.
-    decay_times
-        Decay over frequency, as measured; it takes the place of `plate.decay_time_ms`.
+    Attributes:
+    loss_factor: Of the plate's material: it adds half of it times the angular frequency to each mode's rate of decay.
+    decay_times: Decay over frequency, as measured; it takes the place of `plate.decay_time_ms`.
     """
 
     loss_factor: Annotated[float, Meta(ge=0, le=0.5)] = 0.0
@@ -103,34 +89,21 @@ class Damping(Record, frozen=True):
 class Plate(Record, frozen=True, kw_only=True):
     """The plate: size, material and support; its origin is a corner, x runs along the length.
 
-    Attributes
-    ----------
-    length_mm
-        Extent along x.
-    width_mm
-        Extent along y.
-    thickness_mm
-        Thickness. This key and the three of the material are required, unless there are layers, from which they follow.
-    young_modulus_pa
-        Young's modulus.
-    poisson_ratio
-        Poisson's ratio.
-    density_kg_m3
-        Density.
-    edges
-        How the edge is supported, all around; or for each side, { x0 = …, x1 = …, y0 = …, y1 = … }: at x = 0, at the far end of x,
-        at y = 0, at the far end of y.
-    foam
-        Required if an edge is "foam".
-    decay_time_ms
-        Time in which a free vibration falls to 1/e, of all modes; what `damping` and `foam` take comes beside it.
-    theory
-        Plate theory that the model uses: mindlin counts shear and rotary inertia, which lower frequencies by 0.6 % at 20 kHz and by
-        2.2 % at 70 kHz in 0.5 mm of glass.
-    layers
-        Layers that the plate is made of, in place of thickness and material.
-    damping
-        Left out: `decay_time_ms` for all modes.
+    Attributes:
+    length_mm: Extent along x.
+    width_mm: Extent along y.
+    thickness_mm: Thickness. This key and the three of the material are required, unless there are layers, from which they follow.
+    young_modulus_pa: Young's modulus.
+    poisson_ratio: Poisson's ratio.
+    density_kg_m3: Density.
+    edges: How the edge is supported, all around; or for each side, { x0 = …, x1 = …, y0 = …, y1 = … }: at x = 0, at the far end of
+        x, at y = 0, at the far end of y.
+    foam: Required if an edge is "foam".
+    decay_time_ms: Time in which a free vibration falls to 1/e, of all modes; what `damping` and `foam` take comes beside it.
+    theory: Plate theory that the model uses: mindlin counts shear and rotary inertia, which lower frequencies by 0.6 % at 20 kHz
+        and by 2.2 % at 70 kHz in 0.5 mm of glass.
+    layers: Layers that the plate is made of, in place of thickness and material.
+    damping: Left out: `decay_time_ms` for all modes.
     """
 
     length_mm: PlateMm
@@ -226,16 +199,11 @@ class Plate(Record, frozen=True, kw_only=True):
 class Actuator(Record, frozen=True):
     """A square piezo patch and the output that drives it.
 
-    Attributes
-    ----------
-    channel
-        Output of the FPGA, and bit of a drive word.
-    x_mm, y_mm
-        Centre of the patch.
-    size_mm
-        Edge length of the patch.
-    idle
-        Level, 0 or 1, at which its output rests while the panel is armed.
+    Attributes:
+    channel: Output of the FPGA, and bit of a drive word.
+    x_mm, y_mm: Centre of the patch.
+    size_mm: Edge length of the patch.
+    idle: Level, 0 or 1, at which its output rests while the panel is armed.
     """
 
     channel: Annotated[int, Meta(ge=0, lt=CHANNELS)]
@@ -250,18 +218,12 @@ class Driver(Record, frozen=True):
 
     All but the supply may be left out where [parts] says what the patches are.
 
-    Attributes
-    ----------
-    supply_v
-        Supply of the stages.
-    resistance_ohm
-        Series resistance.
-    inductance_h
-        Series inductance.
-    capacitance_f
-        Capacitance of a patch.
-    moment_n_per_v
-        Bending moment per length of a patch's edge, per volt.
+    Attributes:
+    supply_v: Supply of the stages.
+    resistance_ohm: Series resistance.
+    inductance_h: Series inductance.
+    capacitance_f: Capacitance of a patch.
+    moment_n_per_v: Bending moment per length of a patch's edge, per volt.
     """
 
     supply_v: Annotated[float, Meta(gt=0, le=60)]
@@ -274,16 +236,11 @@ class Driver(Record, frozen=True):
 class Waveform(Record, frozen=True):
     """The waveform of one emission.
 
-    Attributes
-    ----------
-    band_low_hz
-        Lower edge of the band.
-    band_high_hz
-        Upper edge of the band, below half of `bit_clock_hz`.
-    duration_ms
-        T, the length of one emission: 1 to 1000 samples of `bit_clock_hz`.
-    bit_clock_hz
-        Drive words a second.
+    Attributes:
+    band_low_hz: Lower edge of the band.
+    band_high_hz: Upper edge of the band, below half of `bit_clock_hz`.
+    duration_ms: T, the length of one emission: 1 to 1000 samples of `bit_clock_hz`.
+    bit_clock_hz: Drive words a second.
     """
 
     band_low_hz: Positive
@@ -328,14 +285,10 @@ class Waveform(Record, frozen=True):
 class BankSettings(Record, frozen=True):
     """How the board's bank of precomputed waveforms is built and used.
 
-    Attributes
-    ----------
-    pitch_mm
-        Distance of the bank's cells.
-    snap_mm
-        A single finger at most this far from a cell's centre plays that cell without interpolation.
-    coarse
-        Build the bank even if `pitch_mm` is above half a wavelength, where only fingers near cells are served; for tests.
+    Attributes:
+    pitch_mm: Distance of the bank's cells.
+    snap_mm: A single finger at most this far from a cell's centre plays that cell without interpolation.
+    coarse: Build the bank even if `pitch_mm` is above half a wavelength, where only fingers near cells are served; for tests.
     """
 
     pitch_mm: Annotated[float, Meta(ge=0.5, le=50)]
@@ -346,16 +299,12 @@ class BankSettings(Record, frozen=True):
 class Compose(Record, frozen=True):
     """How waveforms for places between cells come about: as `bank` says, or as `bank build` chooses for the scene.
 
-    Attributes
-    ----------
-    method
-        `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: `bank build` chooses both, and whether the bank holds
+    Attributes:
+    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: `bank build` chooses both, and whether the bank holds
         responses at all, so that the bank is the smallest that keeps the two bounds.
-    max_error
-        Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
-    max_time_us
-        Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel on
-        the machine of the benchmark.
+    max_error: Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
+    max_time_us: Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel
+        on the machine of the benchmark.
     """
 
     method: Literal["bank", "auto"] = "bank"
@@ -366,32 +315,19 @@ class Compose(Record, frozen=True):
 class Limits(Record, frozen=True):
     """Limits of what the panel plays, and the resistor ratings they follow from. The FPGA enforces those of time and edges.
 
-    Attributes
-    ----------
-    heartbeat_timeout_ms
-        The FPGA switches its outputs off when the host was silent for this long.
-    ramp_ms
-        Time in which outputs ramp up on arming and down on disarming.
-    max_duty
-        Largest share of time with emissions.
-    duty_budget_ms
-        Emission time that may run ahead of `max_duty`.
-    longest_emission_ms
-        Longest single emission.
-    hv_settle_us
-        From switching the supply on (hv_enable) to the first edge of a ramp.
-    min_pulse_us
-        Shortest pulse of an output; at most one sample of the waveform.
-    max_channel_edge_rate_hz
-        Edges a second of one channel that the FPGA allows.
-    max_total_edge_rate_hz
-        Edges a second of all channels together that the FPGA allows; protects the supply.
-    max_edge_rate_hz
-        Largest edge rate of a channel within any waveform of the bank; a bank with more is not built.
-    resistor_rating_w
-        Power rating of a stage's resistor.
-    derating
-        Share of that rating that may be used.
+    Attributes:
+    heartbeat_timeout_ms: The FPGA switches its outputs off when the host was silent for this long.
+    ramp_ms: Time in which outputs ramp up on arming and down on disarming.
+    max_duty: Largest share of time with emissions.
+    duty_budget_ms: Emission time that may run ahead of `max_duty`.
+    longest_emission_ms: Longest single emission.
+    hv_settle_us: From switching the supply on (hv_enable) to the first edge of a ramp.
+    min_pulse_us: Shortest pulse of an output; at most one sample of the waveform.
+    max_channel_edge_rate_hz: Edges a second of one channel that the FPGA allows.
+    max_total_edge_rate_hz: Edges a second of all channels together that the FPGA allows; protects the supply.
+    max_edge_rate_hz: Largest edge rate of a channel within any waveform of the bank; a bank with more is not built.
+    resistor_rating_w: Power rating of a stage's resistor.
+    derating: Share of that rating that may be used.
     """
 
     heartbeat_timeout_ms: Annotated[float, Meta(ge=1, le=250)]

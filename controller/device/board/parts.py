@@ -35,26 +35,16 @@ FoilMm = Annotated[float, Meta(ge=0.01, le=5)]
 class Disc(Record, frozen=True):
     """A piezo diaphragm: a disc of ceramic on one of brass.
 
-    Attributes
-    ----------
-    brass_mm
-        Diameter of the brass.
-    brass_thickness_mm
-        Thickness of the brass.
-    ceramic_mm
-        Diameter of the ceramic.
-    ceramic_thickness_mm
-        Thickness of the ceramic.
-    capacitance_f
-        Capacitance of the whole disc.
-    piezo_constant_m_per_v
-        d31 of the ceramic, positive.
-    ceramic_modulus_pa
-        Young's modulus of the ceramic at constant field.
-    ceramic_poisson_ratio
-        Poisson's ratio of the ceramic.
-    ceramic_density_kg_m3
-        Density of the ceramic.
+    Attributes:
+    brass_mm: Diameter of the brass.
+    brass_thickness_mm: Thickness of the brass.
+    ceramic_mm: Diameter of the ceramic.
+    ceramic_thickness_mm: Thickness of the ceramic.
+    capacitance_f: Capacitance of the whole disc.
+    piezo_constant_m_per_v: d31 of the ceramic, positive.
+    ceramic_modulus_pa: Young's modulus of the ceramic at constant field.
+    ceramic_poisson_ratio: Poisson's ratio of the ceramic.
+    ceramic_density_kg_m3: Density of the ceramic.
     """
 
     brass_mm: PartMm
@@ -77,16 +67,11 @@ class Disc(Record, frozen=True):
 class Parts(Record, frozen=True):
     """What the actuators are made of: keys of [driver] and [patches] that are left out follow from it; those given win.
 
-    Attributes
-    ----------
-    disc
-        The piezo disc: a name of the catalogue (discs.toml), or a table of its data.
-    sectors
-        Actuators that a disc is cut into.
-    glue_mm
-        Thickness of the glue between disc and plate.
-    bond
-        Share of the moment by laminate theory that glue and cut electrodes leave; 0.67 fits the paper's panel.
+    Attributes:
+    disc: The piezo disc: a name of the catalogue (discs.toml), or a table of its data.
+    sectors: Actuators that a disc is cut into.
+    glue_mm: Thickness of the glue between disc and plate.
+    bond: Share of the moment by laminate theory that glue and cut electrodes leave; 0.67 fits the paper's panel.
     """
 
     disc: str | Disc

@@ -28,18 +28,14 @@ class Patches(Record, frozen=True):
 
     Both may be left out where [parts] says what the patches are.
 
-    Attributes
-    ----------
-    mass_kg_m2
-        Mass of a patch per area, brass, ceramic and glue.
-    stiffness_ratio
-        Bending stiffness of plate and patch together over that of the plate; about a common neutral axis where they stick together.
-    shape
-        Shape of a patch.
-    size_mm
-        Diameter of a disc, edge length of a square; left out: `size_mm` of the actuators, which must then be alike.
-    centres_mm
-        Centres [x, y]. Left out: of squares those of the actuators; of discs the middles of the actuators that are cut from one.
+    Attributes:
+    mass_kg_m2: Mass of a patch per area, brass, ceramic and glue.
+    stiffness_ratio: Bending stiffness of plate and patch together over that of the plate; about a common neutral axis where they
+        stick together.
+    shape: Shape of a patch.
+    size_mm: Diameter of a disc, edge length of a square; left out: `size_mm` of the actuators, which must then be alike.
+    centres_mm: Centres [x, y]. Left out: of squares those of the actuators; of discs the middles of the actuators that are cut from
+        one.
     """
 
     mass_kg_m2: Annotated[float, Meta(ge=0, le=100)] = msgspec.field(default_factory=left_out)

@@ -98,16 +98,9 @@ def attributes(cls: type) -> dict[str, str]:
     """The sentence about each field of a record, its own and those it inherits, from the docstrings' sections Attributes."""
     found: dict[str, str] = {}
     for base in reversed(cls.__mro__):
-        _, _, section = inspect.cleandoc(base.__dict__.get("__doc__") or "").partition("\nAttributes\n----------\n")
-        names: list[str] = []
-        for line in section.splitlines():
-            if line.startswith(" "):
-                for name in names:
-                    found[name] = f"{found.get(name, '')} {line.strip()}".strip()
-            else:
-                names = re.findall(r"\w+", line.partition(" : ")[0])
-                for name in names:
-                    found.pop(name, None)  # said again
+        _, _, section = inspect.cleandoc(base.__dict__.get("__doc__") or "").partition("\nAttributes:\n")
+        for names, text in re.findall(r"^(\w[\w, ]*): (.*(?:\n .*)*)", section, re.MULTILINE):
+            found |= dict.fromkeys(names.split(", "), " ".join(text.split()))
     return found
 
 
@@ -193,7 +186,7 @@ def _struct(cls: type) -> StructType:
 
 def _summary(cls: type) -> str:
     """What a record's docstring says before its sections, on one line."""
-    text = inspect.cleandoc(cls.__doc__ or "").partition("\nAttributes\n")[0]
+    text = inspect.cleandoc(cls.__doc__ or "").partition("\nAttributes:\n")[0]
     return " ".join(text.split())
 
 

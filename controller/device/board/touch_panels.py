@@ -28,26 +28,18 @@ PANELS: Final = "controller.device.touch.panels"
 class TouchPanel(Record, frozen=True, kw_only=True):
     """A touch panel: how its axes map to the plate, and how its reports are to be understood.
 
-    Attributes
-    ----------
-    x_mm_from_axes, y_mm_from_axes
-        Map from the panel's axes, each scaled to 0…1, to the plate: factor of the first axis, factor of the second, offset.
-    lag_ms
-        Age of a position when it is reported; `calibrate-touch --lag` measures it.
-    max_size_mm
-        A wider contact is a palm, and is ignored.
-    confirm_reports
-        A contact counts as a finger from this report on.
-    max_emissions_unconfirmed
-        Emissions that a contact may trigger before it is confirmed.
-    ghost_ms
-        After an emission, until false contacts that it caused have gone; 0: it causes none. `calibrate-touch --ghosts`
+    Attributes:
+    x_mm_from_axes, y_mm_from_axes: Map from the panel's axes, each scaled to 0…1, to the plate: factor of the first axis, factor of
+        the second, offset.
+    lag_ms: Age of a position when it is reported; `calibrate-touch --lag` measures it.
+    max_size_mm: A wider contact is a palm, and is ignored.
+    confirm_reports: A contact counts as a finger from this report on.
+    max_emissions_unconfirmed: Emissions that a contact may trigger before it is confirmed.
+    ghost_ms: After an emission, until false contacts that it caused have gone; 0: it causes none. `calibrate-touch --ghosts`
         measures it.
-    no_finger_mm
-        Rectangles on the plate where nothing is a finger, each as x and y of its corner, length along x, width along y: for a
-        panel that reports contacts there that nobody makes, such as in its corners while it is idle.
-    recording
-        Recording that `run` replays on a board without devices.
+    no_finger_mm: Rectangles on the plate where nothing is a finger, each as x and y of its corner, length along x, width along y:
+        for a panel that reports contacts there that nobody makes, such as in its corners while it is idle.
+    recording: Recording that `run` replays on a board without devices.
     """
 
     has_device: ClassVar[bool] = True  # else a recording is replayed
@@ -106,10 +98,8 @@ class TouchPanel(Record, frozen=True, kw_only=True):
 class DrivenPanel(TouchPanel, frozen=True, kw_only=True):
     """A touch panel that has no kernel driver here: other programs get its touches only if they are handed on.
 
-    Attributes
-    ----------
-    share
-        Whether its contacts are handed on to other programs on this machine, such as a browser, as a touch screen of the kernel
+    Attributes:
+    share: Whether its contacts are handed on to other programs on this machine, such as a browser, as a touch screen of the kernel
         (/dev/uinput) whose axes are the plate's.
     """
 
@@ -124,21 +114,15 @@ class DrivenPanel(TouchPanel, frozen=True, kw_only=True):
 class I2cTouch(DrivenPanel, frozen=True, kw_only=True):
     """A touch panel on an I2C bus; its interrupt line announces each report.
 
-    Attributes
-    ----------
-    bus
-        I2C bus, such as /dev/i2c-1.
-    address
-        Address on the bus.
-    interrupt_chip
-        Label of the GPIO chip with the following lines; where several chips have it, the path of a udev link to the chip.
-    interrupt_line
-        Name of the interrupt line or, of a line without a name of its own, its number on the chip, such as "25"; left out: the
-        panel is polled at the rate of its scans, 100 times a second.
-    reset_line
-        Name or number of the reset line on the same chip; left out: the panel is not reset.
-    width, height
-        Largest raw x and y; left out: the panel is asked, where it can answer.
+    Attributes:
+    bus: I2C bus, such as /dev/i2c-1.
+    address: Address on the bus.
+    interrupt_chip: Label of the GPIO chip with the following lines; where several chips have it, the path of a udev link to the
+        chip.
+    interrupt_line: Name of the interrupt line or, of a line without a name of its own, its number on the chip, such as "25"; left
+        out: the panel is polled at the rate of its scans, 100 times a second.
+    reset_line: Name or number of the reset line on the same chip; left out: the panel is not reset.
+    width, height: Largest raw x and y; left out: the panel is asked, where it can answer.
     """
 
     own_process: ClassVar[bool] = True
@@ -164,12 +148,9 @@ class I2cTouch(DrivenPanel, frozen=True, kw_only=True):
 class SerialTouch(DrivenPanel, frozen=True, kw_only=True):
     """A touch panel on a serial port.
 
-    Attributes
-    ----------
-    device
-        Serial port, such as /dev/serial/by-id/...
-    baud
-        Baud rate.
+    Attributes:
+    device: Serial port, such as /dev/serial/by-id/...
+    baud: Baud rate.
     """
 
     device: Name

@@ -28,35 +28,21 @@ MOST_PULSES = 4000  # of a rhythm: 13 s of a clip have 2,000 at the highest rate
 class EffectTable(Record, frozen=True):
     """An effect: when it is felt, how strong, and how often in time or how densely in space. A key that is not given is None.
 
-    Attributes
-    ----------
-    effect : str or None
-        Name of the effect that this one builds on.
-    when : str or tuple of str
-        When it is felt: one occasion or several.
-    amplitude : float
-        Share of the full amplitude; left out: 1.
-    rate_hz : float
-        Emissions a second of a train.
-    count : int
-        Emissions of a train.
-    duration_ms : float
-        Length of a train, instead of `count`.
-    phase : float
-        Delay of a train in periods, or offset of grid lines in spacings.
-    spacing_mm : float
-        From one emission to the next as the finger moves.
-    along : str
-        "path" (if left out): the spacing is of the distance travelled; "x" or "y": of grid lines across that axis, from the
+    Attributes:
+    effect: Name of the effect that this one builds on.
+    when: When it is felt: one occasion or several.
+    amplitude: Share of the full amplitude; left out: 1.
+    rate_hz: Emissions a second of a train.
+    count: Emissions of a train.
+    duration_ms: Length of a train, instead of `count`.
+    phase: Delay of a train in periods, or offset of grid lines in spacings.
+    spacing_mm: From one emission to the next as the finger moves.
+    along: "path" (if left out): the spacing is of the distance travelled; "x" or "y": of grid lines across that axis, from the
         region's lower end on.
-    envelope : tuple of (float, float)
-        Points [ms, amplitude] over the train; linear in between, amplitude 0 is silence.
-    rate_envelope : tuple of (float, float)
-        Points [ms, Hz] of a train of changing rate, instead of `rate_hz`; linear in between, constant beyond.
-    pulses : tuple of (float, float)
-        Emissions of any rhythm, [ms, amplitude] each, from the occasion on; amplitude 0 is silence.
-    x_mm, y_mm : float
-        Place of a fixed emitter (`when = "always"`); left out: the region's centre.
+    envelope: Points [ms, amplitude] over the train; linear in between, amplitude 0 is silence.
+    rate_envelope: Points [ms, Hz] of a train of changing rate, instead of `rate_hz`; linear in between, constant beyond.
+    pulses: Emissions of any rhythm, [ms, amplitude] each, from the occasion on; amplitude 0 is silence.
+    x_mm, y_mm: Place of a fixed emitter (`when = "always"`); left out: the region's centre.
     """
 
     effect: str | None = None

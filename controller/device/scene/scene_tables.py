@@ -16,21 +16,14 @@ from controller.device.scene.shapes import Polygon
 class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
     """A region of the plate and what is felt there; without effects, nothing. A finger is in the first region that contains it.
 
-    Attributes
-    ----------
-    name
-        Name of the region; no two have the same.
-    effects
-        Names of effects of the library or of the scene's own [effects.NAME], or tables with the keys of [effects.NAME].
-    amplitude
-        Factor of the amplitudes of its effects.
-    policy
-        `compose`: what it plays is composed with what is due elsewhere; `alternate`: it is played alone, at full amplitude.
-    nulled
-        `others`: while its effects play for a finger, up to four other fingers on the glass, 5 mm away or more, are kept still, for
-        some percent of the amplitude. Not for fixed emitters.
-    keep_armed
-        The first touch in it is felt at once: the board's `idle_disarm_s` has no effect on this scene.
+    Attributes:
+    name: Name of the region; no two have the same.
+    effects: Names of effects of the library or of the scene's own [effects.NAME], or tables with the keys of [effects.NAME].
+    amplitude: Factor of the amplitudes of its effects.
+    policy: `compose`: what it plays is composed with what is due elsewhere; `alternate`: it is played alone, at full amplitude.
+    nulled: `others`: while its effects play for a finger, up to four other fingers on the glass, 5 mm away or more, are kept still,
+        for some percent of the amplitude. Not for fixed emitters.
+    keep_armed: The first touch in it is felt at once: the board's `idle_disarm_s` has no effect on this scene.
     """
 
     name: Annotated[str, Meta(min_length=1)]
@@ -44,14 +37,10 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
 class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
     """A rectangle.
 
-    Attributes
-    ----------
-    x_mm, y_mm
-        Corner with the smallest x and y.
-    width_mm
-        Extent along x.
-    height_mm
-        Extent along y.
+    Attributes:
+    x_mm, y_mm: Corner with the smallest x and y.
+    width_mm: Extent along x.
+    height_mm: Extent along y.
     """
 
     x_mm: PlaceMm
@@ -63,12 +52,9 @@ class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
 class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
     """A circle.
 
-    Attributes
-    ----------
-    x_mm, y_mm
-        Centre.
-    radius_mm
-        Radius.
+    Attributes:
+    x_mm, y_mm: Centre.
+    radius_mm: Radius.
     """
 
     x_mm: PlaceMm
@@ -79,10 +65,8 @@ class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
 class PolygonTable(RegionTable, frozen=True, kw_only=True, tag="polygon"):
     """A polygon.
 
-    Attributes
-    ----------
-    corners_mm
-        Corners [x, y] in order; edges do not cross.
+    Attributes:
+    corners_mm: Corners [x, y] in order; edges do not cross.
     """
 
     corners_mm: Annotated[tuple[tuple[PlaceMm, PlaceMm], ...], Meta(min_length=3, max_length=1000)]
@@ -104,12 +88,9 @@ AnyRegionTable = RectangleTable | CircleTable | PolygonTable | PlateTable
 class SceneTable(Record, frozen=True):
     """A scene: regions of the plate and the effects that are felt in them.
 
-    Attributes
-    ----------
-    regions
-        The regions; of those that contain a finger the first counts.
-    effects
-        Effects of the scene by name, in addition to those of the library.
+    Attributes:
+    regions: The regions; of those that contain a finger the first counts.
+    effects: Effects of the scene by name, in addition to those of the library.
     """
 
     regions: Annotated[tuple[AnyRegionTable, ...], Meta(min_length=1)]

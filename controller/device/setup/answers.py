@@ -29,34 +29,20 @@ ExtentMm = Annotated[float, Meta(ge=20, le=4000)]
 class SetupAnswers(Record, frozen=True, kw_only=True):
     """Answers of the builder; those with a default need not be given.
 
-    Attributes
-    ----------
-    length_mm
-        Extent of the glass along x.
-    width_mm
-        Extent of the glass along y.
-    thickness_mm
-        Thickness of the glass.
-    glass
-        Kind of glass: aluminosilicate, borosilicate or soda_lime.
-    held
-        How the glass is held at its edges.
-    screen_length_mm
-        Extent along x of the touch panel's active area, in the middle of the glass; 0: all of it.
-    screen_width_mm
-        The same along y.
-    disc
-        Piezo disc of the catalogue.
-    discs
-        Number of discs, each cut in four.
-    rim_mm
-        From the edge of the glass to the rim of a disc.
-    resistor_w
-        Power rating of a stage's resistor, of which half may be used.
-    fpga
-        FPGA board, and the computer that it is wired to: a Raspberry Pi 4 (ulx3s) or 5 (ulx3s_pi5).
-    touch
-        Kind of touch panel.
+    Attributes:
+    length_mm: Extent of the glass along x.
+    width_mm: Extent of the glass along y.
+    thickness_mm: Thickness of the glass.
+    glass: Kind of glass: aluminosilicate, borosilicate or soda_lime.
+    held: How the glass is held at its edges.
+    screen_length_mm: Extent along x of the touch panel's active area, in the middle of the glass; 0: all of it.
+    screen_width_mm: The same along y.
+    disc: Piezo disc of the catalogue.
+    discs: Number of discs, each cut in four.
+    rim_mm: From the edge of the glass to the rim of a disc.
+    resistor_w: Power rating of a stage's resistor, of which half may be used.
+    fpga: FPGA board, and the computer that it is wired to: a Raspberry Pi 4 (ulx3s) or 5 (ulx3s_pi5).
+    touch: Kind of touch panel.
     """
 
     length_mm: ExtentMm

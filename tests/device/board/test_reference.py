@@ -73,11 +73,8 @@ def test_an_effect_of_a_scene_is_checked_by_the_schema():
 class Inner(Record, frozen=True):
     """A table within.
 
-    Attributes
-    ----------
-    length_mm, width_mm : float
-        Extent,
-        over two lines.
+    Attributes:
+    length_mm, width_mm: Extent, over two lines.
     """
 
     length_mm: Annotated[float, Meta(gt=0)]
@@ -87,20 +84,16 @@ class Inner(Record, frozen=True):
 class Derived(Inner, frozen=True):
     """A table that says one key again.
 
-    Attributes
-    ----------
-    width_mm
-        Across.
+    Attributes:
+    width_mm: Across.
     """
 
 
 class Outer(Record, frozen=True):
     """The file.
 
-    Attributes
-    ----------
-    inner
-        Left out: there is none.
+    Attributes:
+    inner: Left out: there is none.
     """
 
     inner: Inner | None = None

@@ -36,10 +36,8 @@ from controller.device.touch.event_reader import AxisInfo, DeviceDescription
 class MadeUpTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="KIND"):
     """A panel that does not exist.
 
-    Attributes
-    ----------
-    device
-        Anything.
+    Attributes:
+    device: Anything.
     """
 
     own_process: ClassVar[bool] = OWN_PROCESS

@@ -52,10 +52,8 @@ SCAN_S: Final = 0.01
 class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft5x06"):
     """FocalTech FT5x06 or FT6x36, and EDT modules with them, M06 included.
 
-    Attributes
-    ----------
-    width, height
-        Largest raw x and y: these panels cannot be asked.
+    Attributes:
+    width, height: Largest raw x and y: these panels cannot be asked.
     """
 
     address: Address = 0x38

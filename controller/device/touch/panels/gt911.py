@@ -44,10 +44,8 @@ BOOT_S: Final = 0.05
 class Gt911Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="gt911"):
     """Goodix GT911 and related chips (`gt911.PRODUCTS`).
 
-    Attributes
-    ----------
-    address
-        Address on the bus; the interrupt line selects it at reset.
+    Attributes:
+    address: Address on the bus; the interrupt line selects it at reset.
     """
 
     address: Literal[0x14, 0x5D] = 0x5D

@@ -9,12 +9,9 @@ from controller.device.touch.event_reader import EventReader
 class LinuxInputTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="linux_input"):
     """A touch panel with a kernel driver (evdev).
 
-    Attributes
-    ----------
-    device
-        Path such as /dev/input/by-path/..., or the device's name.
-    grab
-        Whether to keep other programs from reading it.
+    Attributes:
+    device: Path such as /dev/input/by-path/..., or the device's name.
+    grab: Whether to keep other programs from reading it.
     """
 
     device: Name

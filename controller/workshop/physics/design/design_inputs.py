@@ -24,50 +24,28 @@ PLATE: Final = ("length_mm", "width_mm", *OF_LAYERS)
 class DesignInputs(Record, frozen=True):
     """Numbers of a design; in wider ranges than a board.toml may have, from a watch to the floor of a hall.
 
-    Attributes
-    ----------
-    length_mm
-        Extent of the plate along x.
-    width_mm
-        Extent of the plate along y.
-    thickness_mm
-        Thickness of the plate.
-    young_modulus_pa
-        Young's modulus of the plate.
-    poisson_ratio
-        Poisson's ratio of the plate.
-    density_kg_m3
-        Density of the plate.
-    decay_time_ms
-        tau, in which a free vibration falls to 1/e.
-    band_low_hz
-        Lower edge of the band.
-    band_high_hz
-        Upper edge of the band.
-    duration_ms
-        T, length of an emission.
-    bit_clock_hz
-        Drive words a second.
-    supply_v
-        Supply of the driver stages.
-    resistance_ohm
-        Series resistance of a stage.
-    inductance_h
-        Series inductance of a stage.
-    capacitance_f
-        Capacitance of a patch.
-    moment_n_per_v
-        Bending moment per length of a patch's edge, per volt.
-    channels
-        Q, number of patches, each with its driver.
-    size_mm
-        Edge length of a patch.
-    period_ms
-        Tr, from emission to emission (default: T).
-    finger_mg
-        M, mass that a finger adds to the plate at the focus (default: 100, of a finger that presses with 1 N).
-    amplitude_um
-        A, displacement for energy and power (default: what patches and drivers can reach).
+    Attributes:
+    length_mm: Extent of the plate along x.
+    width_mm: Extent of the plate along y.
+    thickness_mm: Thickness of the plate.
+    young_modulus_pa: Young's modulus of the plate.
+    poisson_ratio: Poisson's ratio of the plate.
+    density_kg_m3: Density of the plate.
+    decay_time_ms: tau, in which a free vibration falls to 1/e.
+    band_low_hz: Lower edge of the band.
+    band_high_hz: Upper edge of the band.
+    duration_ms: T, length of an emission.
+    bit_clock_hz: Drive words a second.
+    supply_v: Supply of the driver stages.
+    resistance_ohm: Series resistance of a stage.
+    inductance_h: Series inductance of a stage.
+    capacitance_f: Capacitance of a patch.
+    moment_n_per_v: Bending moment per length of a patch's edge, per volt.
+    channels: Q, number of patches, each with its driver.
+    size_mm: Edge length of a patch.
+    period_ms: Tr, from emission to emission (default: T).
+    finger_mg: M, mass that a finger adds to the plate at the focus (default: 100, of a finger that presses with 1 N).
+    amplitude_um: A, displacement for energy and power (default: what patches and drivers can reach).
     """
 
     length_mm: Annotated[float, Meta(ge=5, le=20e3)]
