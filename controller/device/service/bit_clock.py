@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from controller.device.fpga.session import Session
-from controller.device.service.observed import Playing, TemperatureSource
+from controller.device.loop.event_loop import EventLoop
 from controller.log import Event, log
+
+if TYPE_CHECKING:
+    from controller.device.service.temperature import Thermometer
 
 FIRST_S: Final = 0.1  # between attempts until the first temperature
 LEAST_STEP: Final = 20e-6  # of the scale: costs 1e-5 of the amplitude, and a repetition is not interrupted for a sensor's noise
@@ -16,7 +19,7 @@ LEAST_STEP: Final = 20e-6  # of the scale: costs 1e-5 of the amplitude, and a re
 class BitClock:
     """Scales an FPGA's bit clock as the thermometer says, whenever nothing plays; it is read every `period_s`."""
 
-    def __init__(self, session: Session, thermometer: TemperatureSource, period_s: float) -> None:
+    def __init__(self, session: Session, thermometer: Thermometer, period_s: float) -> None:
         self.scale = 1.0  # factor of the bit clock that the FPGA uses now
         self.temperature_c: float | None = None  # of the plate; None while unknown
         self._session = session
@@ -26,7 +29,7 @@ class BitClock:
         self._wanted = 1.0
         self._cause = ""
 
-    def follow(self, loop: Playing, now_s: float) -> None:
+    def follow(self, loop: EventLoop, now_s: float) -> None:
         """Read the thermometer if that is due, and set the bit clock if it differs; call it while the FPGA can be reached.
 
         A setting that the FPGA cannot take while it plays is made in a later turn. A repetition, which leaves it no time, is

@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 from controller.device.board.board import Board
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.fpga.session import Session
+from controller.device.loop.event_loop import EventLoop
 from controller.device.loop.scene_source import PreparedScene
 from controller.device.service.bit_clock import BitClock
-from controller.device.service.observed import Panel, TemperatureSource, Watched
 from controller.device.service.reloading import ReloadFile
 from controller.device.service.systemd import Notifier, Watchdog
 from controller.device.service.touch_faults import TouchFaults
+from controller.device.touch.drivers.awaited_reader import AwaitedReader
+from controller.device.touch.drivers.panel_process import PanelProcess
 from controller.device.touch.reports import off_plate_warning
 from controller.device.touch.source import Counts
 from controller.log import Event, log
+
+if TYPE_CHECKING:
+    from controller.device.service.temperature import Thermometer
 
 OFF_PLATE_REPORTED = 50  # positions off the plate, at most half a second of a finger
 PLAYING_S = 1.0  # after an emission, for which the state is PLAYING
@@ -41,7 +47,7 @@ class Housekeeping:
         # wait for a cable to be plugged in, and show the state themselves
         notifier: Notifier,
         watchdog: Watchdog,
-        thermometer: TemperatureSource | None,  # None: the bit clock is not scaled
+        thermometer: Thermometer | None,  # None: the bit clock is not scaled
         reload_file: ReloadFile | None = None,  # where the result of each reload is written
     ) -> None:
         self.condition = Condition()  # state of the panel, as last reported
@@ -51,8 +57,8 @@ class Housekeeping:
         self._bit_clock = None
         if thermometer is not None and board.temperature is not None:
             self._bit_clock = BitClock(session, thermometer, board.temperature.period_s)
-        self._loop: Watched | None = None
-        self._panel: Panel | None = None
+        self._loop: EventLoop | None = None
+        self._panel: AwaitedReader | PanelProcess | None = None
         self._touch_faults: TouchFaults | None = None
         self._counts: Counts | None = None  # None also once it was said
         self._reported: Sequence[Callable[[Condition], None]] = ()
@@ -75,8 +81,8 @@ class Housekeeping:
 
     def watch(
         self,
-        loop: Watched,
-        panel: Panel | None,  # None: a recording is replayed
+        loop: EventLoop,
+        panel: AwaitedReader | PanelProcess | None,  # None: a recording is replayed
         reported: Sequence[Callable[[Condition], None]] = (),  # each is called with each new condition, the first included
         counts: Counts | None = None,  # of the touch panel: said once if most positions lie off the plate
     ) -> None:
@@ -137,7 +143,7 @@ class Housekeeping:
             self._reloads += 1
             self._reload_refused = prepared.reason
 
-    def _look(self, loop: Watched, now_s: float) -> None:
+    def _look(self, loop: EventLoop, now_s: float) -> None:
         """Determine the panel's condition, and report it if it has changed."""
         outputs, panel = loop.outputs, self._panel
         on, state, cause = outputs.may_be_on, outputs.state, outputs.cause

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from controller.device.service.observed import Panel
+from controller.device.touch.drivers.awaited_reader import AwaitedReader
+from controller.device.touch.drivers.panel_process import PanelProcess
 from controller.device.touch.reports import FAULTS, describe_warnings
 from controller.log import Event, log
 
@@ -15,7 +16,7 @@ PERIOD_S: Final = 1.0
 class TouchFaults:
     """Logs the faults of a panel; their counts are in the status file."""
 
-    def __init__(self, panel: Panel) -> None:
+    def __init__(self, panel: AwaitedReader | PanelProcess) -> None:
         self._panel = panel
         self._logged: set[str] = set()
         self._next_s = -math.inf

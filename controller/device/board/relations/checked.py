@@ -15,13 +15,13 @@ from controller.device.board.relations import limits as limit_relations
 from controller.device.board.relations import panel as panel_relations
 from controller.device.board.relations import plate as plate_relations
 from controller.device.board.relations import stage as stage_relations
+from controller.device.board.relations.relation import Relation
 
 if TYPE_CHECKING:
     from controller.device.board.board import Board
-    from controller.device.board.relations.relation import Relation
 
 PARTS = (panel_relations, plate_relations, limit_relations, stage_relations, device_relations)
-RELATIONS = tuple(relation for part in PARTS for relation in part.RELATIONS)
+RELATIONS = tuple(found for part in PARTS for found in vars(part).values() if isinstance(found, Relation))
 
 
 class BoardProblems(NamedTuple):

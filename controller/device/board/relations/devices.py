@@ -224,19 +224,3 @@ def _clients(board: Board) -> Iterator[str]:
             f"application_socket.clients_per_user = {socket.clients_per_user} is above max_clients = {socket.max_clients}: one"
             " user can take every place"
         )
-
-
-RELATIONS = (
-    axes,
-    _axes_in_part,
-    _no_finger,
-    _lines,
-    _bus_lines,
-    _ports,
-    _addresses,
-    _sck,
-    _serial_lines,
-    _recording,
-    _palms,
-    _clients,
-)

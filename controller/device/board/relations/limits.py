@@ -177,19 +177,3 @@ def _settle(board: Board) -> Iterator[str]:
             f"limits.hv_settle_us = {board.limits.hv_settle_us:g} is {pulses:.2g} pulses of hv_alive ({ALIVE_HZ:g} Hz): a charge"
             " pump that they feed has hardly begun, and the first ramp finds no supply; 1000 is usual"
         )
-
-
-RELATIONS = (
-    _settle,
-    _bit_ticks,
-    _bit_period,
-    _pulse,
-    _emission,
-    _temperatures,
-    _coefficient,
-    _heartbeat,
-    _patience,
-    _ramp_duty,
-    _two_ramps,
-    _ramp_speed,
-)

@@ -213,19 +213,3 @@ def _bank_size(board: Board) -> Iterator[str]:
 
 
 PLACES = (_count, _channels, _on_plate, _apart, _patches)  # of patches on a plate: what any plate must keep, whatever plays on it
-RELATIONS = (
-    _count,
-    _channels,
-    _on_plate,
-    _apart,
-    _patches,
-    _idle,
-    _patch_size,
-    _capacitance,
-    _parts,
-    _driver_band,
-    _pitch,
-    _cells,
-    _snap,
-    _bank_size,
-)

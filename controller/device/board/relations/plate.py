@@ -115,6 +115,3 @@ def _periods(board: Board) -> Iterator[str]:
             f" {waveform.duration_s * width_hz:.2g} independent waves: nothing stands out of them; play longer, or in a wider"
             " band"
         )
-
-
-RELATIONS = (_thickness, _theory, _plate_in_waves, _focus_width, _modes, _decay, _periods)

@@ -99,6 +99,3 @@ def _edges_of_waveforms(board: Board) -> Iterator[str]:
             f"limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is below {needed_hz:g}, two edges for each period in"
             " the middle of the band: most waveforms have more, and bank build refuses them"
         )
-
-
-RELATIONS = (_ramp_edges, _heat, _duty_edges, _total_edges, _edges_of_band, _edges_of_waveforms)
