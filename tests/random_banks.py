@@ -10,8 +10,8 @@ from controller.device.bank.file_format import Header, creator
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS, drive_words, quantise
 from controller.device.bank.provenance import as_parameter
-from controller.device.bank.writer import BankWriter
 from controller.device.board.board import Board
+from controller.workshop.bank_builder.writer import BankWriter
 
 IDLE_WORD = 0x69969669
 MakeBank = Callable[..., dict[int, np.ndarray]]

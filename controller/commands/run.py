@@ -16,7 +16,7 @@ from controller.commands.common.fpga_link import open_fpga_of
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.console import tell
-from controller.device.board.board import Board, on_other_plate, simulated
+from controller.device.board.board import Board, simulated
 from controller.device.board.panel_status import FOLDER as RUNTIME_FOLDER
 from controller.device.board.paths import state_folder
 from controller.device.scene.edge_rate import edge_warnings
@@ -154,6 +154,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     from controller.commands.run_report import felt
     from controller.device.touch.recordings.recording import Recording
     from controller.workshop.simulation import focus_evaluation, run_figures, simulated_run
+    from controller.workshop.simulation.other_plate import on_other_plate
 
     picture = picture_path(options)
     board = simulated(board)

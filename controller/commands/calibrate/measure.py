@@ -11,7 +11,7 @@ from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.common.output import show
 from controller.commands.common.tables import plain_table
 from controller.console import tell
-from controller.device.board.board import Board, load_board, on_other_plate
+from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 from controller.device.service.drivers import open_link, open_session
 from controller.errors import CalibrationError, LinkError, UsageError
@@ -127,6 +127,7 @@ def measure(options: argparse.Namespace) -> int:
 def _simulated_sensor(options: argparse.Namespace, board: Board, link: SimulatedLink, clock: Clock, sync: int) -> SimulatedRecorder:
     """A sensor on the simulated plate that is asked for."""
     from controller.workshop.calibration.recording.simulated_recorder import SimulatedRecorder
+    from controller.workshop.simulation.other_plate import on_other_plate
 
     real = on_other_plate(board, options.plate)
     return SimulatedRecorder(real, link, clock.now_s, options.rate_khz * 1e3, "m/s", sync, options.noise)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import plain_table
-from controller.device.board.board import Board, load_board, on_other_plate
+from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 from controller.errors import UsageError
 
@@ -61,6 +61,7 @@ def simulate(options: argparse.Namespace) -> int:
         RecordingSettings,
         simulate_measurement,
     )
+    from controller.workshop.simulation.other_plate import on_other_plate
 
     board = load_board(find_board(options.board))
     real = on_other_plate(board, options.plate)

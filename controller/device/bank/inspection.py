@@ -5,23 +5,18 @@ from __future__ import annotations
 import os
 import zlib
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.device.bank.file_format import VERSION, Header, Section, header_length, model_version_of, parse
+from controller.device.bank.file_format import VERSION, Header, Section, header_length, parse
 from controller.device.bank.grid import Grid
-from controller.device.bank.provenance import MODEL_VERSION
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.board.paths import is_there
-from controller.device.board.records import BYTES_MAX
 from controller.device.kernel import unpack_loads
 from controller.errors import BankError
-from controller.regular_file import open_regular, read_regular
+from controller.regular_file import open_regular
 
 
 def bank_info(path: Path) -> dict[str, Any]:
@@ -113,52 +108,6 @@ def _damage(bank: Bank, start: int, size: int, what: str) -> BankError:
     return BankError(f"{bank.path}: damaged in bytes {start} to {start + size - 1}: {what}; rebuild it: {bank.rebuild}")
 
 
-@dataclass(frozen=True, slots=True)
-class Fit:
-    """Whether a bank suits a board and a scene."""
-
-    reason: str  # why it does not; empty: it does
-    cells: NDArray[np.bool_]  # (cells of the grid,): cells of a bank that does
-
-
-def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
-    """Whether a bank is whole, built by this version for this board and its pitch, and has the cells that are needed.
-
-    `cells`, of the board's grid, are those that it must have; further cells are kept when it is built again because cells are
-    missing. Raises BankError if this user may not read it.
-    """
-    if not is_there(path):
-        return Fit("there is none yet", cells)
-    try:
-        with Bank.open(path, board) as bank:
-            if wrong := wrong_pitch(bank, board):
-                return Fit(wrong, cells)
-            model_counts = bank.header.provenance is None or not bank.header.provenance.from_measurements
-            if model_counts and model_version_of(bank.header.creator) != str(MODEL_VERSION):
-                return Fit("it was built by another version of the model", cells)
-            if bank.header.parameters.get("channel_edges") is None:
-                return Fit("it was built by another version", cells)
-            there = bank.cells
-        verify_bank(path)
-    except BankError as error:
-        if isinstance(error.__cause__, PermissionError):  # whoever may not read it is not to replace it
-            raise
-        return Fit(str(error).removeprefix(f"{path}: ").partition("; rebuild it")[0], cells)
-    missing = int((cells & ~there).sum())
-    return Fit(f"it lacks {missing} cells" if missing else "", cells | there)
-
-
-def optimised_for(path: Path) -> str:
-    """What the entries of the bank at `path` were optimised for; empty: nothing, or there is no such bank that can be read."""
-    try:
-        with Bank.open(path) as bank:
-            reported = bank.header.parameters.get("optimised")
-    except BankError:
-        return ""
-    name = reported.get("name") if isinstance(reported, dict) else None
-    return name if isinstance(name, str) and name.isprintable() else ""
-
-
 def measured_at(path: Path) -> bool:
     """Whether the bank at `path` has responses that were measured, at least in part, even if it is damaged behind its header."""
     try:
@@ -177,23 +126,9 @@ def header_of(path: Path) -> Header:
         return parse(file.read(length), size)[0]
 
 
-def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:
-    """What a choice is made for, as its bank repeats it: the board's bounds, and the CRC-32 of the scene's file."""
-    return bounds_of(board) | {"scene_crc32": zlib.crc32(read_regular(scene_file, BYTES_MAX, links=True))}
-
-
 def bounds_of(board: Board) -> dict[str, Any]:
     """The bounds of a board whose bank is chosen."""
     return {"max_error": board.compose.max_error, "max_time_us": board.compose.max_time_us}
-
-
-def choice_of(path: Path) -> dict[str, Any] | None:
-    """What was chosen with the bank at `path`; None if there is no such bank, or nothing was."""
-    try:
-        with Bank.open(path) as bank:
-            return bank.header.choice
-    except BankError:
-        return None
 
 
 def wrong_pitch(bank: Bank, board: Board) -> str:

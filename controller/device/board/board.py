@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import operator
 import os
-import tomllib
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from contextlib import suppress
 from functools import cache, reduce
 from importlib import import_module
@@ -20,13 +19,12 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
-from controller.device.board.lookup import board_places, find_board, in_system_folder
+from controller.device.board.lookup import board_places, in_system_folder
 from controller.device.board.panel import Actuator, BankSettings, Compose, Driver, Limits, Plate, Waveform
 from controller.device.board.parts import Parts, followed
 from controller.device.board.patches import Patches
 from controller.device.board.records import Record, as_record, read_tables
 from controller.device.board.relations.checked import judge
-from controller.device.board.relations.panel import PLACES
 from controller.device.board.relations.relation import Relation
 from controller.device.board.touch_panels import TouchPanel, touch_record, touch_records
 from controller.errors import ConfigError
@@ -225,44 +223,6 @@ def board_file(panels: tuple[type[TouchPanel], ...]) -> type[Board]:
         forbid_unknown_fields=True,
     )
     return cast(type[Board], made)
-
-
-def on_other_plate(board: Board, given: Sequence[str]) -> Board:
-    """The board on the plate that a command line asks for.
-
-    `given` is a board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free. Raises
-    ConfigError if there is no such board, key or value, or the patches do not fit on that plate.
-    """
-    keys: dict[str, Any] = {}
-    for text in given:
-        key, equals, value = text.partition("=")
-        if not equals or Path(text).exists():
-            board = on_plate_of(board, load_board(Path(text) if Path(text).is_file() else find_board(text)))
-            continue
-        try:
-            keys[key.strip()] = tomllib.loads(f"value = {value}")["value"]
-        except ValueError:
-            keys[key.strip()] = value.strip()
-    if keys:
-        there = {name: kept for name, kept in msgspec.to_builtins(board.plate).items() if kept is not None}
-        board = msgspec.structs.replace(board, plate=as_record("--plate: ", there | keys, Plate))
-    if refused := [said for relation in PLACES for said in relation.broken(board)]:
-        raise ConfigError(f"--plate: {'; '.join(refused)}")
-    return board
-
-
-def on_plate_of(board: Board, real: Board) -> Board:
-    """The board on another one's plate: with its plate, patches and driver, but with what the host plays and the idle levels.
-
-    Raises ConfigError if the other one's patches are of other channels.
-    """
-    idle = {actuator.channel: actuator.idle for actuator in board.actuators}
-    if set(idle) != {actuator.channel for actuator in real.actuators}:
-        raise ConfigError(f"{real.folder / 'board.toml'}: the patches are of other channels than those of board {board.name!r}")
-    patches = tuple(msgspec.structs.replace(patch, idle=idle[patch.channel]) for patch in real.actuators)
-    return msgspec.structs.replace(
-        board, name=real.name, plate=real.plate, actuators=patches, driver=real.driver, patches=real.patches
-    )
 
 
 def simulated(board: Board) -> Board:

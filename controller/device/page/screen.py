@@ -10,7 +10,7 @@ from typing import Any, Final
 import msgspec
 
 from controller.device.page.settings import PageSettings, Row
-from controller.device.update.durable import write_durably
+from controller.durable import write_durably
 from controller.log import Priority, log
 from controller.regular_file import read_regular
 

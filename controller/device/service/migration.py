@@ -14,6 +14,7 @@ from pathlib import Path
 from controller.device.bank.inspection import measured_at
 from controller.device.bank.lookup import of_this_format
 from controller.device.board.paths import BANK_FORMAT
+from controller.durable import sync_folder
 
 TELLS_FORMAT = re.compile(r"\.v\d+(\.before-\d+)?\.bank\Z")
 
@@ -63,8 +64,4 @@ def _take(source: Path, target: Path) -> None:
         with made.open("rb") as file:
             os.fsync(file.fileno())
     made.replace(target)
-    folder = os.open(target.parent, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(folder)
-    finally:
-        os.close(folder)
+    sync_folder(target.parent)

@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Literal
 
 from controller.console import program, say, tell
-from controller.device.update.durable import sync_folder
 from controller.device.update.install import install
 from controller.device.update.installed import manifest_of, update_state
 from controller.device.update.layout import MANIFEST, Layout
 from controller.device.update.manifest import Manifest, ReleaseFile, read_manifest
 from controller.device.update.requests import ask
 from controller.device.update.trial import keep_before
+from controller.durable import sync_folder
 from controller.errors import UpdateError
 
 Outcome = Literal["adopt", "trial", "stays"]
@@ -76,11 +76,8 @@ def _store(layout: Layout, folder: Path, file: ReleaseFile) -> None:
         if not file.is_whole(new):
             raise UpdateError(f"{source}: is not what {MANIFEST} lists: install the package again")
         new.chmod(0o444)
-        fd = os.open(new, os.O_RDONLY)
-        try:
-            os.fsync(fd)
-        finally:
-            os.close(fd)
+        with new.open("rb") as copied:
+            os.fsync(copied.fileno())
         new.replace(stored)
         sync_folder(layout.store)
     except OSError as error:

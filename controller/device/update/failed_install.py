@@ -14,9 +14,9 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.validation import NO_JSON
-from controller.device.update.durable import write_durably
 from controller.device.update.layout import Layout
 from controller.device.update.manifest import Manifest
+from controller.durable import write_durably
 
 FILE: Final = "install_failed.json"  # in `Layout.download`
 LOOKS_MAX: Final = 32  # of the timer, from one try to the next

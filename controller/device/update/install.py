@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Final
 
 from controller.device.update import failed_install
-from controller.device.update.durable import write_durably
 from controller.device.update.installed import manifest_of
 from controller.device.update.layout import COMPLETE, MANIFEST, Layout, running_release
 from controller.device.update.lock import alone
 from controller.device.update.manifest import FALL_BACK_INTERFACE, MANIFEST_BYTES_MAX, Manifest, ReleaseFile, this_platform
+from controller.durable import write_durably
 from controller.errors import UpdateError
 from controller.programs import ProgramError, last_line, run_program
 from controller.regular_file import read_regular

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
-from controller.device.update.durable import write_durably
 from controller.device.update.layout import RELEASE_NAME, Layout
+from controller.durable import write_durably
 from controller.errors import UpdateError
 
 Request = Literal["trial", "good", "bad", "stands", "rollback"]

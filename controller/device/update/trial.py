@@ -11,10 +11,10 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 from controller.device.board.panel_status import FOLDER, NAME, PanelStatus, boot_id, read_status, status_bytes, status_in
-from controller.device.update.durable import write_durably
 from controller.device.update.judge import Evaluation, Rules, Verdict, judge
 from controller.device.update.layout import Layout
 from controller.device.update.requests import ask
+from controller.durable import write_durably
 from controller.errors import ControllerError, UpdateError
 from controller.log import log
 

@@ -17,7 +17,6 @@ from tqdm import tqdm
 
 from controller.device.bank.file_format import Header, creator
 from controller.device.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
-from controller.device.bank.writer import BankWriter
 from controller.device.board.board import Board
 from controller.device.board.paths import make_folder
 from controller.errors import ConfigError
@@ -27,6 +26,7 @@ from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.bank_builder.optimised import Task, Words, kept_path, optimised_words, remove_kept
 from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.bank_builder.writer import BankWriter
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums

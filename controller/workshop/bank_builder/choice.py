@@ -16,13 +16,13 @@ import numpy as np
 
 from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
-from controller.device.bank.inspection import asked_of
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.loop.fixed_emitters import needs_responses
 from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import Scene
 from controller.errors import ConfigError
+from controller.workshop.bank_builder.bank_fit import asked_of
 from controller.workshop.bank_builder.interpolation_error import DIGITS, InterpolationError, interpolation_error
 from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
@@ -96,7 +96,7 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source
     """What `compose.method = "auto"` chooses for a scene, to be written into its bank.
 
     `margin_m` is as of `cells_needed`; responses come from the board's plate model by default. Returns the fields of the chosen
-    `Setting`; `asked`, as `inspection.asked_of`; `scene`; `why`, a line for people; `front`: pitch, snap (None: no responses),
+    `Setting`; `asked`, as `bank_fit.asked_of`; `scene`; `why`, a line for people; `front`: pitch, snap (None: no responses),
     error, time of a lone finger and bytes of each setting on the front. Raises ConfigError if no setting keeps both bounds.
     """
     found = settings(board, scene, margin_m, source)

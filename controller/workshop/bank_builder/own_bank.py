@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from controller.console import tell
 from controller.device.bank.grid import Grid
-from controller.device.bank.inspection import Fit, asked_of, choice_of, fit, measured_at, optimised_for
+from controller.device.bank.inspection import measured_at
 from controller.device.bank.lookup import find_bank
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
@@ -22,6 +22,7 @@ from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
 from controller.errors import BankError, ConfigError
+from controller.workshop.bank_builder.bank_fit import Fit, asked_of, choice_of, fit, optimised_for
 from controller.workshop.bank_builder.build import BuildReport, build_bank
 from controller.workshop.bank_builder.choice import choose
 from controller.workshop.bank_builder.interpolation_error import interpolation_warning, refuse_coarse

@@ -13,7 +13,7 @@ from securesystemslib.signer import CryptoSigner, Key, SSlibKey
 from tuf.api.metadata import Root
 
 from controller.device.board.validation import NO_JSON
-from controller.device.update.durable import write_durably
+from controller.durable import write_durably
 from controller.errors import UpdateError
 
 PUBLIC: Final = ".pub"

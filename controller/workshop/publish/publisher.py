@@ -24,9 +24,9 @@ from tuf.api.exceptions import RepositoryError
 from tuf.api.metadata import Key, Metadata, Root, Signed, Targets
 from tuf.api.serialization.json import JSONSerializer
 
-from controller.device.update.durable import sync_folder, tell_disk, write_durably
 from controller.device.update.lock import alone
 from controller.device.update.trust.clock import ISSUED, TIMESTAMP_LIFE, as_text, issued
+from controller.durable import sync_folder, tell_disk, write_durably
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
 

@@ -16,9 +16,9 @@ from typing import Final
 import msgspec
 
 from controller.device.update.download.bank_index import found_pieces, read_index, write_index
-from controller.device.update.durable import tell_disk
 from controller.device.update.layout import MANIFEST
 from controller.device.update.manifest import Manifest, ReleaseFile, read_manifest
+from controller.durable import tell_disk
 from controller.errors import UpdateError
 
 BANKS: Final = "banks/"

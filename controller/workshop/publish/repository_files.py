@@ -9,7 +9,7 @@ from pathlib import Path
 from tuf.api.exceptions import RepositoryError
 from tuf.api.metadata import TargetFile
 
-from controller.device.update.durable import sync_folder, tell_disk
+from controller.durable import sync_folder, tell_disk
 from controller.errors import UpdateError
 from controller.workshop.publish.publisher import Repository
 from controller.workshop.publish.release_folder import digest_of

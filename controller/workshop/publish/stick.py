@@ -10,8 +10,8 @@ import msgspec
 from securesystemslib.signer import CryptoSigner
 from tuf.api.metadata import TargetFile
 
-from controller.device.update.durable import tell_disk, write_durably
 from controller.device.update.manifest import Channel, read_manifest
+from controller.durable import tell_disk, write_durably
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
 from controller.workshop.publish.publisher import STICK_LIFE, Repository, to_bytes

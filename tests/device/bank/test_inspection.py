@@ -7,9 +7,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from controller.device.bank.grid import Grid
-from controller.device.bank.inspection import bank_info, fit, verify_bank
+from controller.device.bank.inspection import bank_info, verify_bank
 from controller.device.bank.reader import Bank
 from controller.errors import BankError
+from controller.workshop.bank_builder.bank_fit import fit
 
 CELLS = [True, False, True, True, False, False]
 

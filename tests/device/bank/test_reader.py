@@ -298,7 +298,7 @@ def test_a_composition_is_read_and_checked_once_and_a_damaged_one_is_taken_out(p
 def test_a_table_of_compositions_that_cannot_be_is_refused(path, make_bank, monkeypatch, steps):
     packed = struct.Struct("<II30i")
     foreign = SimpleNamespace(pack=lambda *_: packed.pack(1, *steps, *[0] * (31 - len(steps))))
-    monkeypatch.setattr("controller.device.bank.writer.COMPOSITION", foreign)
+    monkeypatch.setattr("controller.workshop.bank_builder.writer.COMPOSITION", foreign)
     make_bank(path, compositions={POINTS: np.arange(9, dtype=np.uint32)})
     with pytest.raises(BankError, match=rf"composition of {steps[0]} points"):
         Bank.open(path)

@@ -8,10 +8,9 @@ import msgspec
 import pytest
 from tables import each_row
 
-from controller.device.board.board import load_board, on_plate_of
+from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.board.panel import Damping
-from controller.device.board.patches import Patches
 from controller.device.scene.scene_file import find_scene
 from controller.device.service.drivers import recording_path
 from controller.errors import ConfigError
@@ -312,9 +311,3 @@ def test_the_digest_changes_where_a_key_of_the_plate_is_given_and_not_where_it_i
     for change in ({"theory": "mindlin"}, {"damping": Damping()}, {"decay_time_ms": 1.1}):
         changed = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, **change))
         assert changed.digest() != board.digest()
-
-
-def test_the_plate_of_another_board_has_that_boards_patches(board):
-    heavy = msgspec.structs.replace(board, patches=Patches(mass_kg_m2=1.0, stiffness_ratio=2.0))
-    assert on_plate_of(board, heavy).patches == heavy.patches
-    assert on_plate_of(heavy, board).patches is None

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from controller.device.bank.grid import Grid
-from controller.device.bank.inspection import fit
 from controller.device.board import lookup, paths
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.board.paths import bank_path, build_line, make_folder, state_folder
+from controller.workshop.bank_builder.bank_fit import fit
 
 ROOT_ONLY = pytest.mark.skipif(os.geteuid() != 0, reason="only root gives files away")
 

@@ -11,13 +11,14 @@ import pytest
 from tables import each_row
 
 from controller.device.bank.grid import Grid
-from controller.device.bank.inspection import bank_info, fit, verify_bank
+from controller.device.bank.inspection import bank_info, verify_bank
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.bank.provenance import MODEL_VERSION
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.errors import BankError, ConfigError
+from controller.workshop.bank_builder.bank_fit import fit
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.interpolation_error import InterpolationError
 from controller.workshop.bank_builder.request import BankRequest

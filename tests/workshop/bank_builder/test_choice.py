@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from tables import each_row
 
-from controller.device.bank.inspection import choice_of, wrong_pitch
+from controller.device.bank.inspection import wrong_pitch
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import ApplicationSocket
@@ -17,6 +17,7 @@ from controller.device.scene.scene import load_scene
 from controller.device.service.scenes.prepare_scene import populate
 from controller.errors import BankError, ConfigError
 from controller.workshop.bank_builder import choice as module
+from controller.workshop.bank_builder.bank_fit import choice_of
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.choice import Setting, choose, settings
 from controller.workshop.bank_builder.request import BankRequest

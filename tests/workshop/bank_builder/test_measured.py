@@ -12,7 +12,7 @@ from tables import each_row
 
 from controller.cli import main
 from controller.device.bank.grid import Grid
-from controller.device.bank.inspection import bank_info, fit, measured_at, verify_bank, wrong_pitch
+from controller.device.bank.inspection import bank_info, measured_at, verify_bank, wrong_pitch
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.bank.provenance import Provenance, SourceFile, provenance_of
 from controller.device.bank.reader import Bank
@@ -22,6 +22,7 @@ from controller.device.board.paths import bank_path
 from controller.device.scene.scene import FixedEmitter, load_scene
 from controller.device.scene.scene_file import find_scene
 from controller.errors import ConfigError
+from controller.workshop.bank_builder.bank_fit import fit
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.choice import choose, settings
 from controller.workshop.bank_builder.methods.descent import AIMS

@@ -18,11 +18,12 @@ from tables import each_row
 
 from controller.cli import main
 from controller.device.bank.file_format import creator
-from controller.device.bank.inspection import bank_info, optimised_for, verify_bank
+from controller.device.bank.inspection import bank_info, verify_bank
 from controller.device.bank.lookup import FoundBank
 from controller.device.bank.reader import Bank
 from controller.errors import BankError, UsageError
 from controller.workshop.bank_builder import dask_client, optimised, own_bank
+from controller.workshop.bank_builder.bank_fit import optimised_for
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.methods.descent import AIMS
 from controller.workshop.bank_builder.optimised import METHOD_VERSION, Workers, compute

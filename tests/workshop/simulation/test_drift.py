@@ -13,8 +13,9 @@ from tables import each_row
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.device.bank.reader import Bank
-from controller.device.board.board import load_board, on_other_plate
+from controller.device.board.board import load_board
 from controller.device.board.devices import Temperature
+from controller.device.board.patches import Patches
 from controller.device.scene.scene import load_scene
 from controller.device.service import run as service_run
 from controller.device.service import temperature
@@ -29,6 +30,7 @@ from controller.workshop.physics.modes.retuned import drifted
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.simulation.drift import ASSUMED, Drift, since
 from controller.workshop.simulation.focus_evaluation import judge
+from controller.workshop.simulation.other_plate import on_other_plate, on_plate_of
 from controller.workshop.simulation.run_figures import report
 from controller.workshop.simulation.simulated_run import Hardware, play
 
@@ -302,3 +304,10 @@ def test_a_plate_on_which_the_patches_do_not_fit_is_refused(board):
         ConfigError, match=r"^--plate: actuators\[\d+\]\.x_mm = 197\.5 puts the patch off the plate \(0 to 199.0 mm\)"
     ):
         on_other_plate(board, ["length_mm=199"])
+
+
+def test_the_plate_of_another_board_has_that_boards_patches():
+    board = small_board()
+    heavy = msgspec.structs.replace(board, patches=Patches(mass_kg_m2=1.0, stiffness_ratio=2.0))
+    assert on_plate_of(board, heavy).patches == heavy.patches
+    assert on_plate_of(heavy, board).patches is None

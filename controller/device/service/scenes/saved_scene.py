@@ -9,7 +9,7 @@ from controller.device.board.board import Board
 from controller.device.board.paths import make_folder
 from controller.device.scene.scene import scene_of
 from controller.device.scene.scene_file import check_scene, own_scenes, saved_scenes
-from controller.device.update.durable import write_durably
+from controller.durable import write_durably
 from controller.errors import ConfigError
 
 BYTES_MAX: Final = 65_536  # of one; a rectangle has 160

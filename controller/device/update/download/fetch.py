@@ -15,13 +15,13 @@ from controller.device.update.download.http_source import HttpSource
 from controller.device.update.download.old_banks import OldBanks
 from controller.device.update.download.part_file import complete
 from controller.device.update.download.source import FolderSource, Source
-from controller.device.update.durable import sync_folder, write_durably
 from controller.device.update.installed import manifest_of
 from controller.device.update.layout import MANIFEST, Layout
 from controller.device.update.manifest import Manifest, ReleaseFile
 from controller.device.update.settings import UpdateSettings
 from controller.device.update.trust.offer import COUNTER, Offer, largest_counter, offered
 from controller.device.update.trust.trust import DeviceUpdater, sha256_of, trusted
+from controller.durable import sync_folder, write_durably
 from controller.errors import UpdateError
 
 UNPACKED: Final = 5  # times the bytes of its wheels that an environment takes, compiled

@@ -12,11 +12,11 @@ from tuf.api.metadata import TargetFile
 from controller.device.update.download.bank_index import INDEX_BYTES_MAX, BankIndex, read_index
 from controller.device.update.download.rebuild import rebuild
 from controller.device.update.download.source import NoRanges
-from controller.device.update.durable import write_durably
 from controller.device.update.installed import manifest_of
 from controller.device.update.layout import Layout
 from controller.device.update.manifest import ReleaseFile
 from controller.device.update.trust.trust import DeviceUpdater
+from controller.durable import write_durably
 from controller.errors import UpdateError
 from controller.regular_file import read_regular
 

@@ -19,7 +19,7 @@ from typing import Final
 
 from tuf.api.metadata import Root, Signed, Targets, Timestamp
 
-from controller.device.update.durable import write_durably
+from controller.durable import write_durably
 from controller.regular_file import read_regular
 
 ISSUED: Final = "x-issued"  # field of a timestamp, and of root and targets: when it was made

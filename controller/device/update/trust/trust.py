@@ -29,11 +29,11 @@ from tuf.api.serialization import DeserializationError
 from tuf.ngclient import Updater, UpdaterConfig
 
 from controller.device.update.download.source import Source
-from controller.device.update.durable import sync_folder
 from controller.device.update.layout import Layout
 from controller.device.update.lock import alone
 from controller.device.update.trust import clock
 from controller.device.update.trust.validity import ROOT_BYTES_MAX
+from controller.durable import sync_folder
 from controller.errors import UpdateError
 
 LIMITS: Final = UpdaterConfig(

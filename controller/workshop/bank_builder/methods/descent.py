@@ -28,8 +28,8 @@ from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.device.kernel import Point
-from controller.device.waveforms.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.audible_form import AudibleForm
+from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.bank_builder.methods.prediction import Prediction

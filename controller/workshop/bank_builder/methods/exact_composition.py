@@ -21,7 +21,7 @@ from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.device.kernel.amplitude_twin import masking_threshold
 from controller.device.waveforms.composition import BLOCK_S, MAX_FOCI
-from controller.device.waveforms.design import Place, WaveformDesign
+from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.dual import Bits, Floats, cheapest, farthest, flip, likely_polarities
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.physics.responses.response_source import ResponseSource

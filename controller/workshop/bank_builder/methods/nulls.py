@@ -16,7 +16,7 @@ import numpy as np
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.device.kernel import Point
-from controller.device.waveforms.design import Place, WaveformDesign
+from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.dual import Floats
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition, checked_points
 from controller.workshop.bank_builder.methods.prediction import Prediction

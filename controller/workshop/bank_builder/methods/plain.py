@@ -9,7 +9,7 @@ import numpy as np
 
 from controller.device.board.board import Board
 from controller.device.kernel import Point
-from controller.device.waveforms.design import Place, WaveformDesign
+from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.responses.response_source import ResponseSource

@@ -19,10 +19,10 @@ from controller.device.bank.packing import WORD, edges
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.waveforms.design import DesignMethod
-from controller.device.waveforms.device_composition import DeviceComposition
 from controller.device.waveforms.selection import REUSE_RADIUS_M
 from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.methods.design import DesignMethod
+from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.benchmark.focus.focus_figures import emit, random_points, spread
 from controller.workshop.physics.plate import wave_scale

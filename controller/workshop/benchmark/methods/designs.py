@@ -8,8 +8,8 @@ from functools import cached_property, partial
 
 from controller.device.board.board import Board
 from controller.device.kernel import Point
-from controller.device.waveforms.design import DesignMethod
 from controller.workshop.bank_builder.methods.descent import AIMS, Descent
+from controller.workshop.bank_builder.methods.design import DesignMethod
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition
 from controller.workshop.bank_builder.methods.nulls import ExactNulls
 from controller.workshop.bank_builder.methods.plain import SignOfSum

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
-from controller.device.waveforms.device_composition import DeviceComposition
 from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.benchmark.focus.focus_figures import SETTLED, SQUARE_M, emit
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel

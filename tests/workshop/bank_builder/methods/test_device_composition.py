@@ -4,9 +4,9 @@ import pytest
 from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
 from controller.device.waveforms.composition import Composer
-from controller.device.waveforms.design import DesignMethod
-from controller.device.waveforms.device_composition import DeviceComposition
 from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.methods.design import DesignMethod
+from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.responses.impulse_response import ResponseModel

@@ -16,8 +16,8 @@ from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
 from controller.device.bank.inspection import verify_bank
 from controller.device.bank.reader import Bank
-from controller.device.bank.writer import BankWriter
 from controller.errors import BankError
+from controller.workshop.bank_builder.writer import BankWriter
 
 GRID = Grid(5e-3, 3, 2, 5e-3, 6e-3)
 ALL = np.ones(6, bool)
@@ -206,7 +206,7 @@ import sys, numpy as np
 from pathlib import Path
 from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
-from controller.device.bank.writer import BankWriter
+from controller.workshop.bank_builder.writer import BankWriter
 with BankWriter(Path(sys.argv[1]), Header("test", bytes(32), Grid(5e-3, 3, 2, 5e-3, 6e-3), 5e5, 9, 6), np.ones(6, bool)) as writer:
     writer.add(0, np.zeros(9, "<u4"), np.zeros((12, 32), np.int8), 1.0)
     print("half way", flush=True)

@@ -14,7 +14,7 @@ from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.device.waveforms.composition import Composer
-from controller.device.waveforms.design import Place, WaveformDesign
+from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 
 Floats = NDArray[np.floating[Any]]
 

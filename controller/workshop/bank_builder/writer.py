@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from controller.device.bank.file_format import COMPOSITION, FOCI, MAGIC, Header, Section, begins_as_bank
 from controller.device.bank.packing import CHANNELS, WORD
 from controller.device.kernel import pack_loads
+from controller.durable import sync_folder
 from controller.errors import BankError
 
 
@@ -211,11 +212,7 @@ def remove_leftovers(path: Path) -> int:
 def _sync_folder(path: Path) -> None:
     """Fsync the folder, so that the new name is as durable as the file."""
     try:
-        folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
+        sync_folder(path.parent)
     except OSError as error:
         if error.errno != errno.EINVAL:  # a file system whose folders cannot be synced
             raise BankError(f"{path}: written, but its folder cannot be synced ({error.strerror})") from error
