@@ -113,7 +113,7 @@ def test_refuses_a_pitch_or_a_scene_that_leaves_no_cell(board, tmp_path):
 
 def test_a_bank_of_another_version_of_the_model_is_built_again(built, board, monkeypatch):
     of_that_pitch = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, pitch_mm=PITCH_M * 1e3))
-    monkeypatch.setattr("controller.device.bank.inspection.MODEL_VERSION", MODEL_VERSION + 1)
+    monkeypatch.setattr("controller.workshop.bank_builder.bank_fit.MODEL_VERSION", MODEL_VERSION + 1)
     assert fit(built[1], of_that_pitch, np.ones(15, bool)).reason == "it was built by another version of the model"
 
 

@@ -176,7 +176,7 @@ def test_entries_of_measured_responses_are_not_optimised(tmp_path):
 
 def test_a_measured_bank_fits_whichever_version_of_the_model_is_installed(built, monkeypatch):
     board = msgspec.structs.replace(BOARD, bank=msgspec.structs.replace(BOARD.bank, pitch_mm=10.0))
-    monkeypatch.setattr("controller.device.bank.inspection.MODEL_VERSION", 0)
+    monkeypatch.setattr("controller.workshop.bank_builder.bank_fit.MODEL_VERSION", 0)
     assert fit(built[0], board, np.ones(24, bool)).reason == ""
 
 
