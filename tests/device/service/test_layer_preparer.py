@@ -126,36 +126,36 @@ def test_a_layer_takes_limited_time(board, bank):
 
 def test_a_helper_that_dies_is_replaced_and_asked_again(preparer):
     works(preparer)
-    before = preparer.pid
+    before = preparer.helper.process.pid
     os.kill(before, signal.SIGKILL)
     works(preparer)
-    assert preparer.pid != before
+    assert preparer.helper.process.pid != before
 
 
 def test_a_helper_that_hangs_is_ended_and_the_next_layer_is_checked(preparer, monkeypatch):
     works(preparer)
-    before = preparer.pid
+    before = preparer.helper.process.pid
     os.kill(before, signal.SIGSTOP)
-    monkeypatch.setattr(layer_preparer, "GRACE_S", -layer_preparer.LIMIT_S)
+    monkeypatch.setattr(helper_process, "GRACE_S", -layer_preparer.LIMIT_S)
     assert "hangs, and was ended" in prepared(preparer, line(*rectangles()))
     monkeypatch.undo()
     works(preparer)
-    assert preparer.pid != before
+    assert preparer.helper.process.pid != before
 
 
 def test_no_process_left_is_a_refusal(preparer, monkeypatch):
-    os.kill(preparer.pid, signal.SIGKILL)
-    os.waitid(os.P_PID, preparer.pid, os.WEXITED | os.WNOWAIT)
+    os.kill(preparer.helper.process.pid, signal.SIGKILL)
+    os.waitid(os.P_PID, preparer.helper.process.pid, os.WEXITED | os.WNOWAIT)
     monkeypatch.setattr(helper_process, "_fork", lambda: -1)
-    assert prepared(preparer, line(*rectangles())) == "no process to check regions"
+    assert prepared(preparer, line(*rectangles())) == "there is no process that checks regions"
     monkeypatch.undo()
     works(preparer)
 
 
 def test_it_ends_with_the_loop(preparer):
     works(preparer)
-    pid = preparer.pid
-    preparer._helper.socket.close()
+    pid = preparer.helper.process.pid
+    preparer.helper.process.socket.close()
     assert os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT).si_status == 0
 
 

@@ -98,15 +98,15 @@ def test_a_scene_that_takes_too_long_is_refused_and_the_next_one_is_prepared(boa
     changer = SceneChanger(msgspec.structs.replace(board, folder=folder), "scene", bank, limit_s=0.3)
     changer.begin("slow", 6)
     assert prepared(changer).reason == "preparing the scene took longer than 0.3 s"
-    helper = changer.pid
+    helper = changer.helper.process.pid
     changer.begin("nowhere", 7)
     assert "'nowhere' not found" in prepared(changer).reason
-    assert changer.pid == helper
+    assert changer.helper.process.pid == helper
     changer.close()
 
 
 def test_after_a_child_that_was_killed_the_same_helper_prepares_the_next(changer):
-    helper = changer.pid
+    helper = changer.helper.process.pid
     works(changer)
     changer.begin("scene", 7)
     while not (child := children(helper)):
@@ -116,7 +116,7 @@ def test_after_a_child_that_was_killed_the_same_helper_prepares_the_next(changer
     done = prepared(changer)
     assert done.scene is not None or "SIGKILL" in done.reason
     works(changer)
-    assert changer.pid == helper
+    assert changer.helper.process.pid == helper
 
 
 def children(pid):
@@ -140,24 +140,24 @@ def test_a_scene_too_large_to_be_handed_over_is_refused(changer, folder):
 
 def test_a_helper_that_died_is_replaced_by_the_next_change(changer):
     works(changer)
-    before = changer.pid
+    before = changer.helper.process.pid
     os.kill(before, signal.SIGKILL)
     os.waitid(os.P_PID, before, os.WEXITED | os.WNOWAIT)
     works(changer)
-    assert changer.pid != before
+    assert changer.helper.process.pid != before
 
 
 def test_of_a_helper_that_dies_at_work_another_one_takes_over_once(changer):
     for deaths in (1, 2):
-        before = changer.pid
-        os.kill(changer.pid, signal.SIGSTOP)
+        before = changer.helper.process.pid
+        os.kill(changer.helper.process.pid, signal.SIGSTOP)
         changer.begin("scene", 10)
-        os.kill(changer.pid, signal.SIGKILL)
+        os.kill(changer.helper.process.pid, signal.SIGKILL)
         if deaths == 2:
-            while changer.pid == before:
+            while changer.helper.process.pid == before:
                 assert changer.take() is None
-            os.kill(changer.pid, signal.SIGSTOP)
-            os.kill(changer.pid, signal.SIGKILL)
+            os.kill(changer.helper.process.pid, signal.SIGSTOP)
+            os.kill(changer.helper.process.pid, signal.SIGKILL)
         done = prepared(changer)
         assert (done.ticket, done.scene is not None) == (10, deaths == 1)
     assert done.reason == "the process that prepares scenes ends again and again"
@@ -165,8 +165,8 @@ def test_of_a_helper_that_dies_at_work_another_one_takes_over_once(changer):
 
 
 def test_a_helper_that_hangs_is_ended_and_the_next_change_is_made(changer, monkeypatch):
-    monkeypatch.setattr(scene_reload, "GRACE_S", -scene_reload.LIMIT_S)
-    before = changer.pid
+    monkeypatch.setattr(helper_process, "GRACE_S", -scene_reload.LIMIT_S)
+    before = changer.helper.process.pid
     os.kill(before, signal.SIGSTOP)
     changer.begin("scene", 11)
     done = prepared(changer)
@@ -174,16 +174,16 @@ def test_a_helper_that_hangs_is_ended_and_the_next_change_is_made(changer, monke
     assert "hangs, and was ended" in done.reason
     monkeypatch.undo()
     works(changer)
-    assert changer.pid != before
+    assert changer.helper.process.pid != before
 
 
 def test_no_process_left_is_a_refusal_and_not_the_end(changer, monkeypatch):
-    os.kill(changer.pid, signal.SIGKILL)
-    os.waitid(os.P_PID, changer.pid, os.WEXITED | os.WNOWAIT)
+    os.kill(changer.helper.process.pid, signal.SIGKILL)
+    os.waitid(os.P_PID, changer.helper.process.pid, os.WEXITED | os.WNOWAIT)
     monkeypatch.setattr(helper_process, "_fork", lambda: -1)
     changer.begin("scene", 4)
     done = changer.take()
-    assert (done.ticket, done.scene, done.reason) == (4, None, "no process to prepare a scene")
+    assert (done.ticket, done.scene, done.reason) == (4, None, "there is no process that prepares scenes")
     monkeypatch.undo()
     works(changer)
 
@@ -212,9 +212,9 @@ def test_nothing_of_the_working_directory_is_run_or_read(board, bank, folder, tm
 
 def test_the_helper_is_ordinary_nice_and_has_no_file_of_ours_but_its_socket(changer, folder):
     works(changer)
-    assert os.sched_getscheduler(changer.pid) == os.SCHED_OTHER
-    assert os.getpriority(os.PRIO_PROCESS, changer.pid) >= 5
-    opened = {int(file.name): str(file.readlink()) for file in Path(f"/proc/{changer.pid}/fd").iterdir()}
+    assert os.sched_getscheduler(changer.helper.process.pid) == os.SCHED_OTHER
+    assert os.getpriority(os.PRIO_PROCESS, changer.helper.process.pid) >= 5
+    opened = {int(file.name): str(file.readlink()) for file in Path(f"/proc/{changer.helper.process.pid}/fd").iterdir()}
     assert opened[1] == "/dev/null"
     ours = {number for number, path in opened.items() if "/libffi.so" not in path}  # its trampolines map its own file
     assert ours == {0, 1, 2}, opened
@@ -222,9 +222,9 @@ def test_the_helper_is_ordinary_nice_and_has_no_file_of_ours_but_its_socket(chan
 
 def test_until_the_first_request_the_helper_has_imported_nothing_of_it(changer):
     def numpy_is_mapped():
-        return "_multiarray_umath" in Path(f"/proc/{changer.pid}/maps").read_text()
+        return "_multiarray_umath" in Path(f"/proc/{changer.helper.process.pid}/maps").read_text()
 
-    while os.getpriority(os.PRIO_PROCESS, changer.pid) < 5:
+    while os.getpriority(os.PRIO_PROCESS, changer.helper.process.pid) < 5:
         os.sched_yield()
     assert not numpy_is_mapped()
     works(changer)
@@ -232,15 +232,15 @@ def test_until_the_first_request_the_helper_has_imported_nothing_of_it(changer):
 
 
 def test_it_ends_with_the_loop_though_nothing_was_asked(changer):
-    pid = changer.pid
-    changer._helper.socket.close()
+    pid = changer.helper.process.pid
+    changer.helper.process.socket.close()
     assert os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT).si_status == 0
 
 
 def test_it_ends_with_the_loop(changer):
     works(changer)
-    pid = changer.pid
-    changer._helper.socket.close()
+    pid = changer.helper.process.pid
+    changer.helper.process.socket.close()
     assert os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT).si_status == 0
 
 
@@ -395,11 +395,11 @@ def lied_to(board, folder, bank, monkeypatch):
             done = changer.take()
         assert changer.fileno() is None
         changer.close()
+        while ends:  # of another helper that was started and not asked
+            ends.pop().close()
         return done
 
-    yield ask
-    for helper in ends:
-        helper.close()
+    return ask
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])

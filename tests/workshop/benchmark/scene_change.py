@@ -81,8 +81,8 @@ def main() -> None:
                 times = [change(changer) for _ in range(options.changes)]
                 deaths = []
                 for _ in range(DEATHS):
-                    os.kill(changer.pid, signal.SIGKILL)
-                    os.waitid(os.P_PID, changer.pid, os.WEXITED | os.WNOWAIT)
+                    os.kill(changer.helper.process.pid, signal.SIGKILL)
+                    os.waitid(os.P_PID, changer.helper.process.pid, os.WEXITED | os.WNOWAIT)
                     deaths.append(change(changer))
             finally:
                 for process in busy:

@@ -1,4 +1,4 @@
-"""A process beside the loop, started without waiting for it, and the socket to it; nothing here blocks.
+"""A process beside the loop, started without waiting for it, and one request at a time to it; nothing here blocks.
 
 It is started before the loop gets real-time priority: starting a program waits until the new process was scheduled, which can take
 long for one of ordinary priority.
@@ -12,8 +12,16 @@ import resource
 import signal
 import socket
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
+from controller.device.service.scenes.message_frame import HEADER, MessageError, length
+
+T = TypeVar("T")
+
+GRACE_S = 5.0  # after the limit, until a helper counts as hanging: it may still be importing, or reading the bank from a slow card
 CHUNK_BYTES = 1 << 16  # read in one turn of the loop
 MOST_FILES = 1 << 20  # file descriptors to close in the helper if their number is unlimited
 PROGRAM = (
@@ -100,6 +108,78 @@ class HelperProcess:
             return None
         except OSError:
             return b""
+
+
+class Helper:
+    """Asks a helper process, one request after the other; one that dies is replaced and asked again, once.
+
+    `does` is what it does, for messages; `first` is a message that each new process gets before any request.
+    """
+
+    def __init__(self, what: str, limit_s: float, does: str, first: bytes = b"") -> None:
+        self.process = HelperProcess(what, limit_s)
+        self.asked = False  # and not answered yet
+        self._limit_s = limit_s
+        self._does, self._first = does, first
+        self._request, self._said, self._failure = b"", bytearray(), ""
+        self._again, self._until_s = False, 0.0
+        self._restart()
+
+    def ask(self, request: bytes) -> None:
+        """Begin a request."""
+        self.asked, self._again, self._request, self._failure = True, False, request, ""
+        self._until_s = time.monotonic() + self._limit_s + GRACE_S
+        self._said.clear()
+        if not self.process.send(request):
+            self._ask_again()
+
+    def fileno(self) -> int | None:
+        """File that is readable when it has answered; None while nothing is asked."""
+        return self.process.fileno() if self.asked else None
+
+    def take(self, unpack: Callable[[bytes], T]) -> T | str | None:
+        """The answer, once for each request, or why there is none; None while it is not there."""
+        if not self.asked:
+            return None
+        if not self._failure:
+            self._read()
+        answer: T | str = self._failure
+        if not answer:
+            try:
+                if len(self._said) < HEADER.size or len(self._said) < HEADER.size + length(self._said):
+                    return None
+                answer = unpack(bytes(self._said))
+            except MessageError as error:
+                self._restart()  # its next answer could not be distinguished from the rest of this one
+                answer = f"what {self._does} answers wrongly: {error}"
+        self.asked = False
+        return answer
+
+    def _restart(self) -> None:
+        self.process.end()
+        self.process.start()
+        if self._first:
+            self.process.send(self._first)
+
+    def _ask_again(self) -> None:
+        self._restart()
+        self._said.clear()
+        if self._again:
+            self._failure = f"the process that {self._does} ends again and again"
+        elif not self.process.send(self._request):
+            self._failure = f"there is no process that {self._does}"
+        self._again = True
+
+    def _read(self) -> None:
+        """Read a part of the answer."""
+        more = self.process.receive()
+        if more:
+            self._said += more
+        elif more is not None:
+            self._ask_again()
+        elif time.monotonic() > self._until_s:
+            self._restart()
+            self._failure = f"the process that {self._does} hangs, and was ended; ask again"
 
 
 def _fork() -> int:
