@@ -19,7 +19,7 @@ from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_tables import SceneTable
 from controller.device.service.scenes.layer_helper import LayerChecker
-from controller.device.service.scenes.layer_message import LayerSetup, pack_refusal, unpack_layer
+from controller.device.service.scenes.layer_message import pack_refusal, unpack_layer
 from controller.device.service.scenes.scene_message import pack_scene, unpack_scene
 from controller.errors import ConfigError, ControllerError
 
@@ -109,7 +109,7 @@ def test_beyond_its_range_a_number_is_refused_in_a_line_with_key_value_and_range
 @pytest.fixture(scope="module")
 def checker(board, bank_file):
     with Bank.open(bank_file, board) as bank:
-        yield LayerChecker(LayerSetup("", board, str(bank_file), bytes([1]) * bank.grid.cells))
+        yield LayerChecker(board, bank_file, bytes([1]) * bank.grid.cells)
 
 
 @each_row("called", NUMBERS)

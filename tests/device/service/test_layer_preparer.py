@@ -18,7 +18,6 @@ from controller.device.scene.scene import SpatialIndex
 from controller.device.service.scenes import helper_process, layer_preparer
 from controller.device.service.scenes.layer_helper import LayerChecker
 from controller.device.service.scenes.layer_message import (
-    LayerSetup,
     pack_layer,
     pack_refusal,
     pack_request,
@@ -28,7 +27,8 @@ from controller.device.service.scenes.layer_message import (
     unpack_setup,
 )
 from controller.device.service.scenes.layer_preparer import LayerPreparer
-from controller.device.service.scenes.message_frame import MessageError
+from controller.device.service.scenes.message_frame import MessageError, board_of
+from controller.errors import BankError
 
 
 def rectangles(count=5, **more):
@@ -160,14 +160,13 @@ def test_it_ends_with_the_loop(preparer):
 
 
 def test_a_bank_that_is_gone_is_a_refusal(board, bank, tmp_path):
-    checker = LayerSetup("", board, str(tmp_path / "none.bank"), b"")
-    with pytest.raises(Exception, match="cannot be read"):
-        LayerChecker(checker)
+    with pytest.raises(BankError, match="cannot be read"):
+        LayerChecker(board, tmp_path / "none.bank", b"")
 
 
 @pytest.fixture
 def checker(board, bank):
-    return LayerChecker(LayerSetup("", board, str(bank.path), bytes(bank.grid.cells)))
+    return LayerChecker(board, bank.path, bytes(bank.grid.cells))
 
 
 def test_cells_are_checked_once_and_those_of_the_scene_never(checker, board, bank):
@@ -180,7 +179,7 @@ def test_cells_are_checked_once_and_those_of_the_scene_never(checker, board, ban
     assert counters.drive_checked == once
     checker.answer(text, Placement(0.1, 0.05))
     assert counters.drive_checked > once
-    known = LayerChecker(LayerSetup("", board, str(bank.path), bytes([1]) * bank.grid.cells))
+    known = LayerChecker(board, bank.path, bytes([1]) * bank.grid.cells)
     known.answer(text, UNMOVED)
     assert known._bank.counters.drive_checked == 0
 
@@ -202,7 +201,7 @@ def test_only_regions_whose_cells_the_bank_lacks_are_refused(checker):
 
 def test_messages_survive_the_way(board, bank):
     setup = unpack_setup(pack_setup(board, bank.path, b"\1\0"))
-    assert (setup.board.name, setup.bank, setup.checked) == (board.name, str(bank.path), b"\1\0")
+    assert (board_of(setup.board).name, setup.bank, setup.checked) == (board.name, str(bank.path), b"\1\0")
     request = unpack_request(pack_request(b"{}", Placement(1.0, -2.0, 0.5)))
     assert (request.line, request.placement) == (b"{}", Placement(1.0, -2.0, 0.5))
     assert unpack_layer(pack_refusal("a\nb")) == "a b"

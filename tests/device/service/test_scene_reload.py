@@ -17,7 +17,7 @@ from controller.device.bank.reader import Bank
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.service.scenes import helper_process, message_frame, scene_reload
 from controller.device.service.scenes.helper_process import HelperProcess
-from controller.device.service.scenes.message_frame import HEADER, MOST_BYTES, MessageError
+from controller.device.service.scenes.message_frame import HEADER, MOST_BYTES, MessageError, board_of
 from controller.device.service.scenes.prepare_scene import populate
 from controller.device.service.scenes.scene_message import pack_request, pack_scene, unpack_request, unpack_scene
 from controller.device.service.scenes.scene_reload import SceneChanger
@@ -289,8 +289,8 @@ def test_a_scene_comes_over_as_it_was_and_a_request_too(board):
         assert copy.index == scene.index
         assert copy.emitters == scene.emitters
     request = unpack_request(pack_request(board, "drums", board.folder / "x.bank"))
-    assert (request.board, request.scene, request.bank) == (board, "drums", str(board.folder / "x.bank"))
-    assert request.board.digest() == board.digest()
+    assert (board_of(request.board), request.scene, request.bank) == (board, "drums", str(board.folder / "x.bank"))
+    assert board_of(request.board).digest() == board.digest()
 
 
 def changed(message, path, value):

@@ -20,7 +20,8 @@ from controller.device.scene.coverage import cells_needed
 from controller.device.scene.layer_tables import CheckedLayer, off_plate, read_layer, refusal
 from controller.device.scene.layers import Placement, RefusedRegion
 from controller.device.scene.scene import Region, Scene, SpatialIndex
-from controller.device.service.scenes.layer_message import LayerSetup, pack_layer, pack_refusal, unpack_request, unpack_setup
+from controller.device.service.scenes.layer_message import pack_layer, pack_refusal, unpack_request, unpack_setup
+from controller.device.service.scenes.message_frame import board_of
 from controller.device.service.scenes.realtime_share import RealtimeShare
 from controller.device.service.scenes.scene_helper import MEMORY_BYTES, limit_memory, receive
 from controller.errors import BankError, ControllerError
@@ -33,15 +34,15 @@ class _TooLong(Exception):
 class LayerChecker:
     """Checks layers against a board and its bank.
 
-    Cells that the setup has as `checked`, or that were checked for a layer before, are not checked again.
+    Cells that are `checked`, a byte each, or that were checked for a layer before, are not checked again.
     """
 
-    def __init__(self, setup: LayerSetup) -> None:
-        self._board: Board = setup.board
-        self._bank = Bank.open(Path(setup.bank), setup.board)
+    def __init__(self, board: Board, bank: Path, checked: bytes) -> None:
+        self._board = board
+        self._bank = Bank.open(bank, board)
         grid = self._bank.grid
         self._has = self._bank.cells
-        known = np.frombuffer(setup.checked, np.uint8).astype(bool)
+        known = np.frombuffer(checked, np.uint8).astype(bool)
         self._good = known if len(known) == len(self._has) else np.zeros(len(self._has), bool)
         self._points_m, self._pitch_m = grid.points(), grid.pitch_m
 
@@ -101,9 +102,10 @@ def serve_layers(loop: socket.socket, limit_s: float) -> None:
         return
     try:
         setup = unpack_setup(message)
-        os.chdir(setup.board.folder)
-        limit_memory(Path(setup.bank))
-        checker = LayerChecker(setup)
+        board, bank = board_of(setup.board), Path(setup.bank)
+        os.chdir(board.folder)
+        limit_memory(bank)
+        checker = LayerChecker(board, bank, setup.checked)
     except (ControllerError, OSError) as error:
         unusable = str(error)
     share = RealtimeShare(os.getppid())

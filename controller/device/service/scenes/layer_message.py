@@ -25,11 +25,11 @@ from controller.device.service.scenes.message_frame import (
     MOST_BYTES,
     REASON_CHARACTERS,
     MessageError,
-    board_of,
     data_of,
     encoder,
     framed,
     one_line,
+    packed,
     require_own,
     require_within,
     unfit,
@@ -39,11 +39,11 @@ Trains = tuple[Train, ...]
 Count = Annotated[int, Meta(ge=0)]
 
 
-class LayerSetup(Struct, frozen=True):
+class LayerSetup(Struct, frozen=True, forbid_unknown_fields=True):
     """What every layer is checked against: a board, its bank, and the cells of that which were checked (a byte each)."""
 
     software: str
-    board: Board
+    board: Raw
     bank: str
     checked: bytes
 
@@ -53,13 +53,6 @@ class LayerRequest(Struct, frozen=True, array_like=True, forbid_unknown_fields=T
 
     line: bytes
     placement: Placement
-
-
-class _Setup(Struct, frozen=True, forbid_unknown_fields=True):
-    software: str
-    board: Raw
-    bank: str
-    checked: bytes
 
 
 class _Style(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
@@ -88,21 +81,21 @@ class _Reply(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True
     refused_count: Count = 0
 
 
-_setups = msgspec.msgpack.Decoder(_Setup)
+_setups = msgspec.msgpack.Decoder(LayerSetup)
 _requests = msgspec.msgpack.Decoder(LayerRequest)
 _replies = msgspec.msgpack.Decoder(_Reply)
 
 
 def pack_setup(board: Board, bank: Path, checked_cells: bytes) -> bytes:
     """First message of the loop."""
-    return framed(encoder.encode(LayerSetup(__version__, board, str(bank), checked_cells)))
+    return framed(encoder.encode(LayerSetup(__version__, packed(board), str(bank), checked_cells)))
 
 
 def unpack_setup(message: bytes) -> LayerSetup:
     """The loop's first message; raises MessageError if it does not fit."""
     setup = data_of(message, _setups)
     require_own(setup.software)
-    return LayerSetup(setup.software, board_of(setup.board), setup.bank, setup.checked)
+    return setup
 
 
 def pack_request(line: bytes, placement: Placement) -> bytes:

@@ -72,6 +72,11 @@ def require_within(index: SpatialIndex, regions: int) -> None:
         raise unfit("its spatial index names a region that it does not have")
 
 
+def packed(board: Board) -> Raw:
+    """A board for a message; which record its touch panel has, its kind says."""
+    return Raw(encoder.encode(board))
+
+
 def board_of(packed: Raw) -> Board:
     """The board in a message; raises MessageError if it is none."""
     try:

@@ -18,7 +18,7 @@ import socket
 import time
 from pathlib import Path
 
-from controller.device.service.scenes.message_frame import HEADER, MOST_BYTES, length
+from controller.device.service.scenes.message_frame import HEADER, MOST_BYTES, board_of, length
 from controller.device.service.scenes.prepare_scene import prepare
 from controller.device.service.scenes.saved_scene import BYTES_MAX, save_scene
 from controller.device.service.scenes.scene_message import pack_refusal, pack_saved, pack_scene, unpack_request
@@ -80,12 +80,13 @@ def _work(request: bytes, limit_s: float) -> bytes:
     """The answer to a request; any error becomes a refusal."""
     try:
         asked = unpack_request(request)
-        limit_memory(Path(asked.bank), 0 if asked.toml is None else BYTES_MAX)
+        board, bank = board_of(asked.board), Path(asked.bank)
+        limit_memory(bank, 0 if asked.toml is None else BYTES_MAX)
         _lower(resource.RLIMIT_CPU, math.ceil(limit_s) + 1)  # `_wait` reports the time limit before this applies
-        os.chdir(asked.board.folder)  # plain names of scenes are looked up here
+        os.chdir(board.folder)  # plain names of scenes are looked up here
         if asked.toml is None:
-            return pack_scene(prepare(asked.board, asked.scene, Path(asked.bank)))
-        save_scene(asked.board, asked.scene, asked.toml)
+            return pack_scene(prepare(board, asked.scene, bank))
+        save_scene(board, asked.scene, asked.toml)
         return pack_saved()
     except ControllerError as error:
         return pack_refusal(str(error))

@@ -20,29 +20,21 @@ from controller.device.service.scenes.message_frame import (
     MOST_BYTES,
     REASON_CHARACTERS,
     MessageError,
-    board_of,
     data_of,
     encoder,
     framed,
     one_line,
+    packed,
     require_own,
     require_within,
 )
 
 
-class SceneRequest(Struct, frozen=True):
+class SceneRequest(Struct, frozen=True, forbid_unknown_fields=True):
     """Prepare a scene, given by its name or path, of a board, for a bank; with `toml`, save that under the name instead."""
 
     software: str
-    board: Board
-    scene: str
-    bank: str
-    toml: str | None = None
-
-
-class _Request(Struct, frozen=True, forbid_unknown_fields=True):
-    software: str
-    board: Raw  # a Board; which record its touch panel has, its kind says
+    board: Raw
     scene: str
     bank: str
     toml: str | None = None
@@ -61,13 +53,13 @@ class _Reply(Struct, frozen=True, forbid_unknown_fields=True):
     saved: bool = False
 
 
-_requests = msgspec.msgpack.Decoder(_Request)
+_requests = msgspec.msgpack.Decoder(SceneRequest)
 _replies = msgspec.msgpack.Decoder(_Reply)
 
 
 def pack_request(board: Board, scene: str, bank: Path, toml: str | None = None) -> bytes:
     """Message that requests a scene, by name or path, to be played from a bank, or that one (`toml`) is saved."""
-    return framed(encoder.encode(SceneRequest(__version__, board, scene, str(bank), toml)))
+    return framed(encoder.encode(SceneRequest(__version__, packed(board), scene, str(bank), toml)))
 
 
 def pack_scene(scene: Scene) -> bytes:
@@ -92,7 +84,7 @@ def unpack_request(message: bytes) -> SceneRequest:
     """The request in a message; raises MessageError if the message does not fit."""
     request = data_of(message, _requests)
     require_own(request.software)
-    return SceneRequest(request.software, board_of(request.board), request.scene, request.bank, request.toml)
+    return request
 
 
 def unpack_scene(message: bytes) -> Scene | str:
