@@ -11,7 +11,6 @@ from controller.device.loop.playing.host_timing import HostTiming
 from controller.device.loop.scene_source import SceneChange
 from controller.device.loop.scheduler import Scheduler
 from controller.device.scene.clips import ClientEffect
-from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene
 from controller.device.touch.source import Heard
 from controller.errors import ConfigError, FaultError
@@ -40,6 +39,8 @@ class LoopControl:
         self.skipped = context.counters.skipped
         self._change = change
         self._timing = timing
+        self.fingers_in, self.switch = scheduler.fingers_in, outputs.switch
+        self.put_layer, self.move_layer, self.drop_layer = layers.put, layers.move, layers.drop
 
     def play(
         self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
@@ -61,14 +62,6 @@ class LoopControl:
             self._outputs.wake()
         if not self._outputs.on and not self._outputs.waking:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
-
-    def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
-        """Fingers in a region; see `PanelControl.fingers_in`."""
-        return self._scheduler.fingers_in(owner, region)
-
-    def switch(self, *, on: bool, by: str = "a client") -> None:
-        """Arm or disarm the outputs; see `PanelControl.switch`."""
-        self._outputs.switch(on=on, by=by)
 
     def write_trace(self, reason: str) -> None:
         """Have the trace written; see `PanelControl.write_trace`."""
@@ -92,18 +85,6 @@ class LoopControl:
         if self._change is None:
             raise ConfigError("this panel cannot change its scene: it was started without the helper that prepares scenes")
         return self._change
-
-    def put_layer(self, ticket: int, owner: int, line: bytes, placement: Placement | None, now_s: float) -> None:
-        """Replace a client's layer; see `PanelControl.put_layer`."""
-        self._layers.put(ticket, owner, line, placement, now_s)
-
-    def move_layer(self, owner: int, placement: Placement) -> None:
-        """Move a client's layer; see `PanelControl.move_layer`."""
-        self._layers.move(owner, placement)
-
-    def drop_layer(self, owner: int, now_s: float) -> None:
-        """Remove the layer of a client that has gone."""
-        self._layers.drop(owner, now_s)
 
     def figures(self) -> dict[str, Any]:
         """Counters and latencies, ready for JSON; without histograms, which would take 12 ms of the loop's time."""

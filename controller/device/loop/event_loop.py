@@ -58,6 +58,9 @@ class EventLoop:
         self._playback = playback
         self._timing = playback.timing
         self._dispatcher = dispatcher
+        self.pause_repetition = dispatcher.pause_repetition
+        # To be called with the factor by which emissions last longer than the bank says
+        self.stretch = playback.occupancy.set_time_scale
         self._commands = commands
         self._change = change
         self._no_command = False
@@ -65,10 +68,10 @@ class EventLoop:
         self._emission_started = watch.emission_started
         self._scene_changed = watch.scene_changed
         self._spare = watch.spare
-        self._outputs = Outputs(context)
+        self.outputs = Outputs(context)
         self._layers = Layers(scheduler, context.layers, commands)
         # What commands may ask of this loop
-        self.control = LoopControl(context, self._outputs, scheduler, playback.timing, self._layers, change)
+        self.control = LoopControl(context, self.outputs, scheduler, playback.timing, self._layers, change)
         self._wakeup: Wakeup | None = None
         self._reload = False
         self._stopped = False
@@ -76,11 +79,6 @@ class EventLoop:
         self._idle_after_s = idle_after_s
         self._held = False  # the outputs have just come on for what waits
         self._active_s = -NEVER  # when something was last touched or played
-
-    @property
-    def outputs(self) -> Outputs:
-        """Outputs of the FPGA."""
-        return self._outputs
 
     @property
     def repeating(self) -> bool:
@@ -91,15 +89,6 @@ class EventLoop:
     def reloading(self) -> bool:
         """Whether another scene is being prepared."""
         return self._change is not None and self._change.fileno() is not None
-
-    @property
-    def stretch(self) -> Callable[[float], None]:
-        """To be called with the factor by which emissions last longer than the bank says."""
-        return self._playback.occupancy.set_time_scale
-
-    def pause_repetition(self, now_s: float) -> None:
-        """End the repetition by the FPGA, if there is one, for as long as a setting of it takes: it goes on in its pulse."""
-        self._dispatcher.pause_repetition(now_s)
 
     def stop(self) -> None:
         """Have `run` switch the outputs off and return after this turn."""
@@ -134,11 +123,11 @@ class EventLoop:
                         self._slept_until_s = next_s
                     self._silence.known, self._no_command = files.silent("touch"), files.silent("commands")
                     try:
-                        if self._outputs.unwanted:
+                        if self.outputs.unwanted:
                             self._abandon()
-                            self._outputs.disarm()
-                        waited = self._outputs.waking
-                        if self._outputs.advance(self._clock.now_s()):
+                            self.outputs.disarm()
+                        waited = self.outputs.waking
+                        if self.outputs.advance(self._clock.now_s()):
                             self._active_s = self._clock.now_s()
                             if waited:
                                 self._held = True
@@ -166,10 +155,10 @@ class EventLoop:
 
     def _recover(self, error: ControllerError) -> None:
         """Recover from an error of the link or the FPGA: the outputs are off."""
-        if self._outputs.on:
+        if self.outputs.on:
             self._trace.asked(str(error))
         self._abandon()
-        self._outputs.failed(error, self._clock.now_s())
+        self.outputs.failed(error, self._clock.now_s())
 
     def _abandon(self) -> None:
         """Forget what was due, accepted or playing: none of it is resumed."""
@@ -192,7 +181,7 @@ class EventLoop:
 
         Raises ControllerError if the FPGA reports a fault that the host must not clear; the outputs are off then, too.
         """
-        outputs, clock = self._outputs, self._clock
+        outputs, clock = self.outputs, self._clock
         with selectors.DefaultSelector() as nothing:  # neither touches nor signals end this
             try:
                 outputs.disarm()
@@ -211,7 +200,7 @@ class EventLoop:
         now_s = self._clock.now_s()
         if self._progress is not None:
             self._progress(now_s)
-        if not self._outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp cause ghost touches, too
+        if not self.outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp cause ghost touches, too
             self._source.emitted(now_s, self._session.ramp_end_s)
         report_ns, finger = self._read(now_s)
         if self._commands is not None and not (self._no_command and self._commands.next_time_s() > now_s):
@@ -223,20 +212,20 @@ class EventLoop:
         fpga_s = now_s + self._clock_estimate.offset_s
         if self._idle_after_s != NEVER and self._begins_idle(now_s, touched=report_ns >= 0):
             return now_s  # that the outputs ramp is informed at once
-        if self._outputs.waking:  # what is due is played once the outputs are on
+        if self.outputs.waking:  # what is due is played once the outputs are on
             read_s = self._source.next_time_s()
-            next_s = min(self._outputs.next_s(), NEVER if read_s is None else read_s)
+            next_s = min(self.outputs.next_s(), NEVER if read_s is None else read_s)
             return next_s if self._commands is None else min(next_s, self._commands.next_time_s())
         self._held = self._held and bool(self._scheduler.due)  # what waited for the outputs is played first: trains begin with it
         if not self._held:
             self._scheduler.advance(fpga_s + ROUNDING_S, self._timing.lead_s)
         due = len(self._scheduler.due)
-        starts = self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), on=self._outputs.on)
+        starts = self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), on=self.outputs.on)
         self._trace.turn(now_s, self._clock.now_s(), report_ns, due, started=starts)
         if due and now_s - self._slept_until_s > LATE_S:
             self._trace.asked(f"the loop woke {(now_s - self._slept_until_s) * 1e3:.1f} ms late, and something was due")
         if starts:
-            self._outputs.emission_started()
+            self.outputs.emission_started()
             if self._emission_started is not None:
                 self._emission_started()
         then_s = self._next_s(now_s)
@@ -248,7 +237,7 @@ class EventLoop:
 
     def _begins_idle(self, now_s: float, *, touched: bool) -> bool:
         """Switch the outputs off when nothing has been touched for long; whether that was done now."""
-        outputs, scheduler = self._outputs, self._scheduler
+        outputs, scheduler = self.outputs, self._scheduler
         if touched or not outputs.on or scheduler.active or self._playback.accepted is not None or not scheduler.scene.may_idle:
             self._active_s = now_s
             if outputs.idle and (not outputs.wanted or not scheduler.scene.may_idle):
@@ -264,8 +253,8 @@ class EventLoop:
         samples = self._source.read(now_s)
         if not samples:
             return -1, None
-        if self._outputs.idle:
-            self._outputs.wake()
+        if self.outputs.idle:
+            self.outputs.wake()
         finger, offset_s = None, self._clock_estimate.offset_s
         for sample in samples:
             self._scheduler.touch(sample, sample.time_s + offset_s)
@@ -317,7 +306,7 @@ class EventLoop:
 
     def _next_s(self, now_s: float) -> float | None:
         """Host time of the next turn; None at the end of a replay."""
-        outputs, playback, dispatcher = self._outputs, self._playback, self._dispatcher
+        outputs, playback, dispatcher = self.outputs, self._playback, self._dispatcher
         if outputs.unwanted:
             return now_s
         read_s = self._source.next_time_s()

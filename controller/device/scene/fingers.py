@@ -164,7 +164,7 @@ class ActiveEffects:
         """Go on in another scene: trains of regions end, those of commands go on."""
         self._scene = scene
         self._set_trains([train for train in self._trains if train.region == COMMAND])
-        self._enter(OUTSIDE if self.finger is None else scene.region_at(self.x_m, self.y_m))
+        self._enter(OUTSIDE if self.finger is None else scene.lookup.at(self.x_m, self.y_m))
 
     def change_layers(self, scene: Scene) -> None:
         """Go on under other layers over the same scene, or layers at other places; nothing is felt of that itself.

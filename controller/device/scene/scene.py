@@ -192,10 +192,6 @@ class Scene:
                 return at
         raise ConfigError(f"no region {name!r}: neither of this client nor of the scene")
 
-    def region_at(self, x_m: float, y_m: float) -> int:
-        """Index of the first region that contains the point (x_m, y_m), or OUTSIDE."""
-        return self.lookup.at(x_m, y_m)
-
 
 def load_scene(file: Path, board: Board) -> Scene:
     """Read a scene.toml, checked against the board on which it is played; raises ConfigError, naming file, key and value."""

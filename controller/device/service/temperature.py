@@ -32,6 +32,7 @@ class Thermometer:
         self.cause = ""  # why the last attempt gave no valid reading; empty if it did
         self._settings = settings
         self._sensor = sensor or sensor_of(settings)
+        self.close = self._sensor.close
         self._good_s = -math.inf
         self._doubtful_c = math.nan  # the reading before, if its step was too large
         self._retry_s = -math.inf
@@ -43,10 +44,6 @@ class Thermometer:
         if now_s - self._good_s > HOLD_S:
             self.temperature_c = math.nan
         return 1.0 if math.isnan(self.temperature_c) else self._settings.scale(self.temperature_c)
-
-    def close(self) -> None:
-        """Close the sensor."""
-        self._sensor.close()
 
     def _read(self, now_s: float) -> None:
         settings = self._settings

@@ -54,6 +54,7 @@ class SensorProcess:
 
     def __init__(self, worker: Worker) -> None:
         self._worker = worker
+        self.close = worker.close
         self._ask()
 
     def read_c(self) -> float | None:
@@ -72,10 +73,6 @@ class SensorProcess:
         if number:
             raise OSError(number, said)
         return float(reading_c)
-
-    def close(self) -> None:
-        """End the process."""
-        self._worker.close()
 
     def _ask(self) -> None:
         self._asked_s = time.monotonic()

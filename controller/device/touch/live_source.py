@@ -24,16 +24,13 @@ class LiveSource:
         self.silence = Silence()  # to be set before a read by whoever waits for `fileno`
         self.touched = False  # see `TouchSource.touched`
         self._reader = reader
+        self.fileno = reader.fileno  # it changes when the panel is opened again; None while the panel is lost
+        self.close = reader.close
         self._board = board
         self._own_warnings: Counter[str] = Counter()
         self._clock = ReportClock(self._own_warnings)
         self._decoder = self._renewed(None)
         self.counts: Counts = self._decoder.counts  # reports, contacts and fingers since the start, reconnections included
-
-    @property
-    def axes(self) -> PanelAxes:
-        """Axes of the device as it was opened last."""
-        return self._axes
 
     @property
     def warnings(self) -> Counter[str]:
@@ -44,10 +41,6 @@ class LiveSource:
     def present(self) -> bool:
         """Whether the panel is connected."""
         return self._reader.present
-
-    def fileno(self) -> int | None:
-        """File of the driver; it changes when the panel is opened again, None while the panel is lost."""
-        return self._reader.fileno()
 
     def next_time_s(self) -> float | None:
         """When the driver wants to be read (`EventReader.next_time_s`), or a decision is due without a report."""
@@ -73,16 +66,12 @@ class LiveSource:
         self.touched = self._decoder.touched
         return samples or ()
 
-    def close(self) -> None:
-        """Close the device."""
-        self._reader.close()
-
     def _renewed(self, before: Decoder | None) -> Decoder:
         """Decoder for the device as its driver describes it now, after the one before a reconnection."""
         self._description = description = self._reader.description
         protocol = protocol_of_device(description.axes)
         codes = ev.POSITIONS_SINGLE if protocol is Protocol.SINGLE else ev.POSITIONS
         x, y = (AxisRange(description.axes[code].minimum, description.axes[code].maximum) for code in codes)
-        self._axes = PanelAxes(self._board, x, y)
+        self.axes: PanelAxes = PanelAxes(self._board, x, y)
         slots = description.axes.get(ev.ABS_MT_SLOT)
-        return Decoder(self._axes, protocol, last_slot=slots.maximum if slots else None, after=before)
+        return Decoder(self.axes, protocol, last_slot=slots.maximum if slots else None, after=before)

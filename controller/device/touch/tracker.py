@@ -85,6 +85,7 @@ class Tracker:
         self.tracking = TrackerCounts()  # contacts held back and bridged
         self.rate = ReportRate()  # measured report period and jitter of the panel
         self._source = source
+        self.fileno, self.close = source.fileno, source.close
         self._bridged = bridged
         self._motion = motion
         self._lag_s = settings.lag_s
@@ -118,14 +119,6 @@ class Tracker:
             "report_period_ms": None if median_s is None else round(median_s * 1e3, 3),
             "report_jitter_ms": None if jitter_s is None else round(jitter_s * 1e3, 3),
         }
-
-    def fileno(self) -> int | None:
-        """File of the source."""
-        return self._source.fileno()
-
-    def close(self) -> None:
-        """Close the source."""
-        self._source.close()
 
     def next_time_s(self) -> float | None:
         """When the source is due, a contact that waits is due, or quiet time may be asked for again."""

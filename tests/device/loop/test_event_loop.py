@@ -801,7 +801,7 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
     """Only what has begun can be stopped."""
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {}), (1.0, {})], evemu_text, CLICK)
-        loop._outputs = SimpleNamespace(on=True, unwanted=False, next_s=lambda: 10.5)
+        loop.outputs = SimpleNamespace(on=True, unwanted=False, next_s=lambda: 10.5)
         loop._source = SimpleNamespace(next_time_s=lambda: None, fileno=lambda: 0)
         loop._dispatcher.quiet_until_s = 10.2
         assert loop._next_s(9.9985) == 10.2

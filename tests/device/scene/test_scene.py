@@ -82,7 +82,7 @@ def test_a_scene_up_to_the_edge_of_the_largest_and_smallest_plate_can_be_handed_
 def test_a_region_is_found_as_by_asking_one_after_the_other(x_m, y_m):
     for scene in (LIBRARY_SCENE, Scene(LIBRARY_SCENE.regions[:-1]), Scene(())):
         asked = [index for index, region in enumerate(scene.regions) if region.shape.contains(x_m, y_m)]
-        assert scene.region_at(x_m, y_m) == (asked[0] if asked else OUTSIDE)
+        assert scene.lookup.at(x_m, y_m) == (asked[0] if asked else OUTSIDE)
 
 
 @pytest.mark.parametrize("side", [1e-20, 1e-300])
@@ -90,13 +90,13 @@ def test_a_region_without_width_in_floating_point_is_a_scene_nevertheless(scene_
     scene = scene_of(
         f'name = "thin"\nshape = "rectangle"\nx_mm = 50\ny_mm = 50\nwidth_mm = {side}\nheight_mm = {side}\neffects = ["click"]'
     )
-    assert (scene.region_at(0.05, 0.05), scene.region_at(0.06, 0.05)) == (0, OUTSIDE)
+    assert (scene.lookup.at(0.05, 0.05), scene.lookup.at(0.06, 0.05)) == (0, OUTSIDE)
     assert unpack_scene(pack_scene(scene)) == scene
 
 
 def test_the_far_rim_belongs_to_a_scene():
     shape = Rectangle(0.1, 0.05, 0.21, 0.148)
-    assert [press_scene(shape).region_at(x, y) for x, y in ((0.21, 0.148), (0.1, 0.05), (0.21, 0.05), (0.0999, 0.05))] == [
+    assert [press_scene(shape).lookup.at(x, y) for x, y in ((0.21, 0.148), (0.1, 0.05), (0.21, 0.05), (0.0999, 0.05))] == [
         0,
         0,
         0,

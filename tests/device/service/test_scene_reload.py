@@ -428,7 +428,7 @@ def test_whatever_the_helper_answers_the_loop_gets_a_scene_that_is_right_or_a_li
         assert "\n" not in done.reason
     else:
         for x_m in (-1.0, 0.0, 0.1, 0.2, 5.0):
-            assert -1 <= done.scene.region_at(x_m, 0.07) < len(done.scene.regions)
+            assert -1 <= done.scene.lookup.at(x_m, 0.07) < len(done.scene.regions)
 
 
 def test_an_answer_that_says_it_is_too_large_is_refused_before_it_is_there(lied_to):

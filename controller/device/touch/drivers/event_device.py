@@ -18,7 +18,7 @@ from controller.device.touch import event_codes as ev
 from controller.device.touch.drivers.evdev_library import evdev
 from controller.device.touch.drivers.input_device import open_touch_device
 from controller.device.touch.event_codes import EV_SYN, SYN_DROPPED, SYN_REPORT, Protocol, protocol_of_device
-from controller.device.touch.event_reader import DeviceDescription, Event
+from controller.device.touch.event_reader import Event
 from controller.errors import TouchError
 
 RETRY_S: Final = 0.5  # between attempts to open a lost panel
@@ -56,11 +56,6 @@ class LinuxInput:
         self._retry_s = 0.0
         self._opened: evdev.InputDevice[str] | None = None
         self._open()
-
-    @property
-    def description(self) -> DeviceDescription:
-        """Of the device as it was opened last."""
-        return self._description
 
     @property
     def present(self) -> bool:
@@ -150,9 +145,10 @@ class LinuxInput:
             return  # still absent, or another device has its name
 
     def _open(self) -> None:
-        self._opened, self._description = open_touch_device(self._device, grab=self._grab)
-        self._protocol = protocol_of_device(self._description.axes)
-        slot_axis = self._description.axes.get(ev.ABS_MT_SLOT)
+        # As it was opened last
+        self._opened, self.description = open_touch_device(self._device, grab=self._grab)
+        self._protocol = protocol_of_device(self.description.axes)
+        slot_axis = self.description.axes.get(ev.ABS_MT_SLOT)
         self._slots = min(max(slot_axis.maximum, 0), MAX_SLOTS - 1) + 1 if slot_axis else 0
         self._state_due = True
 
@@ -172,7 +168,7 @@ class LinuxInput:
 
     def _state(self, device: evdev.InputDevice[str], now_s: float) -> list[Event]:
         events: list[Event] = []
-        axes = self._description.axes
+        axes = self.description.axes
         if self._protocol is Protocol.A:  # the kernel keeps no state of protocol A
             return release_report(self._protocol, 0, now_s)
         if self._protocol is Protocol.B:
@@ -183,7 +179,7 @@ class LinuxInput:
             events.append((ev.EV_ABS, ev.ABS_MT_SLOT, device.absinfo(ev.ABS_MT_SLOT).value, now_s))
         else:
             events += [(ev.EV_ABS, code, device.absinfo(code).value, now_s) for code in ev.POSITIONS_SINGLE]
-        if ev.BTN_TOUCH in self._description.codes.get(ev.EV_KEY, ()):
+        if ev.BTN_TOUCH in self.description.codes.get(ev.EV_KEY, ()):
             events.append((ev.EV_KEY, ev.BTN_TOUCH, int(ev.BTN_TOUCH in device.active_keys()), now_s))
         events.append((ev.EV_SYN, ev.SYN_REPORT, 0, now_s))
         return events

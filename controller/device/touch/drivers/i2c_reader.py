@@ -72,7 +72,8 @@ class I2cReader:
         self._lines = PanelLines(settings.interrupt_chip, settings.interrupt_line, settings.reset_line)
         self._bus = I2cBus(settings.bus, warnings)
         self._contacts = ContactEvents(sized=False)
-        self._present = False
+        self.present = False  # whether the chip answered the last transfer
+        self.fileno = self._lines.fileno  # of the interrupt line
         self._starting: Iterator[float] | None = None
         self._next_s = 0.0
         self._edge_s: float | None = None  # of an edge without a report so far
@@ -97,22 +98,13 @@ class I2cReader:
         """Description of the chip as it was started last."""
         return self._chip.description
 
-    @property
-    def present(self) -> bool:
-        """Whether the chip answered the last transfer."""
-        return self._present
-
-    def fileno(self) -> int | None:
-        """File of the interrupt line."""
-        return self._lines.fileno()
-
     def next_time_s(self) -> float | None:
         """When to read without an edge, or to do the next step of a start."""
         return self._next_s
 
     def read(self, now_s: float) -> Sequence[Event]:
         """Events of the newest report by `now_s`; see `EventReader.read`."""
-        if not self._present:
+        if not self.present:
             if now_s >= self._next_s:
                 self._continue_start(now_s)
             return ()
@@ -147,7 +139,7 @@ class I2cReader:
         """Close bus and lines."""
         self._lines.close()
         self._bus.close()
-        self._present = False
+        self.present = False
 
     def _no_report(self, now_s: float) -> Sequence[Event]:
         if self._contacts.down and now_s - self._report_s > STUCK_TIMEOUT_S:
@@ -186,7 +178,7 @@ class I2cReader:
     def _lost(self, now_s: float, kind: str) -> Sequence[Event]:
         """Lift every contact of a lost chip, which is started again after `RETRY_S`."""
         self.warnings[kind] += 1
-        self._present = False
+        self.present = False
         self._edge_s = None
         self._lines.release_interrupt()
         self._next_s = now_s + RETRY_S
@@ -198,7 +190,7 @@ class I2cReader:
         self._contacts = ContactEvents(sized=ev.ABS_MT_TOUCH_MAJOR in self._chip.description.axes)
         self._watch.started()
         self._rest_seen = False
-        self._present = True
+        self.present = True
 
     def _continue_start(self, now_s: float) -> None:
         """Do one step of a start; other reads go on between the steps."""

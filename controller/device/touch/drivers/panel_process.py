@@ -81,11 +81,8 @@ class PanelProcess:
         self.present = False  # whether the panel was connected when the process last reported it
         self.cause = ""  # why it is not connected; empty while it is, and before the first attempt to open it
         self._worker = worker
+        self.fileno, self.close = worker.fileno, worker.close
         self._hangs_s = math.inf  # when the process is taken to hang unless it has sent a message
-
-    def fileno(self) -> int:
-        """Socket to the process."""
-        return self._worker.fileno()
 
     def next_time_s(self) -> None:
         """None: the process sends a message when something is due."""
@@ -114,10 +111,6 @@ class PanelProcess:
         elif kind == WARNINGS:
             self.warnings = Counter(_warnings.decode(body))
         return ()
-
-    def close(self) -> None:
-        """End the process."""
-        self._worker.close()
 
 
 def serve_panel(open_reader: Callable[[], EventReader], loop: socket.socket, shared: SharedPanel | None = None) -> None:

@@ -16,7 +16,6 @@ from controller.device.board.touch_panels import Address, Extent, I2cTouch
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ReportedContact, describe
 from controller.device.touch.drivers.counted_report import CountedReads, CountedReport, contacts_at
 from controller.device.touch.drivers.i2c_bus import I2cBus, Transfer
-from controller.device.touch.event_reader import DeviceDescription
 from controller.errors import TouchError
 
 if TYPE_CHECKING:
@@ -117,11 +116,6 @@ class Ft5x06:
         self._use(m06=False)
         self._stale: bytes | None = None  # report found at the start
 
-    @property
-    def description(self) -> DeviceDescription:
-        """Description of the chip as it was started last; its extents are those of board.toml, as the chip does not report any."""
-        return self._description
-
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
         """Reset the chip if `lines` has a reset line, identify it on `bus`, set it to working mode; see `Chip.start`."""
         address = self._settings.address
@@ -144,7 +138,7 @@ class Ft5x06:
             if refused:
                 registers = ", ".join(f"0x{register:02X}" for register in refused)
                 remark = f"the touch panel on {self._settings.bus} refuses registers {registers}: it is used without them"
-        self._description = describe(name, firmware, self._settings.width, self._settings.height, sized=False, remark=remark)
+        self.description = describe(name, firmware, self._settings.width, self._settings.height, sized=False, remark=remark)
         bus.fetch(self._short)
         self._stale = bytes(self._short.data) if self._holds_contacts() else None
 

@@ -95,11 +95,6 @@ class Gt911:
         self._warnings = warnings
         self._use(settings.address)
 
-    @property
-    def description(self) -> DeviceDescription:
-        """Description of the chip as it was started last."""
-        return self._description
-
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
         """Reset the chip to its address if `lines` has a reset line, identify it on `bus`; see `Chip.start`."""
         if lines.has_reset:
@@ -112,7 +107,7 @@ class Gt911:
             registers = ", ".join(f"0x{register}" for register in refused)
             remark = f"the touch panel on {self._settings.bus} refuses registers {registers}: it is used without them"
         name = f"GT{product_of(product, self._settings.bus)}" if product else "Goodix of unknown product"
-        self._description = self._described(name, config, int.from_bytes(product[4:6], "little") if product else 0, remark)
+        self.description = self._described(name, config, int.from_bytes(product[4:6], "little") if product else 0, remark)
         if config:
             self.rising = config[6] & 0x03 in RISING_INTERRUPT
             self.scan_s = (SHORTEST_SCAN_MS + (config[15] & 0x0F)) * 1e-3

@@ -63,10 +63,6 @@ class SmartSetParser:
             self._skip_to(buffer.find(LEAD, 1))  # a packet may begin inside the invalid one
         return None
 
-    def reset(self) -> None:
-        """Discard an incomplete packet."""
-        self._buffer.clear()
-
     def _skip_to(self, start: int) -> None:
         """Discard the bytes before `start`; all if it is negative."""
         start = len(self._buffer) if start < 0 else start
@@ -94,11 +90,6 @@ class SerialPanel:
             self._open()
         except (OSError, ValueError) as error:
             raise TouchError(_open_error(settings, error)) from error
-
-    @property
-    def description(self) -> DeviceDescription:
-        """Description of a SmartSet panel; the same for all."""
-        return self._description
 
     @property
     def present(self) -> bool:
@@ -155,12 +146,12 @@ class SerialPanel:
 
         self._port = serial.Serial(self._settings.device, self._settings.baud, timeout=0, exclusive=True)
         self._poll.register(self._port.fileno(), select.POLLIN)
-        self._parser.reset()
+        self._parser = SmartSetParser()
         self._more = False
         self._strange = 0
         codes = {ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
         axes = dict.fromkeys(ev.POSITIONS_SINGLE, AxisInfo(0, MAX_COORDINATE))
-        self._description = DeviceDescription(
+        self.description = DeviceDescription(
             "Elo SmartSet", ev.BUS_RS232, properties=(ev.INPUT_PROP_DIRECT,), codes=codes, axes=axes
         )
 
