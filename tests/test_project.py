@@ -46,7 +46,7 @@ def test_no_code_is_left_that_nothing_uses():
     from vulture import Vulture
 
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["vulture"]
-    found = Vulture(ignore_names=settings["ignore_names"])
+    found = Vulture(ignore_names=settings["ignore_names"], ignore_decorators=settings["ignore_decorators"])
     found.scavenge([ROOT / path for path in settings["paths"]])
     lines = {path: path.read_text().splitlines() for path in (ROOT / "controller").rglob("*.py")}
     unused = [
