@@ -83,6 +83,7 @@ def _table(figures: dict[str, Any]) -> str:
         f"{'recorder fast by':<26}{reported('clock_ppm', ' ppm')} (to {reported('clock_error_ppm', ' ppm')})",
         f"{'records late by':<26}{reported('delay_us', ' us')}",
         f"{'strength':<26}{reported('strength')} of what board.toml foresees",
+        f"{'measuring frame':<26}{figures['frame'] or 'not found'}",
         "",
         f"{'channel':>7}{'points':>8}{'coherence':>11}{'SNR (dB)':>10}{'strength':>10}",
     ]

@@ -46,15 +46,26 @@ class DirectWaves:
 
 def direct_transfer(board: Board, bins: RawBins, points_m: Floats, factor: float = 1.0) -> Complex:
     """G of each point and patch, (point, actuator, bin) in m s per V; zero nearer than a wavelength."""
-    frequency_hz = bins.frequency_hz
+    return direct_wave(board, bins.frequency_hz, bins.bit_clock_hz, points_m, factor)
+
+
+def direct_wave(
+    board: Board,
+    frequency_hz: Floats,
+    bit_clock_hz: float,
+    points_m: Floats,
+    factor: float = 1.0,
+    patches: slice | NDArray[np.intp] = slice(None),
+) -> Complex:
+    """The same at any frequencies."""
+    actuators = np.array([(a.x_mm, a.y_mm, a.size_mm) for a in board.actuators])[patches] * 1e-3
     dispersion = replace(Dispersion.of(board.plate), factor=factor)
     k = dispersion.wavenumber(frequency_hz)
-    places_m = np.array([(a.x_mm, a.y_mm) for a in board.actuators]) * 1e-3
-    size_m = np.array([a.size_mm for a in board.actuators])[:, None] * 1e-3
-    away_m = points_m[:, None] - places_m
+    away_m = points_m[:, None] - actuators[:, :2]
+    size_m = actuators[:, 2:]
     r = np.maximum(np.hypot(away_m[..., 0], away_m[..., 1]), 1e-9)[..., None]
     along, across = (size_m * away_m[..., axis, None] / r * k / (2 * np.pi) for axis in (0, 1))
-    drive = DriverResponse.of(board.driver).transfer(2j * np.pi * frequency_hz) * held_spectrum(frequency_hz, 1 / bins.bit_clock_hz)
+    drive = DriverResponse.of(board.driver).transfer(2j * np.pi * frequency_hz) * held_spectrum(frequency_hz, 1 / bit_clock_hz)
     strength = -1j * board.driver.moment_n_per_v * size_m**2 / (8 * dispersion.stiffness_nm) * np.sinc(along) * np.sinc(across)
     wave: Complex = drive * strength * np.sqrt(2 / (np.pi * k * r)) * np.exp(-1j * (k * r - np.pi / 4))
     return np.where(k * r > 2 * np.pi * NEAR_WAVELENGTHS, wave, 0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ from controller.workshop.calibration.checking.checks import Objection, raise_fat
 from controller.workshop.calibration.checking.findings import findings_of, remarks_on
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
+from controller.workshop.calibration.frame import Frame, locate, middle_m
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.point_cache import PointCache
 from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
@@ -39,6 +40,7 @@ class Learned:
     clock: RecorderClock
     delay_s: float  # by which what happened is later in the records than they say; corrected
     waves: DirectWaves | None
+    frame: Frame | None  # of the points' stated places; corrected if it is another one than they say. None: not found
     excited_hz: tuple[float, float]  # what was played excites this band
     residual: Floats  # (point,): share of the records' power that no drive explains
     learned_anew: int  # points that were not in the cache
@@ -77,6 +79,7 @@ def learn(
     widest_s = STATED_DELAY_S if stated else end_s / 2
     clock, delay_s = _clock_and_delay(measurement, board, deconvolution, there, widest_s)
     results, files, again = _transfers(measurement, board, deconvolution, there, clock, cache, progress)
+    frame, measurement, moved = _located(measurement, board, deconvolution, results)
     waves = _waves(measurement, board, deconvolution, results, widest_s)
     if waves is not None:
         delay_s = waves.delay_s
@@ -90,11 +93,11 @@ def learn(
     count = 2 * board.waveform.samples if samples is None else samples
     responses, ringing = responses_in_time(measurement, board, deconvolution, results, count, delay_s, files)
     findings = findings_of(measurement, board, deconvolution, results, responses, waves)
-    findings += remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)
+    findings += [*moved, *remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)]
     residual = np.full(len(measurement.names), np.nan)
     for point, found in results.items():
         residual[point] = found.residual
-    return Learned(measurement, responses, tuple(findings), clock, delay_s, waves, excited_hz, residual, again)
+    return Learned(measurement, responses, tuple(findings), clock, delay_s, waves, frame, excited_hz, residual, again)
 
 
 def _clock_and_delay(
@@ -107,6 +110,24 @@ def _clock_and_delay(
     waves = _waves(measurement, board, deconvolution, rough, widest_s)
     delay_s = 0.0 if waves is None else waves.delay_s
     return clock_of(deconvolution, list(records.values()), delay_s), delay_s
+
+
+def _located(
+    measurement: Measurement, board: Board, deconvolution: Deconvolution, results: dict[int, Transfers]
+) -> tuple[Frame | None, Measurement, list[Objection]]:
+    """The frame of the points, the measurement with their places on the plate, and what is said of it."""
+    points, stated_m = list(results), measurement.points_m
+    transfers = np.stack([found.transfer for found in results.values()])
+    resolved = np.stack([found.resolved for found in results.values()])
+    frame = locate(board, deconvolution.bins, stated_m[points], transfers, resolved)
+    if frame is None or not frame.differs(board, stated_m[points]):
+        return frame, measurement, []
+    places_m = np.clip(frame.places(stated_m, middle_m(board)), 0, (board.plate.length_m, board.plate.width_m))
+    return (
+        frame,
+        replace(measurement, points_m=places_m),
+        [Objection("frame", f"points lie elsewhere than stated, corrected: {frame.in_words()}")],
+    )
 
 
 def _waves(

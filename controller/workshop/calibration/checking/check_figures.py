@@ -49,6 +49,7 @@ def check_figures(board: Board, learned: Learned) -> dict[str, Any]:
         "clock_error_ppm": round(learned.clock.error_ppm, 2) if learned.clock.reported else None,
         "delay_us": None if waves is None else round(waves.delay_s * 1e6, 1),
         "strength": None if waves is None else _number(np.nanmedian, np.diag(waves.strength)[channels], 2),
+        "frame": None if learned.frame is None else learned.frame.in_words(),
         "channels": [
             {
                 "channel": channel,

@@ -14,7 +14,9 @@ from controller.errors import CalibrationError
 from controller.workshop.calibration.direct_wave import DirectWaves
 
 Floats = NDArray[np.float64]
-Kind = Literal["dead", "swapped", "inverted", "clipped", "strength", "missing", "noisy", "delay", "clock", "board", "short", "band"]
+Kind = Literal[
+    "dead", "swapped", "inverted", "clipped", "strength", "missing", "noisy", "delay", "clock", "board", "short", "band", "frame"
+]
 FATAL: tuple[Kind, ...] = ("dead", "swapped", "inverted", "clipped", "strength")  # what makes a bank wrong, unless it is accepted
 
 DEAD_POWER = 1e-2  # of the median channel
