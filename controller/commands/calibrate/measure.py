@@ -66,7 +66,7 @@ def add(step: argparse.ArgumentParser) -> None:
 def measure(options: argparse.Namespace) -> int:
     """Measure every point that the folder does not hold yet."""
     from controller.workshop.calibration.recording.excitation import drive_words, period_s, ringing_s
-    from controller.workshop.calibration.recording.in_place import BEFORE_S, Excitation, InPlace
+    from controller.workshop.calibration.recording.in_place import Excitation, InPlace, samples_before
     from controller.workshop.calibration.records.measurement_writer import claim, write_measurement, write_records
     from controller.workshop.calibration.records.points import read_points
     from controller.workshop.gateware.simulated_link import open_simulated
@@ -88,7 +88,7 @@ def measure(options: argparse.Namespace) -> int:
         used = recorder or sensor
         if used is None:
             raise UsageError("which sensor? give --alsa NAME or --serial TTY")
-        folder, settings = Path(options.folder), _settings(options, board, used, -1e6 * BEFORE_S)
+        folder, settings = Path(options.folder), _settings(options, board, used, -1e6 * samples_before(used.rate_hz) / used.rate_hz)
         claim(folder, settings)
         write_measurement(folder, settings, names, points_m, words)
         files = [folder / settings.records.files.format(point=name) for name in names]

@@ -13,13 +13,15 @@ Floats = NDArray[np.float64]
 
 BELOW: Final = 0.35  # of the rate: what lies above may be an alias
 LEAST_CORRELATION: Final = 0.5  # of the second track with what the channel played
+ALIKE: Final = 0.8  # of the largest correlation: emissions are alike up to their signs, and the first of them is meant
 
 
 def begin_of(sync: Floats, rate_hz: float, levels: NDArray[np.bool_], bit_clock_hz: float, nominal: float, slack: int) -> float:
     """Sample, with its fraction, at which the first word of an emission begins.
 
     `sync` (sample,) is the second track, in any unit and of either sign; `levels` (word,) are what the channel played. The emission
-    is expected at `nominal`, up to `slack` samples earlier or later. Raises CalibrationError if it is not found there.
+    is expected at `nominal`, up to `slack` samples earlier or later; of several that are alike the first is taken. Raises
+    CalibrationError if it is not found there.
     """
     count = round(len(levels) / bit_clock_hz * rate_hz)
     first = max(round(nominal) - slack, 0)
@@ -31,7 +33,8 @@ def begin_of(sync: Floats, rate_hz: float, levels: NDArray[np.bool_], bit_clock_
     expected = _spectrum(levels, bit_clock_hz, frequency_hz)
     cross = np.fft.rfft(heard - heard.mean(), length) * expected.conj()
     lags = np.abs(np.fft.irfft(cross, length)[: len(heard) - count + 1])
-    best = int(np.argmax(lags))
+    first_alike = int(np.argmax(lags >= ALIKE * lags.max()))
+    best = first_alike + int(np.argmax(lags[first_alike : first_alike + count // 2]))
     window = heard[best : best + count]
     loudest = np.sqrt(np.sum((window - window.mean()) ** 2) * np.sum(np.abs(np.fft.irfft(expected, length)) ** 2))
     if not loudest or lags[best] < LEAST_CORRELATION * loudest:

@@ -24,7 +24,7 @@ from controller.workshop.calibration.alignment import begin_of, shifted
 
 Floats = NDArray[np.float64]
 
-BEFORE_S: Final = 0.2e-3  # of a record, before the first drive word
+BEFORE_S: Final = 0.2e-3  # of a record, before the first drive word, to the nearest sample
 LEAD_S: Final = 20e-3  # from the start of the recorder to the first emission, beside the time that an upload takes
 SLACK_S: Final = 0.25  # by which a recorder may begin late
 NEAR_SAMPLES: Final = 20  # by which an emission may differ from where the one before it lets it be expected
@@ -53,6 +53,11 @@ class Recorder(Protocol):
 
     def close(self) -> None:
         """Close the device."""
+
+
+def samples_before(rate_hz: float) -> int:
+    """Samples of a record before the first drive word."""
+    return round(BEFORE_S * rate_hz)
 
 
 def date_now() -> str:
@@ -94,7 +99,7 @@ class InPlace:
     def measure(self) -> Floats:
         """Play all emissions and record them; the outputs are off afterwards.
 
-        The records (emission, repetition, sample) are in the sensor's unit; the first sample is `BEFORE_S` before the first word,
+        The records (emission, repetition, sample) are in the sensor's unit; the first sample is `samples_before` the first word,
         or at the trigger. Raises LinkError or FaultError if the FPGA does not play all of them; CalibrationError if the recorder
         fails, or does not hear them.
         """
@@ -167,7 +172,7 @@ class InPlace:
                 begin = begin_of(track[:, 1], rate_hz, levels, waveform.bit_clock_hz, nominal, NEAR_SAMPLES)
             except CalibrationError as error:
                 raise CalibrationError(f"emission {emission}, repetition {repetition}: {error}") from None
-            records[emission, repetition] = shifted(track[:, 0], begin, round(BEFORE_S * rate_hz), count)
+            records[emission, repetition] = shifted(track[:, 0], begin, samples_before(rate_hz), count)
             nominal = begin + self.period_s * rate_hz
         return records
 
