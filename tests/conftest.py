@@ -102,6 +102,7 @@ def pytest_terminal_summary(terminalreporter, config):
         terminalreporter.write_line(line)
 
 
+KEPT_LIBRARIES = 30  # of compiled gateware, each under the hash of all that it is built from
 PITCH_M = 10e-3  # 20 x 13 cells: built in a second
 
 
@@ -119,11 +120,12 @@ def bank_file(board, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def state_folder(tmp_path_factory):
-    """A cache apart from the user's: banks of this process, compiled gateware of all processes, each library built once."""
-    base = tmp_path_factory.getbasetemp()
-    folder, shared = base / "state", (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "gateware"
+    """A cache apart from the user's: banks of this process; compiled gateware of all runs, the libraries that are newest."""
+    folder, shared = tmp_path_factory.getbasetemp() / "state", Path(sys.prefix, "gateware")
     folder.mkdir()
     shared.mkdir(exist_ok=True)
+    for library in sorted(shared.glob("*.so"), key=lambda path: path.stat().st_mtime)[:-KEPT_LIBRARIES]:
+        library.unlink(missing_ok=True)  # by the process of another run
     (folder / "gateware").symlink_to(shared)
     return folder
 

@@ -27,7 +27,7 @@ def simulator(tmp_path_factory):
     from simulators import environment
 
     with pytest.MonkeyPatch.context() as patch:
-        for name, value in environment(tmp_path_factory.mktemp("verilator")).items():
+        for name, value in environment(tmp_path_factory.mktemp("verilator"), Path(sys.prefix, "objects")).items():
             patch.setenv(name, value)
         yield "verilator"
 

@@ -1,10 +1,5 @@
 """Runs every bench of benches.py, then judges what they covered."""
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from benches import BENCHES, RUNS, SLOW_RUNS, make_variables
@@ -27,27 +22,27 @@ def one_entry_bank(board, tmp_path_factory):
     return path
 
 
-def perform(run, simulator, bank, folder, **variables):
-    """One bench, in a process of its own; it must pass."""
-    environment = os.environ | {
-        "HAPTIC_PANEL_TEST_BANK": str(bank),
-        "PYTHONPATH": os.pathsep.join(sys.path),
-        "MAKEFLAGS": make_variables(run),
-        **variables,
-    }
-    command = [sys.executable, Path(__file__).parent / "benches.py", run, simulator, folder]
-    done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    assert done.returncode == 0, done.stdout[-10_000:]
+@pytest.fixture
+def perform(simulator, one_entry_bank, tmp_path, monkeypatch):
+    """One bench; it must pass."""
+
+    def run_bench(run, **variables):
+        variables |= {"HAPTIC_PANEL_TEST_BANK": str(one_entry_bank), "MAKEFLAGS": make_variables(run)}
+        for name, value in variables.items():
+            monkeypatch.setenv(name, value)
+        (RUNS | SLOW_RUNS)[run](simulator=simulator, folder=tmp_path)
+
+    return run_bench
 
 
 @pytest.mark.slow
-def test_the_core_does_what_the_model_does_through_a_thousand_random_frames(simulator, one_entry_bank, tmp_path):
-    perform("haptic_core", simulator, one_entry_bank, tmp_path, HAPTIC_PANEL_RANDOM_FRAMES="1000")
+def test_the_core_does_what_the_model_does_through_a_thousand_random_frames(perform):
+    perform("haptic_core", HAPTIC_PANEL_RANDOM_FRAMES="1000")
 
 
 @pytest.mark.parametrize("run", [*RUNS, *(pytest.param(run, marks=pytest.mark.slow) for run in SLOW_RUNS)])
-def test_bench(run, simulator, one_entry_bank, verilog_coverage, tmp_path):
-    perform(run, simulator, one_entry_bank, tmp_path)
+def test_bench(run, perform, simulator, verilog_coverage, tmp_path):
+    perform(run)
     if simulator == "verilator" and run in BENCHES:
         verilog_coverage[run] = read(tmp_path / "coverage.dat")
 
