@@ -13,6 +13,7 @@ STEPS = {  # in the order of --help, which prints these texts; each is a module 
     "channels": "which disc each channel moves: put a finger where it buzzes, no sensor needed",
     "plan": "where to measure the plate, and how long it takes",
     "measure": "measure the plate in place: play through the panel's FPGA, and record a sensor point by point",
+    "wiring": "which patch each channel drives: swapped, inverted and dead channels, from a few points",
     "check": "read and deconvolve measurements, and name what is wrong with them",
     "bank": "build the bank of a plate from its measurements",
     "simulate": "write the measurements of a simulated plate that differs from the board's",

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
-from controller.workshop.calibration.checking.checks import Objection, raise_fatal
+from controller.workshop.calibration.checking.checks import NOISY_COHERENCE, Objection, raise_fatal
 from controller.workshop.calibration.checking.findings import findings_of, remarks_on
+from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
 from controller.workshop.calibration.frame import Frame, locate, middle_m
@@ -41,6 +42,7 @@ class Learned:
     delay_s: float  # by which what happened is later in the records than they say; corrected
     waves: DirectWaves | None
     frame: Frame | None  # of the points' stated places; corrected if it is another one than they say. None: not found
+    wiring: Wiring
     excited_hz: tuple[float, float]  # what was played excites this band
     residual: Floats  # (point,): share of the records' power that no drive explains
     learned_anew: int  # points that were not in the cache
@@ -92,12 +94,12 @@ def learn(
         delay_s = 0.0
     count = 2 * board.waveform.samples if samples is None else samples
     responses, ringing = responses_in_time(measurement, board, deconvolution, results, count, delay_s, files)
-    findings = findings_of(measurement, board, deconvolution, results, responses, waves)
+    findings, wiring = findings_of(measurement, board, deconvolution, results, responses, waves)
     findings += [*moved, *remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)]
     residual = np.full(len(measurement.names), np.nan)
     for point, found in results.items():
         residual[point] = found.residual
-    return Learned(measurement, responses, tuple(findings), clock, delay_s, waves, frame, excited_hz, residual, again)
+    return Learned(measurement, responses, tuple(findings), clock, delay_s, waves, frame, wiring, excited_hz, residual, again)
 
 
 def _clock_and_delay(
@@ -135,7 +137,7 @@ def _waves(
 ) -> DirectWaves | None:
     points = list(results)[:: max(len(results) // WAVE_POINTS, 1)]
     transfers = np.stack([results[point].transfer for point in points])
-    resolved = np.stack([results[point].resolved for point in points])
+    resolved = np.stack([results[point].resolved & ~(results[point].coherence < NOISY_COHERENCE) for point in points])
     return direct_waves(board, deconvolution.bins, measurement.points_m[points], transfers, resolved, widest_s)
 
 

@@ -22,6 +22,8 @@ Floats = NDArray[np.float64]
 POINTS_PER_HALF_WAVE = 1.5  # of the plate's edge: 250 on the paper's plate
 CANDIDATES = 12  # per point that is there already, of which the farthest from all is taken
 MOST_POINTS = 20_000
+WIRING_MARGIN_M = 30e-3  # from the edges, whose echoes hide which patch a wave came from
+NONE = np.empty((0, 2))
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,15 @@ def grid_points(board: Board) -> Floats:
     return np.concatenate([np.column_stack([x_m[:: -1 if row % 2 else 1], np.full(nx, y)]) for row, y in enumerate(y_m)])
 
 
-def scattered_points(board: Board, count: int, margin_m: float, *, avoid_actuators: bool = False, seed: int = 1) -> Floats:
+def scattered_points(
+    board: Board,
+    count: int,
+    margin_m: float,
+    *,
+    avoid_actuators: bool = False,
+    seed: int = 1,
+    beside_m: Floats = NONE,  # (point, 2): points that are there already
+) -> Floats:
     """Points scattered evenly and without a regular distance, in the order of a short path: (point, 2) in m.
 
     Each is the farthest from those before among random candidates (Mitchell's best candidate).
@@ -84,13 +94,19 @@ def scattered_points(board: Board, count: int, margin_m: float, *, avoid_actuato
     while len(pool) < 4 * count * CANDIDATES:
         some = random.uniform(low, high, (4 * count * CANDIDATES, 2))
         pool = np.concatenate([pool, some[~_on_actuators(board, some)] if avoid_actuators else some])
-    nearest = np.full(len(pool), np.inf)
+    nearest = np.hypot(*(pool[:, None] - beside_m).T).min(axis=0, initial=np.inf)
     points = np.empty((count, 2))
     for index in range(count):
         among = random.choice(len(pool), min(CANDIDATES * (index + 1), len(pool)), replace=False)
         points[index] = pool[among[np.argmax(nearest[among])]]
         np.minimum(nearest, np.hypot(*(pool - points[index]).T), out=nearest)
     return points[short_path(points)]
+
+
+def wiring_points(board: Board, count: int, beside_m: Floats = NONE) -> Floats:
+    """Points that tell which patch each channel drives, beside those that were measured: (point, 2) in m."""
+    margin_m = min(WIRING_MARGIN_M, board.plate.length_m / 4, board.plate.width_m / 4)
+    return scattered_points(board, count, margin_m, avoid_actuators=True, beside_m=beside_m)
 
 
 def short_path(points_m: Floats) -> NDArray[np.intp]:

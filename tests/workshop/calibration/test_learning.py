@@ -213,6 +213,7 @@ def test_everything_that_is_wrong_is_named_with_channel_and_point(tmp_path):
     assert [one.points for one in said["clipped"]] == [("5",)]
     assert [one.points for one in said["missing"]] == [("2",)]
     assert [one.points for one in said["noisy"]] == [("9",)]
+    assert not {2, 3, 5, 6} & {channel for one in said.pop("undecided", ()) for channel in one.channels}  # 8 mm from the edges
     assert set(said) == {"dead", "swapped", "inverted", "clipped", "missing", "noisy"}
     assert not found.responses.known[1].any()
     with pytest.raises(

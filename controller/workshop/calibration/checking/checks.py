@@ -8,22 +8,33 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from controller.errors import CalibrationError
+from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.direct_wave import DirectWaves
 
 Floats = NDArray[np.float64]
 Kind = Literal[
-    "dead", "swapped", "inverted", "clipped", "strength", "missing", "noisy", "delay", "clock", "board", "short", "band", "frame"
+    "dead",
+    "swapped",
+    "inverted",
+    "clipped",
+    "strength",
+    "missing",
+    "noisy",
+    "delay",
+    "clock",
+    "board",
+    "short",
+    "band",
+    "frame",
+    "undecided",
 ]
 FATAL: tuple[Kind, ...] = ("dead", "swapped", "inverted", "clipped", "strength")  # what makes a bank wrong, unless it is accepted
 
 DEAD_POWER = 1e-2  # of the median channel
 DEAD_COHERENCE = 0.2
 NOISY_COHERENCE = 0.5
-FITS, FITS_NOT = 0.5, 0.35  # strength of the direct wave, on the median channel's
-SIGNIFICANT = 3.5  # standard deviations
 STRENGTHS = (0.1, 10.0)  # of all channels, on what board.toml foresees: beyond, a unit is wrong
 SHOWN = 12  # names in a message
 
@@ -82,44 +93,26 @@ def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], dri
     return found
 
 
-def misplaced_channels(waves: DirectWaves, alive: Sequence[int]) -> list[Objection]:
-    """Channels that drive the patch of another one, or the other way round."""
-    own = list(alive)
-    table = waves.strength[np.ix_(own, own)]
-    error = waves.error[own][:, None]
-    if len(own) < 2 or not np.isfinite(table).all():
-        return []
-    rows, columns = linear_sum_assignment(-abs(table))
-    scale = float(np.median(abs(table[rows, columns])))
+def wrong_wires(wiring: Wiring, alive: Sequence[int]) -> list[Objection]:
+    """Channels that drive the patch of another one, or the other way round; and those of which nobody knows."""
     found = []
-    taken = dict(zip(rows.tolist(), columns.tolist(), strict=True))
-    seen: set[int] = set()
-    for start, column in taken.items():
-        if column == start or start in seen:
-            continue
-        circle = [start]
-        while taken[circle[-1]] != start:
-            circle.append(taken[circle[-1]])
-        seen |= set(circle)
-        there = np.array([abs(table[row, taken[row]]) for row in circle])
-        here = np.array([abs(table[row, row]) for row in circle])
-        sure = (there - here > SIGNIFICANT * error[circle, 0]) & (there > FITS * scale) & (here < FITS_NOT * scale)
-        if sure.all():
-            names = sorted(own[row] for row in circle)
-            way = "swapped" if len(names) == 2 else "in the wrong order"
-            text = f"channels {listed(names)} look {way}: each drives another's patch; mend the wiring, or actuators in board.toml"
-            found.append(Objection("swapped", text, tuple(names)))
-    right = [row for row in range(len(own)) if not any(own[row] in finding.channels for finding in found)]
-    if right:
-        sign = np.sign(np.median(np.diag(table)[right]))
-        off = [row for row in right if sign * table[row, row] < -max(SIGNIFICANT * error[row, 0], FITS_NOT * scale)]
-        if sign < 0:
-            text = "all channels look inverted: the sensor's sign, or moment_n_per_v; foci would dip"
-            found.append(Objection("inverted", text, tuple(own)))
-        if off:
-            names = [own[row] for row in off]
-            text = f"{_channels(names, 'look')} inverted against the others: turn the patch's wires round"
-            found.append(Objection("inverted", text, tuple(names)))
+    for names in wiring.swapped:
+        way = "swapped" if len(names) == 2 else "in the wrong order"
+        text = f"channels {listed(names)} look {way}: each drives another's patch; mend the wiring, or actuators in board.toml"
+        found.append(Objection("swapped", text, names))
+    if wiring.all_inverted:
+        text = "all channels look inverted: the sensor's sign, or moment_n_per_v; foci would dip"
+        found.append(Objection("inverted", text, tuple(alive)))
+    if off := wiring.inverted:
+        text = f"{_channels(off, 'look')} inverted against the others: turn the patch's wires round"
+        found.append(Objection("inverted", text, off))
+    if unknown := wiring.undecided:
+        which = f"all {len(unknown)} channels" if len(unknown) == len(alive) else _channels(unknown, "")
+        text = (
+            f"undecided: {which}: {wiring.points} points do not tell which patch such a channel drives, nor its sign; measure about"
+            f" {wiring.points_needed - wiring.points} more, 30 mm and more from the edges"
+        )
+        found.append(Objection("undecided", text, unknown))
     return found
 
 

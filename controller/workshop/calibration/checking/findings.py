@@ -11,10 +11,11 @@ from controller.workshop.calibration.checking.checks import (
     clipped_records,
     dead_channels,
     listed,
-    misplaced_channels,
     noisy_records,
     wrong_strength,
+    wrong_wires,
 )
+from controller.workshop.calibration.checking.wiring import Wiring, wiring_of
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves
 from controller.workshop.calibration.learned import LearnedResponses
@@ -33,8 +34,8 @@ def findings_of(
     results: dict[int, Transfers],  # number of a point to its transfer functions
     responses: LearnedResponses,
     waves: DirectWaves | None,
-) -> list[Objection]:
-    """What is wrong with channels and points."""
+) -> tuple[list[Objection], Wiring]:
+    """What is wrong with channels and points, and the verdict on the wires."""
     names = measurement.names
     points = list(results)
     channels = sorted(a.channel for a in board.actuators)
@@ -45,14 +46,16 @@ def findings_of(
     findings = dead_channels(power, responses.coherence[points], channels, deconvolution.driven)
     dead = {channel for finding in findings for channel in finding.channels}
     alive = [channel for channel in channels if channel not in dead]
+    wiring = wiring_of(waves, channels, alive, len(points))
+    findings += wrong_wires(wiring, alive)
     if waves is not None:
-        findings += misplaced_channels(waves, alive) + wrong_strength(waves, alive)
+        findings += wrong_strength(waves, alive)
     findings += clipped_records({names[point]: found.clipped for point, found in results.items() if found.clipped})
     if missing := [names[point] for point in measurement.missing]:
         findings.append(Objection("missing", f"no records of point {listed(missing)}: left unknown", points=tuple(missing)))
     of_living = np.array([channel in alive for channel in range(CHANNELS)])
     findings += noisy_records(responses.coherence, np.array([[p in results] for p in range(len(names))]) & of_living, names)
-    return findings
+    return findings, wiring
 
 
 def remarks_on(
