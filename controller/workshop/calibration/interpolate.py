@@ -17,6 +17,7 @@ from controller.workshop.calibration.interpolated import InterpolatedResponses, 
 from controller.workshop.calibration.kriging import Prior, SpectralField, Waves, krige
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.modal_prior import ModalPrior, unforeseen
+from controller.workshop.calibration.point_fit import fit_points
 from controller.workshop.calibration.point_plan import scattered_count
 from controller.workshop.calibration.spectra import Bins, Spectra
 from controller.workshop.calibration.wave_fit import WaveFit, fit_waves
@@ -28,6 +29,8 @@ STILL = 0.2  # of the median point's movement: those that move less are not eval
 LEAST_POINTS = 12  # of any plate
 PITCH_SLACK = 1.02  # a grid may be as much coarser than half a wavelength: the board's constants are known no better
 MOST_SCATTERED = 4000  # one matrix of them takes 128 MB
+FITTED_SHARE = 0.5  # of the points that a plate needs: fewer do not foresee each other
+MOST_FITTED = 1000  # points whose errors are looked for, some minutes
 
 Progress = Callable[[str, int, int], None]
 Measured = tuple[NDArray[np.float64], Spectra, NDArray[np.bool_], Bins]  # points in m, spectra, which are known, their bins
@@ -56,12 +59,20 @@ def interpolate(
     if lattice is not None:
         _refuse_coarse(board, lattice)
     waves = fit_waves(board, points_m, spectra, known, bins, lambda done, total: progress("wavelengths", done, total))
-    prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
-    measured = points_m, spectra, known, bins
+    errors = None
     if lattice is not None and lattice.covers(board.plate.length_m, board.plate.width_m):
-        found = _between_cells(board, lattice, measured, prior, progress)
+        prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
+        found = _between_cells(board, lattice, (points_m, spectra, known, bins), prior, progress)
     else:
-        found = _between_points(board, measured, waves, prior, model, progress)
+        if FITTED_SHARE * scattered_count(board) <= len(points_m) <= MOST_FITTED:
+            responses = learned.responses[used]
+            errors = fit_points(board, points_m, responses, known, bins, waves, lambda *done: progress("errors of points", *done))
+        if errors is not None and errors.corrected:
+            points_m = np.clip(points_m + errors.errors[:, :2], 0, (board.plate.length_m, board.plate.width_m))
+            spectra = bins.of_records(responses, np.arange(len(responses)), errors.errors[:, 3])
+            spectra *= (known * np.exp(-errors.errors[:, 2:3])).astype(np.float32)
+            waves = fit_waves(board, points_m, spectra, known, bins, lambda *done: progress("wavelengths again", *done))
+        found = _between_points(board, (points_m, spectra, known, bins), waves, model, progress)
     median, least = found.leave_out.summary()
     if not median >= LEAST_KEPT:
         raise CalibrationError(
@@ -71,7 +82,7 @@ def interpolate(
     provenance = msgspec.structs.replace(
         learned.provenance, kind=found.kind, model=found.words, points=len(points_m), kept=(median, least)
     )
-    return InterpolatedResponses(board, bins, found.field, provenance, found.leave_out, found.reach, points_m), waves
+    return InterpolatedResponses(board, bins, found.field, provenance, found.leave_out, found.reach, points_m, errors), waves
 
 
 class _Interpolation(NamedTuple):
@@ -98,9 +109,7 @@ def _between_cells(board: Board, lattice: Lattice, measured: Measured, prior: Wa
     return _Interpolation(field, leave_out, "measured", words, None)
 
 
-def _between_points(
-    board: Board, measured: Measured, waves: WaveFit, prior: Waves, model: Modes | None, progress: Progress
-) -> _Interpolation:
+def _between_points(board: Board, measured: Measured, waves: WaveFit, model: Modes | None, progress: Progress) -> _Interpolation:
     """By waves, or by the model if it foresees points left out better.
 
     Raises CalibrationError if there are more than `MOST_SCATTERED` points.
@@ -110,13 +119,14 @@ def _between_points(
         raise CalibrationError(
             f"{len(points_m):,} points are neither a grid of cells of the whole plate nor {MOST_SCATTERED:,} or less"
         )
+    prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
     chosen: Prior = prior
     kind: Literal["measured", "completed"] = "measured"
     words = f"waves between {len(points_m)} points"
     if model is not None and _better_by(model, board, waves, measured):
         chosen = ModalPrior.of(board, model, waves, bins)
         words, kind = f"{in_words(board, model)}, between {len(points_m)} points", "completed"
-    field, foreseen = krige(points_m, spectra, known, chosen, progress=lambda done, total: progress("points", done, total))
+    field, foreseen = krige(points_m, spectra, known, chosen, waves.noise, lambda done, total: progress("points", done, total))
     return _Interpolation(field, _evaluated(board, bins, points_m, spectra, foreseen, known), kind, words, prior)
 
 

@@ -16,7 +16,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, lapack
-from scipy.special import j0
+from scipy.special import j0, j1
 
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
@@ -30,6 +30,7 @@ NEAR = 0.003
 NEAR_WAVES = 0.478  # wavelengths at the upper edge of the band: 4 mm on the paper's plate
 DIRECTIONS = 12  # of waves that meet an edge, each way
 POINTS_AT_ONCE = 64
+DIFFERENCE_M = 1e-6  # by which slopes of what fades are found
 BESSEL_PER_UNIT = 512
 
 
@@ -79,6 +80,24 @@ class Waves:
             return inside
 
         return covariance
+
+    def slopes(self, points_m: Floats) -> Callable[[int], Floats]:
+        """Function of a bin: slopes of the covariances between points, (axis, point, point), as the former point moves."""
+        away_m = (points_m[:, None] - points_m).transpose(2, 0, 1)
+        distance_m = np.hypot(*away_m)
+        toward = away_m / np.maximum(distance_m, 1e-12)
+        near = -2 * NEAR * distance_m / self.near_m**2 * np.exp(-((distance_m / self.near_m) ** 2))
+        nearby_m = [points_m + move_m for move_m in (np.array([DIFFERENCE_M, 0.0]), np.array([0.0, DIFFERENCE_M]))]
+
+        def slope(bin_: int) -> Floats:
+            k = self.wavenumber[bin_]
+            inside: Floats = toward * (near - k * j1(k * distance_m))
+            if self.edge_variance:
+                here = self.fading(points_m, bin_)
+                inside += [(self.fading(there_m, bin_) - here) / DIFFERENCE_M @ here.T for there_m in nearby_m]
+            return inside
+
+        return slope
 
     def fading(self, points_m: Floats, bin_: int) -> Floats:
         """Waves that run along an edge and fade from it, in all directions from which waves meet the edge: (point, wave).
@@ -152,11 +171,11 @@ def krige(
         whole = covariance(bin_)
         whole[np.diag_indices_from(whole)] += noise
         for points, channels in groups:
-            inverse = _inverse(whole[np.ix_(points, points)])
+            solved = inverse(whole[np.ix_(points, points)])
             values = spectra[bin_][np.ix_(points, channels)]
-            of_values = (inverse @ values.view(np.float32).astype(np.float64)).view(np.complex128)
+            of_values = (solved @ values.view(np.float32).astype(np.float64)).view(np.complex128)
             weights[bin_][np.ix_(points, channels)] = of_values
-            left_out[bin_][np.ix_(points, channels)] = values - of_values / np.diag(inverse)[:, None]
+            left_out[bin_][np.ix_(points, channels)] = values - of_values / np.diag(solved)[:, None]
         progress(bin_ + 1, len(spectra))
     return prior.field(points_m, weights), left_out
 
@@ -201,7 +220,7 @@ def _bessel_table(count: int) -> tuple[Floats, Floats]:
     return values[:-1], np.diff(values)
 
 
-def _inverse(symmetric: Floats) -> Floats:
+def inverse(symmetric: Floats) -> Floats:
     """Inverse of a positive definite matrix by its Cholesky factor."""
     factor, failed = lapack.dpotrf(symmetric, lower=True, overwrite_a=False)
     inverse, failed_too = lapack.dpotri(factor, lower=True, overwrite_c=True)

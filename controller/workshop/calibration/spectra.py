@@ -15,6 +15,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
+from controller.workshop.calibration.records.drives import transform
 from controller.workshop.physics.responses.modal_response import band_gain, edge_width_hz
 
 Floats = NDArray[np.float64]
@@ -55,11 +56,23 @@ class Bins:
         """Some of the bins."""
         return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen])
 
-    def of_records(self, responses: NDArray[np.floating[Any]], points: NDArray[np.intp]) -> Spectra:
+    def of_records(
+        self,
+        responses: NDArray[np.floating[Any]],
+        points: NDArray[np.intp],
+        higher: Floats | None = None,  # of each point: by which all frequencies of the plate were higher; corrected
+    ) -> Spectra:
         """Spectra of the records, (point, sample, channel), of some points, by bins: (bin, point, channel)."""
         spectra = np.empty((self.frequency_hz.size, len(points), responses.shape[2]), np.complex64)
         for index, point in enumerate(points.tolist()):
-            spectra[:, index] = rfft(responses[point], self.length, axis=0)[: self.frequency_hz.size]
+            if higher is None or higher[index] == 0:
+                spectra[:, index] = rfft(responses[point], self.length, axis=0)[: self.frequency_hz.size]
+                continue
+            step, turn = (
+                (1 + higher[index]) / self.length,
+                np.exp(-2j * np.pi * higher[index] * np.arange(self.frequency_hz.size) / self.length),
+            )
+            spectra[:, index] = (transform(responses[point].T, 1.0, 0.0, step, self.frequency_hz.size) * turn).T
         return spectra
 
     def band_limited(self, spectra: Spectra) -> NDArray[np.float32]:

@@ -21,10 +21,13 @@ from controller.workshop.calibration.spectra import Bins, Spectra
 
 Floats = NDArray[np.float64]
 
-POINTS = 150  # at most, of those there are
+POINTS = 400  # at most, of those there are
 PARTS = 6  # of the band
 BINS = 3  # of each part
-MOST_UNFORESEEN = 0.4  # of the energy of a point left out
+MOST_UNFORESEEN = 0.8  # of the energy of a point left out
+ROUGH_NOISE = 0.03  # variance of the noise, in that of the field, while wavenumbers are searched
+NOISES = (0.003, 0.01, 0.03, 0.1, 0.3)
+ALIKE = 1.5  # of the least error: of noises by which points left out are foreseen alike the least is right between points
 EDGE_WAVES = 0.75  # nearer to an edge than this many wavelengths a point does not judge
 EDGE_VARIANCES = (0.0, 0.3)
 COARSE: Floats = np.linspace(0.93, 1.07, 15)
@@ -42,6 +45,7 @@ class WaveFit:
     frequency_hz: tuple[float, ...]  # frequency_hz, factors: middle of each part of the band, and the factor found there
     factors: tuple[float, ...]
     scatter: float  # standard deviation of one of them
+    noise: float  # variance of noise and of what positions and gains are wrong by, in that of the field
 
     @property
     def frequency_scale(self) -> float:
@@ -67,29 +71,31 @@ def fit_waves(
     Raises CalibrationError if no wavenumber within 7 % of the board's explains the field.
     """
     dispersion = Dispersion.of(board.plate)
-    whole, channels = _of_one_pattern(known)
+    whole, channels = of_one_pattern(known)
     low, high = np.searchsorted(bins.frequency_hz, (board.waveform.band_low_hz, board.waveform.band_high_hz))
     inside = _inside(board, points_m[whole])
     parts = np.linspace(low, high - 1, PARTS * BINS + 2)[1:-1].round().astype(int).reshape(PARTS, BINS)
-    steps = len(COARSE) + len(FINE) + PARTS * len(FINE)
+    steps = len(COARSE) + len(NOISES) + (len(EDGE_VARIANCES) + PARTS) * len(FINE)
 
     done = 0
 
-    def error(factor: float, chosen: NDArray[np.intp], edge_variance: float) -> float:
+    def error(factor: float, chosen: NDArray[np.intp], edge_variance: float, noise: float) -> float:
         nonlocal done
         prior = Waves.of(replace(dispersion, factor=factor), bins.part(chosen), board, edge_variance)
-        found = _unforeseen(points_m[whole], spectra[np.ix_(chosen, whole, channels)], inside, prior)
+        found = _unforeseen(points_m[whole], spectra[np.ix_(chosen, whole, channels)], inside, prior, noise)
         done += 1
         progress(done, steps)
         return found
 
     middles = parts[:, BINS // 2]
-    none, fading = EDGE_VARIANCES
-    coarse = np.array([error(factor, middles, fading) for factor in COARSE.tolist()])
+    coarse = np.array([error(factor, middles, EDGE_VARIANCES[-1], ROUGH_NOISE) for factor in COARSE.tolist()])
     best = int(coarse.argmin())
-    around = [error(COARSE[best] + off, middles, none) for off in FINE.tolist()]
-    edge_variance = none if min(around) < coarse.min() else fading
-    least = float(coarse.min())
+    fine = np.array([[error(COARSE[best] + off, middles, edge, ROUGH_NOISE) for off in FINE.tolist()] for edge in EDGE_VARIANCES])
+    edge_variance, around = min(zip(EDGE_VARIANCES, fine, strict=True), key=lambda one: float(one[1].min()))
+    nearest = float(COARSE[best] + _lowest(FINE, around))
+    by_noise = [error(nearest, middles, edge_variance, noise) for noise in NOISES]
+    least = min(by_noise)
+    noise = next(noise for noise, error_of in zip(NOISES, by_noise, strict=True) if error_of <= ALIKE * least)
     if best in (0, len(COARSE) - 1) or least > MOST_UNFORESEEN:
         raise CalibrationError(
             f"no waves within 7 % of the board's wavelengths explain what was measured at {len(whole)} points (of one left out,"
@@ -97,12 +103,12 @@ def fit_waves(
         )
     factors = []
     for part in parts:
-        errors = [error(COARSE[best] + off, part, edge_variance) for off in FINE.tolist()]
+        errors = [error(COARSE[best] + off, part, edge_variance, noise) for off in FINE.tolist()]
         factors.append(float(COARSE[best] + _lowest(FINE, np.array(errors))))
-    return _line(dispersion, edge_variance, bins.frequency_hz[parts].mean(axis=1), factors)
+    return _line(dispersion, edge_variance, noise, bins.frequency_hz[parts].mean(axis=1), factors)
 
 
-def _of_one_pattern(known: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def of_one_pattern(known: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Points, and channels that are known at every one of them, as most are."""
     whole = np.flatnonzero(known.any(axis=1))
     if len(whole) > POINTS:
@@ -120,14 +126,14 @@ def _inside(board: Board, points_m: Floats) -> NDArray[np.bool_]:
     return inside
 
 
-def _unforeseen(points_m: Floats, spectra: Spectra, inside: NDArray[np.bool_], prior: Waves) -> float:
+def _unforeseen(points_m: Floats, spectra: Spectra, inside: NDArray[np.bool_], prior: Waves, noise: float) -> float:
     """Energy of points inside, each left out, that the others do not foresee, over all."""
-    _, foreseen = krige(points_m, spectra, np.ones(spectra.shape[1:], bool), prior)
+    _, foreseen = krige(points_m, spectra, np.ones(spectra.shape[1:], bool), prior, noise)
     scale = (np.abs(spectra[:, inside]) ** 2).mean(axis=(1, 2), keepdims=True)
     return float((np.abs(foreseen[:, inside] - spectra[:, inside]) ** 2 / scale).mean())
 
 
-def _line(dispersion: Dispersion, edge_variance: float, frequency: Floats, factors: list[float]) -> WaveFit:
+def _line(dispersion: Dispersion, edge_variance: float, noise: float, frequency: Floats, factors: list[float]) -> WaveFit:
     """The straight line through the factors of the parts of the band."""
     middle_hz = float(frequency.mean())
     design = np.column_stack([np.ones(PARTS), frequency - middle_hz])
@@ -142,6 +148,7 @@ def _line(dispersion: Dispersion, edge_variance: float, frequency: Floats, facto
         tuple(frequency.tolist()),
         tuple(factors),
         float(np.sqrt(scatter)),
+        noise,
     )
 
 
