@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from controller.workshop.calibration.drift_fit import FittedDrift
     from controller.workshop.calibration.interpolated import InterpolatedResponses
     from controller.workshop.calibration.learned import LearnedResponses
+    from controller.workshop.calibration.learning import Learned
+    from controller.workshop.calibration.point_fit import PointFit
     from controller.workshop.calibration.wave_fit import WaveFit
 
 SAID_FREQUENCY = 0.002  # by which the plate's frequencies differ from board.toml's: costs a tenth of the amplitude
@@ -76,8 +78,9 @@ def calibrate_bank(options: argparse.Namespace) -> int:
         bars.setdefault(what, progress_bar(what))(done, total)
 
     with threadpool_limits(1, "blas"):  # many small matrices
-        learned, findings, dead = _learn(board, Path(options.folder), options)
-        drift = fit_drift(board, learned, _learn(board, Path(options.also), options)[0]) if options.also else None
+        found, dead = _learn(board, Path(options.folder), options)
+        learned, findings = found.responses, [finding.message for finding in found.findings]
+        drift = fit_drift(board, learned, _learn(board, Path(options.also), options)[0].responses) if options.also else None
         source, waves = interpolate(board, learned, progress, dead, modes_of(board) if options.model else None)
         decays = fit_decays(learned.responses, learned.known, learned.noise, board.waveform, learned.bit_clock_hz)
         if picture:
@@ -88,7 +91,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     notes = [*findings, *_notes(board, learned, waves, decays, drift), *_notes_of_bank(options, source, cells, report)]
     for note in notes:
         tell(note)
-    figures = _figures(board, learned, source, waves, decays, drift)
+    figures = _figures(board, learned, source, waves, decays, drift) | {"frame": found.frame and found.frame.in_words()}
     show(options, {"path": str(path), "cells": report.cells, "bytes": report.bytes} | figures | {"notes": notes}, _table)
     if path != (played := find_bank(board)).path:
         tell(f"run plays from {played.path} ({played.why}) unless given --bank {path}")
@@ -133,13 +136,13 @@ def _notes_of_bank(
     return notes
 
 
-def _learn(board: Board, folder: Path, options: argparse.Namespace) -> tuple[LearnedResponses, list[str], list[int]]:
-    """Responses of a measurement folder, what is said of them though it was accepted, and channels accepted as dead."""
+def _learn(board: Board, folder: Path, options: argparse.Namespace) -> tuple[Learned, list[int]]:
+    """What a measurement folder gives, and channels accepted as dead; raises CalibrationError if anything is refused."""
     from controller.workshop.calibration.learning import learn
 
     found = learn(folder, board, cache=calibration_cache(board, folder), progress=progress_bar(f"points of {folder.name}"))
-    dead = [channel for finding in found.findings if finding.kind == "dead" for channel in finding.channels]
-    return found.require(options.accept), [finding.message for finding in found.findings], dead
+    found.require(options.accept)
+    return found, [channel for finding in found.findings if finding.kind == "dead" for channel in finding.channels]
 
 
 def _notes(board: Board, learned: LearnedResponses, waves: WaveFit, decays: list[Decay], drift: FittedDrift | None) -> list[str]:
@@ -196,6 +199,8 @@ def _figures(
             "least": round(float(np.nanmin(kept)), 4),
             "points": int((~np.isnan(kept)).sum()),
         },
+        "errors_of_points": source.errors and _of_points(source.errors),
+        "noise_variance": waves.noise,
         "wavenumber_factor": _with_error(waves.dispersion.factor, waves.factor_error),
         "frequency_scale": _with_error(waves.frequency_scale, 2 * waves.factor_error),
         "stiffness_scale": _with_error(waves.stiffness_scale, 4 * waves.factor_error),
@@ -219,6 +224,18 @@ def _figures(
     }
 
 
+def _of_points(errors: PointFit) -> dict[str, Any]:
+    """Standard deviations over the points, each with that of the fit; the drift with its own."""
+    spread = [float(np.sqrt((errors.errors[:, some] ** 2).mean())) for some in ([0, 1], [2], [3])]
+    return {
+        "corrected": list(errors.corrected),
+        "places_mm": _with_error(1e3 * spread[0], 1e3 * float(errors.deviation[0])),
+        "sensitivity_percent": _with_error(100 * spread[1], 100 * float(errors.deviation[2])),
+        "drift_percent": _with_error(*(100 * value for value in errors.drift())),
+        "unforeseen": [round(value, 4) for value in errors.unforeseen],
+    }
+
+
 def _with_error(value: float, error: float) -> list[float | None]:
     """Value and standard deviation, rounded to two digits of the latter."""
     if not (math.isfinite(error) and error > 0):
@@ -232,7 +249,16 @@ def _table(figures: dict[str, Any]) -> str:
         return f"{pair[0]:g}" if pair[1] is None else f"{pair[0]:g} ± {pair[1]:g}"
 
     left = figures["left_out_kept"]
-    lines = [
+    lines = [f"{'measuring frame':<28}{figures['frame'] or 'not found'}"]
+    if points := figures["errors_of_points"]:
+        lines += [
+            f"{'errors of points':<28}{', '.join(points['corrected']) or 'none'} corrected; of a point left out"
+            f" {points['unforeseen'][1]:.1%} of the energy is not foreseen, {points['unforeseen'][0]:.1%} before",
+            f"{'  places, each axis':<28}{reported(points['places_mm'])} mm",
+            f"{'  sensitivity':<28}{reported(points['sensitivity_percent'])} %",
+            f"{'  drift, first to last':<28}{reported(points['drift_percent'])} %",
+        ]
+    lines += [
         f"{'interpolation':<28}{figures['interpolation']}",
         f"{'points left out keep':<28}{left['median']:g} at the median, {left['worst_5_percent']:g} of the worst 5 %,"
         f" {left['least']:g} at least; {left['points']} were",

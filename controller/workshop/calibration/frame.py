@@ -24,6 +24,7 @@ from controller.workshop.calibration.transfers import RawBins
 
 MANY = 256, 32, 40  # points, patches and bins, at most
 FEW = 32, 8, 16  # by which the lattice is searched
+EDGE_WAVES = 1.0  # nearer to an edge than so many of the longest waves, what it sends back comes with the direct wave
 LOWER = 0.4  # of the band, in which the lattice is searched
 OFFSETS_M = (-8e-3, -4e-3, 0.0, 4e-3, 8e-3)
 ROTATIONS = (0.0, -0.03, 0.03)  # in rad
@@ -134,11 +135,15 @@ def _records(
     most: tuple[int, int, int],  # points, patches, bins
     part: float,
 ) -> _Records:
-    points = _some(len(points_m), most[0])
+    from_edge_m = np.minimum(points_m, 2 * middle_m(board) - points_m).min(axis=1)
+    inside = np.flatnonzero(from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_low_hz))
+    if len(inside) < LEAST_POINTS:
+        inside = np.arange(len(points_m))
+    points = inside[_some(len(inside), most[0])]
     patches = _some(len(board.actuators), most[1])
     low_hz, high_hz = board.waveform.band_low_hz, board.waveform.band_high_hz
-    inside = np.flatnonzero((bins.frequency_hz >= low_hz) & (bins.frequency_hz <= low_hz + part * (high_hz - low_hz)))
-    chosen = inside[_some(len(inside), most[2])]
+    in_part = np.flatnonzero((bins.frequency_hz >= low_hz) & (bins.frequency_hz <= low_hz + part * (high_hz - low_hz)))
+    chosen = in_part[_some(len(in_part), most[2])]
     channels = np.array([a.channel for a in board.actuators])[patches]
     values = transfers[np.ix_(points, channels, chosen)] * resolved[np.ix_(points, channels)][..., None]
     power = np.sqrt((np.abs(values) ** 2).sum(axis=2, keepdims=True))
