@@ -24,7 +24,7 @@ from controller.workshop.calibration.transfers import RawBins
 
 MANY = 256, 32, 40  # points, patches and bins, at most
 FEW = 32, 8, 16  # by which the lattice is searched
-EDGE_WAVES = 1.0  # nearer to an edge than so many of the longest waves, what it sends back comes with the direct wave
+EDGE_WAVES = 0.5  # nearer to an edge than so many of the longest waves, what it sends back comes with the direct wave
 LOWER = 0.4  # of the band, in which the lattice is searched
 OFFSETS_M = (-8e-3, -4e-3, 0.0, 4e-3, 8e-3)
 ROTATIONS = (0.0, -0.03, 0.03)  # in rad
@@ -37,6 +37,9 @@ MOVED_M = 0.4e-3  # a frame that moves no point by more is left as stated: patch
 SURE = 4.0  # standard deviations
 GROUPS = 8  # of points, whose scatter says how sure the frame is
 LEAST_POINTS = 24
+KEPT = 0.8  # of the lattice's coherence: what strays from it is no frame
+ENOUGH = 100  # points away from the edges: of fewer, all are used
+WIDEST = np.array([0.012, 0.012, 0.06, 0.06])  # offset in m, rotation, scale: beyond, it is no frame of this plate
 ABOVE_CHANCE = 4.0  # times the coherence of records that have nothing to do with G
 MIRRORS = {  # from stated coordinates to those of the plate, about its middle
     "": ((1, 0), (0, 1)),
@@ -123,7 +126,8 @@ def locate(
         many = _records(board, bins, points_m, transfers, resolved, MANY, part)
         for _ in range(STEPS):
             frame, factor = _step(many, frame, factor)
-    return frame
+    inside = np.abs([*frame.offset_m, frame.rotation, frame.scale - 1]) < WIDEST
+    return frame if inside.all() and _coherence(few, frame, factor) > KEPT * coherence else None
 
 
 def _records(
@@ -137,7 +141,7 @@ def _records(
 ) -> _Records:
     from_edge_m = np.minimum(points_m, 2 * middle_m(board) - points_m).min(axis=1)
     inside = np.flatnonzero(from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_low_hz))
-    if len(inside) < LEAST_POINTS:
+    if len(inside) < ENOUGH:
         inside = np.arange(len(points_m))
     points = inside[_some(len(inside), most[0])]
     patches = _some(len(board.actuators), most[1])
