@@ -26,7 +26,8 @@ from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket
 from controller.device.board.panel_state import Condition
-from controller.device.loop.commands import Outcome, PanelControl
+from controller.device.loop.commands import Outcome
+from controller.device.loop.control import PanelControl
 from controller.device.loop.layer_source import LayerResult
 from controller.device.touch.source import TouchSample
 

@@ -24,7 +24,7 @@ from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket
 from controller.device.board.lookup import running_release
 from controller.device.board.panel_state import Condition, PanelState
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 from controller.device.scene.scene import Region, Scene
 from controller.device.scene.scene_file import Shape
 from controller.device.scene.shapes import Circle, Rectangle

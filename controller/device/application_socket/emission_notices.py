@@ -9,7 +9,7 @@ from typing import Final
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import MessageTooLong
 from controller.device.application_socket.messages import Emissions, PlayedFocus
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.playing.records import ENDLESS, Plan
 from controller.metrics import NOT_PLAYED

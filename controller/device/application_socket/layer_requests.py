@@ -7,7 +7,7 @@ from controller.device.application_socket.connection import Connection
 from controller.device.application_socket.messages import MoveRegions, Regions, Transform
 from controller.device.application_socket.tickets import FULL
 from controller.device.board.devices import ApplicationSocket
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 from controller.device.scene.layers import Placement
 from controller.errors import ControllerError
 

@@ -10,7 +10,7 @@ from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import NOT_LOGGED, Connection
 from controller.device.application_socket.description import Faults
 from controller.device.board.panel_state import Condition
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 from controller.device.touch.source import TouchSample
 from controller.log import LAST_LINES, LOG
 

@@ -9,7 +9,7 @@ from controller.device.application_socket.peers import Rights
 from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.application_socket.tickets import FULL
 from controller.device.board.board import Board
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 from controller.errors import ControllerError
 from controller.log import Event, log
 

@@ -10,7 +10,7 @@ from controller.device.application_socket.messages import Aimed, Clip, Id, PlayR
 from controller.device.application_socket.tickets import FULL
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE, ApplicationSocket
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 from controller.device.scene import clips
 from controller.device.scene.clips import read_clip
 from controller.errors import ConfigError, ControllerError

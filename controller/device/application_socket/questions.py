@@ -26,7 +26,7 @@ from controller.device.application_socket.messages import (
 from controller.device.application_socket.notifications import Notifications
 from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 
 FIGURES_S: Final = 1.0  # for which the same figures are sent: collecting them takes the loop milliseconds
 

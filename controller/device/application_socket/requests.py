@@ -18,7 +18,7 @@ from controller.device.application_socket.questions import Questions
 from controller.device.application_socket.stop_ahead import AHEAD_BYTES, STOP, stop_ahead
 from controller.device.board.descriptions import type_info
 from controller.device.board.validation import NO_JSON, explain
-from controller.device.loop.commands import PanelControl
+from controller.device.loop.control import PanelControl
 
 NEEDED: Final[dict[Any, Right]] = {
     messages.PlayRequest: "play",

@@ -1,4 +1,4 @@
-"""What commands may ask of the loop, done: the `PanelControl` behind the application socket."""
+"""What commands may ask of the loop, such as those that come through the application socket."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from controller.device.touch.source import Heard
 from controller.errors import ConfigError, FaultError
 
 
-class LoopControl:
-    """`PanelControl` of one loop; without a `change` its scene cannot be changed."""
+class PanelControl:
+    """What commands may ask of one loop; without a `change` its scene cannot be changed."""
 
     def __init__(
         self,
@@ -33,10 +33,10 @@ class LoopControl:
         self._scheduler = scheduler
         self._clock_estimate = context.clock_estimate
         self._counters = context.counters
-        self.emissions = context.emissions
+        self.emissions = context.emissions  # the last ones, noted while they are wanted
         self._trace = context.trace
         self._source = context.source
-        self.skipped = context.counters.skipped
+        self.skipped = context.counters.skipped  # what was due and is not played
         self._change = change
         self._timing = timing
         self.fingers_in, self.switch = scheduler.fingers_in, outputs.switch
@@ -45,12 +45,19 @@ class LoopControl:
     def play(
         self, ticket: int, effect: str | ClientEffect, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float
     ) -> None:
-        """Play an effect; see `PanelControl.play`. FaultError with the cause while the outputs are off."""
+        """Play an effect at a point, or at a finger wherever it moves, `amplitude` times the effect's own, MIN_AMPLITUDE to 1.
+
+        Exactly one `CommandSource.outcome` follows, with the ticket; 0: nobody waits for it. Raises ControllerError, and no
+        outcome follows, if the outputs are off, or the effect or the finger is unknown.
+        """
         self._require_on()
         self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
 
     def test_channel(self, ticket: int, channel: int, x_m: float, y_m: float, now_s: float) -> None:
-        """Play a chirp on one channel; see `PanelControl.test_channel`."""
+        """Play a chirp on one channel alone, whose actuator is at the point; exactly one `CommandSource.outcome` follows.
+
+        Raises ControllerError, and no outcome follows, if the outputs are off.
+        """
         self._require_on()
         self._scheduler.test_channel(ticket, channel, x_m, y_m, self._clock_estimate.fpga_s(now_s))
 
@@ -64,21 +71,30 @@ class LoopControl:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
 
     def write_trace(self, reason: str) -> None:
-        """Have the trace written; see `PanelControl.write_trace`."""
+        """Have written what the loop did in the last seconds, with the reason; the log says where.
+
+        Raises ConfigError if nothing writes it.
+        """
         if not self._trace.is_written:
             raise ConfigError("this panel writes no traces: it has no folder for them, as the service has")
         self._trace.asked(reason, by_hand=True)
 
     def hear(self, heard: Heard | None) -> None:
-        """Hand contacts on; see `PanelControl.hear`."""
+        """Have the contacts of each report handed on as the touch panel has them, ghosts too; None: no longer."""
         self._source.heard = heard
 
     def load_scene(self, ticket: int, name: str) -> None:
-        """Prepare another scene; see `PanelControl.load_scene`."""
+        """Prepare another scene outside the loop and take it over; `CommandSource.loaded` follows.
+
+        Raises ControllerError, and `loaded` does not follow, if this panel cannot change its scene.
+        """
         self._changer().begin(name, ticket)
 
     def save_scene(self, ticket: int, name: str, toml: str) -> None:
-        """Save a scene under a name; see `PanelControl.save_scene`."""
+        """Check a scene.toml outside the loop and keep it, so that `load_scene` finds it; `CommandSource.loaded` follows.
+
+        Raises ControllerError, and `loaded` does not follow, if this panel cannot change its scene.
+        """
         self._changer().save(name, toml, ticket)
 
     def _changer(self) -> SceneChange:
@@ -87,7 +103,7 @@ class LoopControl:
         return self._change
 
     def figures(self) -> dict[str, Any]:
-        """Counters and latencies, ready for JSON; without histograms, which would take 12 ms of the loop's time."""
+        """Counters and latencies so far, ready for JSON; without histograms, which would take 12 ms of the loop's time."""
         outputs = "ramping" if self._outputs.ramping else self._outputs.cause or ("on" if self._outputs.on else "off")
         return self._counters.export(histograms=False) | {
             "outputs": outputs,
@@ -98,7 +114,7 @@ class LoopControl:
         }
 
     def scene(self) -> tuple[str, Scene]:
-        """Name of the scene in force, and the scene; see `PanelControl.scene`."""
+        """Name of the scene in force, empty if it has none, and the scene without clients' layers."""
         return "" if self._change is None else self._change.name, self._layers.scene
 
     def effects(self) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
 from controller.device.loop.commands import CommandSource
 from controller.device.loop.context import LoopContext, Watch
-from controller.device.loop.control import LoopControl
+from controller.device.loop.control import PanelControl
 from controller.device.loop.dispatcher import Dispatcher
 from controller.device.loop.fixed_emitters import ROUNDING_S
 from controller.device.loop.layers import Layers
@@ -71,7 +71,7 @@ class EventLoop:
         self.outputs = Outputs(context)
         self._layers = Layers(scheduler, context.layers, commands)
         # What commands may ask of this loop
-        self.control = LoopControl(context, self.outputs, scheduler, playback.timing, self._layers, change)
+        self.control = PanelControl(context, self.outputs, scheduler, playback.timing, self._layers, change)
         self._wakeup: Wakeup | None = None
         self._reload = False
         self._stopped = False

@@ -55,7 +55,11 @@ class Layers:
         return None if self._preparation is None else self._preparation.fileno()
 
     def put(self, ticket: int, owner: int, line: bytes, placement: Placement | None, now_s: float) -> None:
-        """Replace a client's layer; see `PanelControl.put_layer`."""
+        """Replace a client's layer of regions, once it is checked outside the loop; `CommandSource.layered` follows.
+
+        The layer of a higher owner lies on top. `line` is JSON, as `layer_tables.read_layer` takes it. With no placement the
+        layer lies where the one before lies. Raises ConfigError, and `layered` does not follow, if this panel takes no layers.
+        """
         if self._preparation is None:
             raise ConfigError("this panel takes no regions: it was started without the process that checks them")
         client = self._clients.setdefault(owner, _Client())
@@ -68,7 +72,7 @@ class Layers:
         self._begin_next()
 
     def move(self, owner: int, placement: Placement) -> None:
-        """Move a client's layer; see `PanelControl.move_layer`."""
+        """Move a client's layer: at once, or with the one that is being prepared; ConfigError if it has sent none."""
         client = self._clients.get(owner)
         if client is None:
             raise ConfigError("there is nothing to move: this client has sent no regions")

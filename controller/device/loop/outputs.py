@@ -92,7 +92,10 @@ class Outputs:
         return self._recovery.wanted
 
     def switch(self, *, on: bool, by: str = "a client") -> None:
-        """Have the outputs on, or off: the first who switched them off is the cause until somebody switches them on."""
+        """Have the outputs on as soon as the FPGA allows it, or off; `CommandSource.changed` reports when they are.
+
+        Off they stay, through faults and reconnections, until somebody switches them on; who switched them off first is the cause.
+        """
         if not on and self._recovery.wanted:
             self._recovery.unwanted_cause = f"switched off by {by}"
         self._recovery.wanted = on

@@ -115,7 +115,10 @@ class Scheduler:
         self._add((emission,))
 
     def fingers_in(self, owner: int, region: str) -> tuple[int, ...]:
-        """Fingers in a region; see `PanelControl.fingers_in`."""
+        """Fingers in a region, by its name: of the layer of the client with this number, else of the scene.
+
+        Raises ConfigError if neither has a region of this name.
+        """
         index = self.scene.named(owner, region)
         return tuple([active.finger for active in self._active.values() if active.finger is not None and active.region == index])
 
