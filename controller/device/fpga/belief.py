@@ -21,19 +21,6 @@ UNSURE_TICKS: Final = 64  # around the time of a play: whether a status shows it
 class Belief:
     """Plays that wait in the FPGA, triggers that it has seen, and emissions that it has begun."""
 
-    __slots__ = (
-        "_counts",
-        "_emissions",
-        "_emissions_known",
-        "_ignored",
-        "_known",
-        "_last_count",
-        "_triggers",
-        "_unscheduled",
-        "just_triggered",
-        "waiting",
-    )
-
     def __init__(self) -> None:
         # For each play that was accepted and has not begun, first in, first out, the tick at which it is to begin, or
         # TRIGGERED

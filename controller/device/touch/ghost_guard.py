@@ -26,8 +26,6 @@ BURST_LIVES = 4  # the same in multiples of G, if that is longer
 class GhostGuard:
     """Ghost windows of the last emissions. `ghost_s` is G of the rule; with 0 no contact is a suspect."""
 
-    __slots__ = ("_end_s", "_ghost_s", "_length_s", "_period_s", "_previous", "_start_s", "_window_begin_s")
-
     def __init__(self, ghost_s: float) -> None:
         self._ghost_s = ghost_s
         self._previous = (-inf, -inf)  # begin and end of the last but one window: reports are read later than they were made
@@ -84,8 +82,6 @@ class QuietBudget:
 
     `ghost_s` is G of the rule.
     """
-
-    __slots__ = ("_credit_s", "_last_s", "_max_credit_s", "_quiet", "asked", "retry_s", "total_s")
 
     def __init__(self, ghost_s: float) -> None:
         self._max_credit_s = self._credit_s = max(BURST_S, BURST_LIVES * ghost_s) * (1 - MAX_QUIET_SHARE)

@@ -108,8 +108,6 @@ class ReportRate:
     shows its period only while one moves; the median is right as long as fingers move half of the time that they are down.
     """
 
-    __slots__ = ("_counts", "_first_s", "_last_s", "measured", "period_s")
-
     def __init__(self) -> None:
         # Median of the intervals: of the first ones exactly, then a running one that follows a change within some ten
         # reports
@@ -178,20 +176,6 @@ class PanelHabits:
     Each report of a panel that `tells_all` (protocol A) lists all contacts: then it repeats itself, and a panel that has never
     reported that no contact is left reports releases by silence.
     """
-
-    __slots__ = (
-        "_down",
-        "_repeats",
-        "_still",
-        "_tells_all",
-        "_tells_releases",
-        "before_s",
-        "fell_silent",
-        "rate",
-        "report_s",
-        "rests",
-        "silent_s",
-    )
 
     def __init__(self, rate: ReportRate, *, tells_all: bool) -> None:
         rate.restart()

@@ -42,8 +42,6 @@ class RunningPercentile:
     It is `prior_s` before the first record, and stays within `least_s` and `most_s`, all above 0.
     """
 
-    __slots__ = ("_least_s", "_most_s", "_quick", "value_s")
-
     def __init__(self, prior_s: float = PRIOR_S, least_s: float = PRIOR_S, most_s: float = MAX_S) -> None:
         self.value_s = prior_s
         self._least_s = least_s
@@ -69,8 +67,6 @@ class DeliveryTime:
     Its bits take `bits_s` on the wire: the least that it takes.
     """
 
-    __slots__ = ("_bits_s", "_mean_s", "_percentile", "expected_s", "promised_s")
-
     def __init__(self, bits_s: float) -> None:
         self._bits_s = bits_s
         self._mean_s = 0.0
@@ -95,8 +91,6 @@ class HostTiming:
     `upload_s` and `command_s` are the bits of an upload with its play command, and of a play command alone, on the wire; `plate_s`
     is the least time from emission to emission that the plate allows.
     """
-
-    __slots__ = ("_decide_s", "_plate_s", "_uploads", "_woken", "command", "decided_s", "lead_s", "upload", "upload_bits_s")
 
     def __init__(self, upload_s: float, command_s: float, plate_s: float) -> None:
         self.upload = DeliveryTime(upload_s)

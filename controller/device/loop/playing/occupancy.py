@@ -32,19 +32,6 @@ class Occupancy:
     `max_duty` is the share of the time that may be emission, above 0 and at most 1.
     """
 
-    __slots__ = (
-        "_busy_s",
-        "_clock_estimate",
-        "_free_fpga_s",
-        "_max_duty",
-        "_nominal_s",
-        "duration_s",
-        "free_s",
-        "last_start_s",
-        "repeating",
-        "repetition",
-    )
-
     def __init__(self, clock_estimate: ClockEstimate, duration_s: float, max_duty: float) -> None:
         self._clock_estimate = clock_estimate
         self._nominal_s = duration_s

@@ -9,10 +9,10 @@ from __future__ import annotations
 import contextlib
 import selectors
 import signal
-import socket
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from io import FileIO
 from pathlib import Path
 from typing import Final
@@ -21,6 +21,7 @@ from controller.device.touch import event_codes as ev
 from controller.device.touch.event_reader import DeviceDescription, Event, EventReader
 from controller.device.touch.reports import ReportClock, describe_warnings
 from controller.errors import ConfigError, TouchError
+from controller.signals import handled_signals
 
 MAX_WAIT_S: Final = 3600.0
 FIRST_LINE: Final = b"# EVEMU "
@@ -114,7 +115,9 @@ def record(reader: EventReader, file: FileIO, seconds: float | None) -> Recorded
     end_s = begin_s + (seconds if seconds is not None else float("inf"))
     try:
         writer = EvemuWriter(file, description)
-        with selectors.DefaultSelector() as selector, _stopped_by_signals(selector) as stopped:
+        stopped: list[bool] = []
+        stop = partial(stopped.append, True)
+        with selectors.DefaultSelector() as selector, handled_signals({signal.SIGINT: stop, signal.SIGTERM: stop}, selector):
             while not stopped and now_s < end_s:
                 events = reader.read(now_s)
                 if events and reader.description != description:
@@ -170,24 +173,3 @@ def _wait(selector: selectors.BaseSelector, reader: EventReader, now_s: float, e
     finally:
         if fileno is not None:
             selector.unregister(fileno)
-
-
-@contextlib.contextmanager
-def _stopped_by_signals(selector: selectors.BaseSelector) -> Iterator[list[int]]:
-    """A list that is empty until SIGINT or SIGTERM comes, which wakes the selector too."""
-    stopped: list[int] = []
-    woken, wakes = socket.socketpair()
-    woken.setblocking(False)
-    wakes.setblocking(False)
-    selector.register(woken, selectors.EVENT_READ)
-    old_fd = signal.set_wakeup_fd(wakes.fileno())
-    old = {number: signal.signal(number, lambda number, _: stopped.append(number)) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield stopped
-    finally:
-        for number, handler in old.items():
-            signal.signal(number, handler)
-        signal.set_wakeup_fd(old_fd)
-        selector.unregister(woken)
-        woken.close()
-        wakes.close()

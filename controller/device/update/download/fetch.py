@@ -20,7 +20,7 @@ from controller.device.update.layout import MANIFEST, Layout
 from controller.device.update.manifest import Manifest, ReleaseFile
 from controller.device.update.settings import UpdateSettings
 from controller.device.update.trust.offer import COUNTER, Offer, largest_counter, offered
-from controller.device.update.trust.trust import DeviceUpdater, sha256_of, trusted
+from controller.device.update.trust.trust import DeviceUpdater, trusted
 from controller.durable import sync_folder, write_durably
 from controller.errors import UpdateError
 
@@ -179,7 +179,7 @@ def _is_stored(layout: Layout, file: ReleaseFile) -> bool:
     """Whether a file is in the store, whole; one that is damaged is removed, so that it is fetched again."""
     stored = layout.store / file.sha256
     try:
-        if stored.stat().st_size == file.size_bytes and sha256_of(stored) == file.sha256:
+        if file.is_whole(stored):
             return True
         stored.unlink()
     except FileNotFoundError:

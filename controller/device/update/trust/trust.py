@@ -7,7 +7,6 @@ at once. That an old repository is offered after all metadata was lost is refuse
 from __future__ import annotations
 
 import errno
-import hashlib
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -145,12 +144,6 @@ def sync_tree(folder: Path) -> None:
             with (Path(place) / name).open("rb") as file:
                 os.fsync(file.fileno())
         sync_folder(Path(place))
-
-
-def sha256_of(file: Path) -> str:
-    """SHA-256 of a file, in hexadecimal digits; raises OSError."""
-    with file.open("rb") as opened:
-        return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def refusal(error: Exception, where: str, now: datetime | None = None) -> UpdateError:
