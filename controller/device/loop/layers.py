@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from controller.device.loop.commands import CommandSource
 from controller.device.loop.layer_source import AcceptedLayer, LayerPreparation, LayerResult
 from controller.device.loop.scheduler import Scheduler
@@ -10,29 +12,25 @@ from controller.device.scene.scene import Scene
 from controller.errors import ConfigError
 
 
+@dataclass(slots=True, eq=False)
 class _Wanted:
     """A layer that was sent and is not in force yet: its line, and where it is to lie (None: where the one before lies)."""
 
-    __slots__ = ("given_s", "line", "moved", "placed", "ticket")
-
-    def __init__(self, ticket: int, line: bytes, placed: Placement | None, given_s: float) -> None:
-        self.ticket = ticket
-        self.line = line
-        self.placed = placed
-        self.moved: Placement | None = None  # sent after the line
-        self.given_s = given_s
+    ticket: int
+    line: bytes
+    placed: Placement | None
+    given_s: float
+    moved: Placement | None = None  # sent after the line
 
 
+@dataclass(slots=True, eq=False)
 class _Client:
     """Layers of one client: in force, being prepared, waiting for that."""
 
-    __slots__ = ("in_force", "placement", "prepared", "waiting")
-
-    def __init__(self) -> None:
-        self.in_force: AcceptedLayer | None = None
-        self.placement = UNMOVED
-        self.prepared: _Wanted | None = None
-        self.waiting: _Wanted | None = None
+    in_force: AcceptedLayer | None = None
+    placement: Placement = UNMOVED
+    prepared: _Wanted | None = None
+    waiting: _Wanted | None = None
 
 
 class Layers:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 from controller.device.touch.axes import PanelAxes
@@ -25,63 +26,36 @@ MIN_INTERVAL_S, MAX_INTERVAL_S = 2e-3, 50e-3  # no panel reports faster; after a
 VELOCITY_GAIN = 0.7  # weight of the last step in the velocity
 
 
+@dataclass(slots=True, eq=False)
 class Contact:
     """State of one contact, or of one slot."""
 
-    __slots__ = (
-        "at_x_m",
-        "at_y_m",
-        "counted",
-        "finger",
-        "held",
-        "held_s",
-        "held_x_m",
-        "held_y_m",
-        "hovers",
-        "identity",
-        "moved",
-        "palm",
-        "refused",
-        "silent",
-        "size",
-        "size_m",
-        "step_vx",
-        "step_vy",
-        "stepped",
-        "tool_palm",
-        "vx",
-        "vy",
-        "x",
-        "x_m",
-        "y",
-        "y_m",
-    )
-
-    def __init__(
-        self, identity: int, *, finger: int | None = None, x_m: float = 0.0, y_m: float = 0.0, size_m: float = 0.0
-    ) -> None:
-        self.identity = identity  # tracking id, serial number from `FIRST_SERIAL` on, or `NO_CONTACT`, `UNKNOWN`, `IMPLIED`
-        self.x: int | None = None  # x, y: raw position; None before the first one
-        self.y: int | None = None
-        # Whether the position has changed since the last sample
-        # As the device reports it
-        # Whether it has been a palm since it began
-        # Whether it is among the contacts counted
-        # Whether it began while ten fingers were played
-        # Whether its panel has fallen silent: it is no finger until the panel reports it again
-        self.moved = self.hovers = self.tool_palm = self.palm = self.counted = self.refused = self.silent = False
-        self.finger = finger  # number in the samples; None while it is not played
-        self.x_m = x_m  # x_m, y_m, size_m: of its last sample
-        self.y_m = y_m
-        self.size = 0  # ABS_MT_TOUCH_MAJOR
-        self.size_m = size_m
-        # Without a tracking id: velocity in m/s
-        self.at_x_m = self.at_y_m = self.vx = self.vy = 0.0  # without a tracking id: position of its last report
-        # Number of the report of its last sample
-        self.held = self.stepped = 0  # number of the report whose position waits for the next one; 0: none does
-        # that position, NaN if it is no place of a finger, and the time of the last report before
-        self.held_x_m = self.held_y_m = self.held_s = 0.0
-        self.step_vx = self.step_vy = math.nan  # velocity in m/s of the last step between two samples; NaN before the first
+    identity: int  # tracking id, serial number from `FIRST_SERIAL` on, or `NO_CONTACT`, `UNKNOWN`, `IMPLIED`
+    finger: int | None = None  # number in the samples; None while it is not played
+    x_m: float = 0.0  # x_m, y_m, size_m: of its last sample
+    y_m: float = 0.0
+    size_m: float = 0.0
+    x: int | None = None  # x, y: raw position; None before the first one
+    y: int | None = None
+    size: int = 0  # ABS_MT_TOUCH_MAJOR
+    moved: bool = False  # the position has changed since the last sample
+    hovers: bool = False  # hovers, tool_palm: as the device reports it
+    tool_palm: bool = False
+    palm: bool = False  # it has been a palm since it began
+    counted: bool = False  # it is among the contacts counted
+    refused: bool = False  # it began while ten fingers were played
+    silent: bool = False  # its panel has fallen silent: it is no finger until the panel reports it again
+    at_x_m: float = 0.0  # without a tracking id: position of its last report, and velocity in m/s
+    at_y_m: float = 0.0
+    vx: float = 0.0
+    vy: float = 0.0
+    stepped: int = 0  # number of the report of its last sample
+    held: int = 0  # number of the report whose position waits for the next one; 0: none does
+    held_x_m: float = 0.0  # that position, NaN if it is no place of a finger
+    held_y_m: float = 0.0
+    held_s: float = 0.0  # time of the last report before
+    step_vx: float = math.nan  # velocity in m/s of the last step between two samples; NaN before the first
+    step_vy: float = math.nan
 
 
 def associate(
