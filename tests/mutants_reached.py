@@ -8,6 +8,9 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+import pytest
+
+USED_S: pytest.StashKey[float] = pytest.StashKey()  # by a process of tests, at the end of the phase before
 OF_TEXT = r"tests/test_(project|generate|wings|decisions)\.py"  # they would notice that a file was written by `ast.unparse`
 
 
@@ -34,6 +37,7 @@ class Count(ast.NodeTransformer):
 
 
 REACH = """
+import contextlib
 import os
 SEEN = set()
 def reach(number):
@@ -56,6 +60,15 @@ def report_reached(checkout, chosen, file):
                 around = [node for node in ast.walk(tree) if isinstance(node, ast.stmt) and nodes[index] in ast.walk(node)]
                 numbers.setdefault(around[-1], []).append(number)  # the innermost comes last
         rewrite(checkout / path, tree, Count(numbers))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """What a phase took is processor time, that of children included, which does not depend on what else the machine does."""
+    report = yield
+    now_s = sum(os.times()[:4])
+    report.duration, item.config.stash[USED_S] = now_s - item.config.stash.get(USED_S, now_s), now_s
+    return report
 
 
 def pytest_runtest_logreport(report):

@@ -116,12 +116,14 @@ def test_a_full_disk_leaves_the_file_before(tmp_path):
     file.write_bytes(b"before")
     child = os.fork()
     if child == 0:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+        code = 9
         try:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
             write_field(BOARD, file)
         except ConfigError as error:
-            os._exit(7 if "cannot be written" in str(error) else 8)
-        os._exit(9)
+            code = 7 if "cannot be written" in str(error) else 8
+        finally:
+            os._exit(code)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
     assert (file.read_bytes(), [path.name for path in tmp_path.iterdir()]) == (b"before", ["plate.field"])
 
