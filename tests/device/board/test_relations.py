@@ -262,9 +262,17 @@ def test_axes_of_real_panels_are_taken(rows):
     assert judge(changed(BOARD, touch__x_mm_from_axes=rows[0], touch__y_mm_from_axes=rows[1])) == ((), ())
 
 
-def test_axes_that_are_shifted_are_odd():
-    (odd,) = judge(changed(BOARD, touch__x_mm_from_axes=(-210.0, 0.0, 148.0))).odd
-    assert "are shifted: x from -62 to 148 mm" in odd
+@each_row(
+    ("x_mm", "y_mm", "said"),
+    [
+        ((-210.0, 0.0, 148.0), (0.0, 148.0, 0.0), "are shifted: x from -62 to 148 mm"),
+        ((84.0, 0.0, 63.0), (0.0, 148.0, 0.0), "reach only 40 % of the plate: x from 63 to 147 mm"),
+        ((1050.0, 0.0, -420.0), (0.0, 592.0, -222.0), "put 95 % of the panel's range off the plate: x from -420 to 630 mm"),
+    ],
+)
+def test_axes_that_are_shifted_or_reach_far_less_or_more_than_the_plate_are_odd(x_mm, y_mm, said):
+    (odd,) = judge(changed(BOARD, touch__x_mm_from_axes=x_mm, touch__y_mm_from_axes=y_mm)).odd
+    assert said in odd
 
 
 def test_a_line_is_known_by_number_too_and_only_on_one_chip():

@@ -45,9 +45,10 @@ class Prepares:
 
 class Told:
     def __init__(self):
-        self.said = []
+        self.said, self.ages_s = [], []
 
     def layered(self, ticket, result):
+        self.ages_s.append(result.age_s)
         self.said.append((ticket, "refused" if result.reason else "merged" if result.accepted is None else "done"))
 
 
@@ -158,6 +159,17 @@ def test_layers_go_with_their_client_whatever_of_them_is_under_way(stack):
     stack.prepared(accepted("b"))
     assert stack.names == ["b", "scene"]
     stack.layers.drop(7, 3.0)
+
+
+def test_each_is_answered_how_long_ago_it_was_sent(stack):
+    for ticket, sent_s in ((1, 1.0), (2, 1.25), (3, 2.0)):  # is prepared; waits, and is overtaken; waits
+        stack.layers.put(ticket, 1, b"{}", None, sent_s)
+    stack.preparation.done = accepted("a")
+    stack.layers.turn(2.5)
+    stack.layers.put(4, 1, b"{}", None, 3.0)
+    stack.layers.drop(1, 4.0)
+    assert [ticket for ticket, _ in stack.told.said] == [2, 1, 4, 3]
+    assert stack.told.ages_s == [0.75, 1.5, 1.0, 2.0]
 
 
 def test_another_scene_comes_below_the_layers(stack):

@@ -58,8 +58,9 @@ def test_tracking_ids_begin_again_after_the_last_one():
 def test_the_description_is_that_of_a_panel_with_ten_slots():
     panel = describe("chip", 3, 799, 479, sized=True)
     assert protocol_of_device(panel.axes) is Protocol.B
-    assert panel.axes[SLOT].maximum == MAX_CONTACTS - 1
-    assert (panel.axes[X].maximum, panel.axes[Y].maximum) == (799, 479)
+    ranges = {SLOT: (0, MAX_CONTACTS - 1), ID: (0, 65535), X: (0, 799), Y: (0, 479), MAJOR: (0, 65535)}
+    assert {code: (axis.minimum, axis.maximum) for code, axis in panel.axes.items()} == ranges
+    assert (panel.name, panel.bus, panel.vendor, panel.product, panel.version) == ("chip", 0x18, 0, 0, 3)
     assert (MAJOR in panel.axes) != (MAJOR in describe("chip", 3, 799, 479, sized=False).axes)
     assert set(panel.codes[ABS]) == set(panel.axes)
 

@@ -3,6 +3,7 @@
 import ensurepip
 import hashlib
 import json
+import os
 import signal
 import subprocess
 import sysconfig
@@ -77,6 +78,12 @@ def files_of(folder):
 
 def test_a_release_is_built_from_the_store_alone_and_starts(device, monkeypatch):
     monkeypatch.setenv("PIP_TARGET", str(device.root / "elsewhere"))  # a setting of this computer's
+    synced = device.root / "synced"
+    (device.root / "bin").mkdir()
+    notes = f'#!/bin/sh\n[ -e "$2/.complete" ]\necho $1 $2 $? >> {synced}\nPATH=${{PATH#*:}} exec sync "$@"\n'
+    (device.root / "bin/sync").write_text(notes)
+    (device.root / "bin/sync").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{device.root / 'bin'}:{os.environ['PATH']}")
     (device.release("9") / "venv/lib").mkdir(parents=True)
     (device.release("9") / "venv/lib/part").write_text("of an installation that was interrupted")
     manifest = release(device)
@@ -84,6 +91,8 @@ def test_a_release_is_built_from_the_store_alone_and_starts(device, monkeypatch)
     install(device, manifest, lambda done, _: steps.append(done))
     folder = device.release("9")
     assert device.is_complete("9")
+    on_disk = [f"-f {device.releases} 1", f"-f {folder} 1", f"-f {folder} 0"]  # nothing of it; all but that it is complete; that
+    assert synced.read_text().splitlines() == on_disk
     assert steps == [1, 2, 3, 4, 5]
     assert (folder / "release.json").read_bytes() == manifest.to_json()
     assert (folder / "banks/panel.bank").stat().st_nlink == 2, "shared with the store"
