@@ -54,11 +54,15 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--socket",
         metavar="S",
-        help="for axes and --ghosts: of a panel whose service plays, by its application socket; prints the lines",
+        help="of a panel whose service plays, by its application socket; prints the lines. --lag of such a panel is for the page",
     )
     what.add_argument("--lag", action="store_true", help="instead: slide a finger together with a mouse, and determine lag_ms")
     command.add_argument("--bank", metavar="FILE", help="with --ghosts: play from this bank")
-    command.add_argument("--reference", metavar="DEVICE", help="with --lag: the mouse, best by its path below /dev/input/by-id")
+    command.add_argument(
+        "--reference",
+        metavar="DEVICE",
+        help="with --lag: the mouse, best by its path below /dev/input/by-id; -: steps of a page's mouse on stdin, with --socket",
+    )
     command.add_argument("--seconds", type=_seconds, metavar="N", help="with --lag: for so long (default: 20)")
     command.add_argument("--out", metavar="FILE", help="with --ghosts or --lag: store the measurement, for --replay")
     command.add_argument("--replay", metavar="FILE", help="take the touches from a recording, not from the board's panel")
@@ -120,7 +124,10 @@ def _refuse_what_makes_no_sense(options: argparse.Namespace) -> None:
         if getattr(options, name) is not None and mode not in modes:
             wanted = f"it goes with {' or '.join(modes)}" if modes[0] else f"it is for the axes, without {mode}"
             raise UsageError(f"--{name} is of no use here: {wanted}")
-    for name in ("lag", "bank", "out", "replay", "write"):
+    by_page = options.reference == "-"
+    if by_page and options.socket is None:
+        raise UsageError("--reference - is of no use without --socket: name the mouse's device")
+    for name in ("bank", "out", "replay", "write", *(() if by_page else ("lag",))):
         if options.socket is not None and getattr(options, name):
             raise UsageError(f"--{name} is of no use with --socket: stop the service, and leave out --socket")
     for name in ("out", "reference", "seconds", "bank"):

@@ -25,7 +25,7 @@ SIMULATED_LAG_S = 12e-3  # of the simulated board's panel
 
 def calibrate_lag(options: argparse.Namespace) -> int:
     """Record finger and mouse, and print or write `lag_ms`; or determine it from such a recording."""
-    return calibrate_value(options, "lag_ms", _measured, lag_figures, _figures, _table)
+    return calibrate_value(options, "lag_ms", _measured, lag_figures, figures, table)
 
 
 def _measured(options: argparse.Namespace, board: Board) -> str:
@@ -70,7 +70,8 @@ def _watched(panel: EventCapture, mouse: Mouse, seconds: float) -> str:
     return recording_text(panel.description, [*panel.events, *steps])
 
 
-def _figures(found: LagFigures) -> dict[str, Any]:
+def figures(found: LagFigures) -> dict[str, Any]:
+    """The result as figures for JSON."""
     return {
         "lag_ms": round(found.lag_ms, 1),
         "error_ms": {"chance": round(found.error_ms, 2), "mouse": round(found.mouse_ms / 2, 2)},
@@ -80,9 +81,10 @@ def _figures(found: LagFigures) -> dict[str, Any]:
     }
 
 
-def _table(figures: dict[str, Any]) -> list[str]:
-    error = figures["error_ms"]
+def table(found: dict[str, Any]) -> list[str]:
+    """These figures as lines for people."""
+    error = found["error_ms"]
     return [
         f"within {error['chance']:.1f} ms by chance, and {error['mouse']:.1f} ms for what the mouse itself is late",
-        f"from {figures['turns']} turns in {figures['seconds']} s; finger and mouse {figures['residual_mm']:.1f} mm apart, rms",
+        f"from {found['turns']} turns in {found['seconds']} s; finger and mouse {found['residual_mm']:.1f} mm apart, rms",
     ]

@@ -1,4 +1,4 @@
-"""`haptic-panel calibrate-touch --socket`: axes or ghosts of a panel whose service plays, through its application socket."""
+"""`haptic-panel calibrate-touch --socket`: axes, ghosts or lag of a panel whose service plays, through its application socket."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ def calibrate_running(options: argparse.Namespace) -> int:
     with PanelClient(options.socket) as panel:
         if options.ghosts:
             figures, words = _ghosts(panel, _progress(options, "emissions"))
+        elif options.lag:
+            figures, words = _lag(panel, options.seconds, _progress(options, ""))
         else:
             figures, words = _axes(panel, options, _progress(options, ""))
     if options.json:
@@ -45,6 +47,19 @@ def _ghosts(panel: PanelClient, progress: Progress) -> tuple[dict[str, Any], lis
     figures = ghosts.figures(found)
     lines = [value_line("ghost_ms", found.ghost_ms)]
     return {"board": panel.describe().board, "lines": lines} | figures, ghosts.table(figures)
+
+
+def _lag(panel: PanelClient, seconds: float | None, progress: Progress) -> tuple[dict[str, Any], list[str]]:
+    from controller.commands.calibrate_touch import lag  # no other calibration needs what drives touch panels, and the page
+    from controller.device.touch_calibration.page_mouse import StandardInput
+    from controller.device.touch_calibration.running_lag import SECONDS, running_lag
+
+    found = running_lag(panel, StandardInput(), progress, seconds or SECONDS)
+    figures = lag.figures(found.figures)
+    figures["error_ms"]["clock"] = round(found.clock_error_ms, 2)
+    words = lag.table(figures)
+    words.insert(1, f"within {found.clock_error_ms:.1f} ms for the page's clock, by its messages there and back")
+    return {"board": panel.describe().board, "lines": [value_line("lag_ms", found.figures.lag_ms)]} | figures, words
 
 
 def _progress(options: argparse.Namespace, bar: str) -> Progress:

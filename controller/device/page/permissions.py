@@ -36,6 +36,7 @@ RIGHT_OF: Final = {
     "read_trace": "operate",
     "explain_trace": "operate",
     "calibrate": "operate",
+    "mouse": "operate",
     "cancel": "operate",
 }
 TOPICS: Final = {

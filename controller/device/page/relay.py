@@ -70,7 +70,7 @@ async def relay(
 
     greet()
     forget = screen.watch(greet)
-    tools = PageTools(settings.socket, TraceFolder(Path(settings.socket).parent), running, put)
+    tools = PageTools(settings.socket, page.remote_address[0], TraceFolder(Path(settings.socket).parent), running, put)
     own = {"screen": lambda message: {"kind": "answer"} | outcome(screen.keep(message))} | dict(tools.kinds)
     judge = _Judge(rights, TokenBucket(settings.messages_per_s, settings.burst), own, called)
     tasks = [

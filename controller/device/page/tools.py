@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import ipaddress
 import os
 import sys
+import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, Final, Literal
 
 import msgspec
 from msgspec import Meta
 
+from controller.device.page.mouse_steps import ArrivedSteps, MouseSteps
 from controller.device.page.requests import OwnKinds, outcome
 from controller.device.page.traces import TraceFolder
 from controller.errors import ConfigError
@@ -20,10 +23,14 @@ LINE_BYTES: Final = 1 << 16
 SAID_BYTES: Final = 1 << 12  # of what a command complains of: the last
 ENVIRONMENT: Final = {"OPENBLAS_NUM_THREADS": "1", "COLUMNS": "1000"}
 PointMm = tuple[float, float]
-LAG: Final = (
-    "the lag is measured against a mouse that is held to the finger, by the kernel's times of both, and the bridge may read no"
-    " input devices: stop the service, then `haptic-panel calibrate-touch --lag --reference /dev/input/by-id/…-event-mouse`"
+Fed = Callable[["asyncio.StreamWriter | None"], None]
+WORDS: Final = {"axes": (), "ghosts": ("--ghosts",), "lag": ("--lag", "--reference", "-")}
+ELSEWHERE: Final = (
+    "the lag is measured in a browser on the panel's own machine, since the clock of another one runs at its own rate: open this"
+    " page there, as localhost; or stop the service, then `haptic-panel calibrate-touch --lag --reference"
+    " /dev/input/by-id/…-event-mouse`"
 )
+WAITING_BYTES: Final = 1 << 20  # of a mouse's steps
 
 
 class Calibrate(msgspec.Struct, forbid_unknown_fields=True, tag_field="kind", tag="calibrate"):
@@ -41,14 +48,18 @@ class PageTools:
     ----------
     socket : str
         The panel's.
+    address : str
+        The page's.
     running : set of str
         Kinds of requests that are being carried out for any page: one of each at a time.
     put : callable
         Sends a line to the page.
     """
 
-    def __init__(self, socket: str, traces: TraceFolder, running: set[str], put: Callable[[bytes], None]) -> None:
+    def __init__(self, socket: str, address: str, traces: TraceFolder, running: set[str], put: Callable[[bytes], None]) -> None:
         self._socket = socket
+        self._address = address
+        self._feed: asyncio.StreamWriter | None = None  # of the lag that is being measured
         self._traces = traces
         self._running = running
         self._put = put
@@ -62,6 +73,7 @@ class PageTools:
             "read_trace": self._traces.part,
             "explain_trace": self._explain,
             "calibrate": self._calibrate,
+            "mouse": self._mouse,
             "cancel": self._cancel,
         }
 
@@ -81,12 +93,28 @@ class PageTools:
             asked = msgspec.convert(message, Calibrate)
         except msgspec.ValidationError as error:
             raise ConfigError(str(error)) from error
-        if asked.what == "lag":
-            raise ConfigError(LAG)
-        words = ["calibrate-touch", "--socket", self._socket, "--json", *(["--ghosts"] if asked.what == "ghosts" else [])]
+        if asked.what == "lag" and not ipaddress.ip_address(self._address).is_loopback:
+            raise ConfigError(ELSEWHERE)
+        words = ["calibrate-touch", "--socket", self._socket, "--json", *WORDS[asked.what]]
         for x_mm, y_mm in asked.at_mm:
             words += ["--at", repr(x_mm), repr(y_mm)]
-        self._start(message, words, self._progress, lambda: {"kind": "answer"} | outcome(""))
+        fed = self._fed if asked.what == "lag" else None
+        self._start(message, words, self._progress, lambda: {"kind": "answer"} | outcome(""), fed)
+
+    def _fed(self, feed: asyncio.StreamWriter | None) -> None:
+        self._feed = feed
+
+    def _mouse(self, message: dict[str, Any]) -> dict[str, Any]:
+        try:
+            steps = msgspec.convert(message, MouseSteps)
+        except msgspec.ValidationError as error:
+            raise ConfigError(str(error)) from error
+        now_s = time.monotonic()
+        if self._feed is None or self._feed.transport.get_write_buffer_size() > WAITING_BYTES:
+            raise ConfigError("no lag is being measured")
+        arrived = ArrivedSteps(sent_ms=steps.sent_ms, steps=steps.steps, answered=steps.answered, arrived_s=now_s)
+        self._feed.write(msgspec.json.encode(arrived) + b"\n")
+        return {"kind": "answer", "time_s": time.monotonic()} | outcome("")
 
     def _cancel(self, _: dict[str, Any]) -> dict[str, Any]:
         task = self._tasks.get("calibrate")
@@ -100,7 +128,12 @@ class PageTools:
             self._send(None, {"kind": "calibration"} | dict(msgspec.json.decode(line, type=dict[str, Any])))
 
     def _start(
-        self, message: dict[str, Any], words: Sequence[str], heard: Callable[[str], None], done: Callable[[], Mapping[str, Any]]
+        self,
+        message: dict[str, Any],
+        words: Sequence[str],
+        heard: Callable[[str], None],
+        done: Callable[[], Mapping[str, Any]],
+        fed: Fed | None = None,
     ) -> None:
         """Run a command beside everything else; the answer to the message follows when it has ended."""
         kind = message["kind"]
@@ -111,7 +144,7 @@ class PageTools:
 
         async def run() -> None:
             try:
-                reason = await _run(words, heard)
+                reason = await _run(words, heard, fed)
             except asyncio.CancelledError:
                 self._send(message.get("id"), {"kind": "answer"} | outcome("it was cancelled"))
                 raise
@@ -129,14 +162,17 @@ class PageTools:
         self._put(msgspec.json.encode({"id": number} | dict(fields)))
 
 
-async def _run(words: Sequence[str], heard: Callable[[str], None]) -> str:
-    """Why a command of this program failed, empty if it did not; it is killed if nobody waits for it any more."""
+async def _run(words: Sequence[str], heard: Callable[[str], None], fed: Fed | None) -> str:
+    """Why a command of this program failed, empty if it did not; it is killed if nobody waits for it any more.
+
+    `fed` is given what writes to its standard input, and None when it has ended.
+    """
     process = await asyncio.create_subprocess_exec(
         sys.executable,
         "-m",
         "controller",
         *words,
-        stdin=asyncio.subprocess.DEVNULL,
+        stdin=asyncio.subprocess.PIPE if fed else asyncio.subprocess.DEVNULL,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
         env=os.environ | ENVIRONMENT,
@@ -145,12 +181,16 @@ async def _run(words: Sequence[str], heard: Callable[[str], None]) -> str:
     assert process.stdout is not None
     assert process.stderr is not None
     complaints = asyncio.create_task(_end_of(process.stderr))
+    if fed:
+        fed(process.stdin)
     try:
         while line := await process.stdout.readline():
             heard(line.decode(errors="replace").rstrip("\n"))
         said = await complaints
         return "" if await process.wait() == 0 else _last_line(said)
     finally:
+        if fed:
+            fed(None)
         complaints.cancel()
         if process.returncode is None:
             process.kill()

@@ -12,7 +12,7 @@ The mouse itself is taken to be late by half of its report period, with an error
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,9 +32,17 @@ MIN_REPORTS: Final = 20  # in such a window
 LAGS_S: Final = np.arange(-20e-3, 151e-3, 1e-3)
 MAX_RESIDUAL_M: Final = 1.5e-3  # rms: above, finger and mouse did not move together
 MAX_ERROR_S: Final = 2e-3
+SEVERAL: Final = "several fingers on the panel: slide one finger alone, and keep the hand off the glass"
 MAX_MOUSE_PERIOD_S: Final = 10e-3  # the lag is uncertain by half of it
 
 Array = NDArray[np.float64]
+
+
+class Track(NamedTuple):
+    """When something was where: times in s, (n,), and places, (n, 2), in m or in counts."""
+
+    at_s: Array
+    places: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +63,14 @@ def lag_figures(recording: Recording, board: Board) -> LagFigures:
     The mouse's EV_REL are among the events of the recording. Raises CalibrationError if there are too few strokes, several fingers,
     no mouse or a slow one, or finger and mouse did not move together.
     """
-    mouse = _mouse(recording)
-    at_s, positions_m = _finger(recording, board)
+    return lag_of(_finger(recording, board), _mouse(recording))
+
+
+def lag_of(finger: Track, mouse: Track) -> LagFigures:
+    """Evaluate the tracks of one finger and of a mouse that moved with it; raises CalibrationError as `lag_figures` does."""
+    if (period_s := _period_s(mouse.at_s)) > MAX_MOUSE_PERIOD_S:
+        raise CalibrationError(f"the mouse reports every {period_s * 1e3:.0f} ms: take one that reports at least every 8 ms")
+    at_s, positions_m = finger
     turns = _turns(positions_m)
     if turns < MIN_TURNS:
         raise CalibrationError(f"only {turns} turns: slide to and fro, by 5 cm or more, at least {MIN_TURNS} times")
@@ -72,18 +86,17 @@ def lag_figures(recording: Recording, board: Board) -> LagFigures:
             f"finger and mouse did not move together, they are {residual_m * 1e3:.1f} mm apart: hold them together, and do it again"
         )
     lags_s = np.array([_lag_of(at_s[window], positions_m[window], mouse, map_of, float(coarse_s)) for window in windows])
-    error_s = 1.96 * 1.2533 * 1.4826 * float(np.median(np.abs(lags_s - np.median(lags_s)))) / np.sqrt(len(lags_s))
+    error_s = 1.96 * 1.2533 * 1.4826 * float(np.median(np.abs(lags_s - np.median(lags_s))) / np.sqrt(len(lags_s)))
     if error_s > MAX_ERROR_S:
         raise CalibrationError(f"the strokes disagree by {error_s * 1e3:.1f} ms: hold finger and mouse together, and do it again")
-    period_s = _period_s(mouse[0])
     lag_s = float(np.median(lags_s)) + period_s / 2
     if lag_s < -(error_s + period_s / 2):
         raise CalibrationError(f"the panel would be {-lag_s * 1e3:.1f} ms ahead of the mouse: take another mouse")
     return LagFigures(max(lag_s, 0.0) * 1e3, error_s * 1e3, period_s * 1e3, turns, len(windows), residual_m * 1e3)
 
 
-def _mouse(recording: Recording) -> tuple[Array, Array]:
-    """Times of the mouse's reports in s, (n,), and its accumulated counts, (n, 2)."""
+def _mouse(recording: Recording) -> Track:
+    """The mouse's reports, and its accumulated counts."""
     steps: dict[float, list[int]] = {}
     for kind, code, value, time_s in recording.events:
         if kind == EV_REL and code in (REL_X, REL_Y):
@@ -92,18 +105,15 @@ def _mouse(recording: Recording) -> tuple[Array, Array]:
         raise CalibrationError(
             f"{recording.name} has no mouse in it: make one with calibrate-touch --lag --reference DEVICE --out FILE"
         )
-    at_s: Array = np.array(list(steps))
-    if (period_s := _period_s(at_s)) > MAX_MOUSE_PERIOD_S:
-        raise CalibrationError(f"the mouse reports every {period_s * 1e3:.0f} ms: take one that reports at least every 8 ms")
-    return at_s, np.cumsum(np.array(list(steps.values()), np.float64), axis=0)
+    return Track(np.array(list(steps)), np.cumsum(np.array(list(steps.values()), np.float64), axis=0))
 
 
 def _period_s(at_s: Array) -> float:
     return float(np.median(np.diff(at_s)))
 
 
-def _finger(recording: Recording, board: Board) -> tuple[Array, Array]:
-    """Times in s, (n,), and positions in m, (n, 2), of the finger."""
+def _finger(recording: Recording, board: Board) -> Track:
+    """The finger's positions in m."""
     source = RecordingSource(recording, recording.axes(board), 0.0)
     reports: list[tuple[float, float, float]] = []
     while (next_s := source.next_time_s()) is not None:
@@ -111,11 +121,16 @@ def _finger(recording: Recording, board: Board) -> tuple[Array, Array]:
             if sample.contact:
                 reports.append((sample.time_s, sample.x_m, sample.y_m))
     if source.counts.max_fingers > 1:
-        raise CalibrationError("several fingers on the panel: slide one finger alone, and keep the hand off the glass")
+        raise CalibrationError(SEVERAL)
+    return finger_track(reports)
+
+
+def finger_track(reports: list[tuple[float, float, float]]) -> Track:
+    """The track of a finger's reports (time in s, x and y in m); raises CalibrationError if there are next to none."""
     if len(reports) < MIN_REPORTS:
         raise CalibrationError("no finger slid over the panel")
     table = np.array(reports)
-    return table[:, 0], table[:, 1:]
+    return Track(table[:, 0], table[:, 1:])
 
 
 def _turns(positions_m: Array) -> int:
@@ -146,15 +161,13 @@ def _windows(at_s: Array, positions_m: Array) -> list[NDArray[np.intp]]:
     return found
 
 
-def _counts(mouse: tuple[Array, Array], at_s: Array) -> Array:
+def _counts(mouse: Track, at_s: Array) -> Array:
     """The mouse's counts at times `at_s`, (n, 2), linear between its reports."""
     times_s, counts = mouse
     return np.stack([np.interp(at_s, times_s, counts[:, axis]) for axis in (0, 1)], axis=1)
 
 
-def _fit(
-    at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse: tuple[Array, Array], lag_s: float
-) -> tuple[float, Array]:
+def _fit(at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse: Track, lag_s: float) -> tuple[float, Array]:
     """Rms residual in m, and the (2, 2) map from counts to m that fits all windows best, each about its own mean."""
     counts = _counts(mouse, at_s - lag_s)
     here = np.concatenate([counts[window] - counts[window].mean(axis=0) for window in windows])
@@ -163,7 +176,7 @@ def _fit(
     return float(np.sqrt(np.mean(np.sum((here @ map_of - there) ** 2, axis=1)))), map_of
 
 
-def _lag_of(at_s: Array, positions_m: Array, mouse: tuple[Array, Array], map_of: Array, near_s: float) -> float:
+def _lag_of(at_s: Array, positions_m: Array, mouse: Track, map_of: Array, near_s: float) -> float:
     """Least-squares lag of one window within 15 ms of `near_s`, refined by a parabola through the minimum."""
     lags_s = near_s + np.arange(-15e-3, 15.05e-3, 0.5e-3)
     errors = []

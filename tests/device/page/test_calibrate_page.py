@@ -1,20 +1,77 @@
 """The page that calibrates, in a real browser: each step is said and drawn, the result can be copied, refusals are in words."""
 
 import itertools
+import json
+import math
 import os
 import re
+import threading
+import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from chromium import PROGRAM, browser
 from device.touch_calibration.test_running import axes_at, off_mm, touched  # noqa: F401 - a fixture
+
+from controller.device.application_socket.client import PanelClient
+from controller.device.application_socket.messages import ContactNotice
 
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(PROGRAM is None, reason="no browser: apt-get install chromium"),
 ]
+LAG_S = 0.025
+STROKES_HZ, MOUSE_HZ = 1.7, 250.0
 PICTURES = os.environ.get("HAPTIC_PANEL_PICTURES")  # a folder: store what the page looks like there
 OPERATES = '[origins]\nself = ["operate"]'
+
+
+def strokes(at_s):
+    """Where a finger is that slides to and fro, as shares of how far it goes."""
+    phase = 2 * math.pi * STROKES_HZ * at_s + 0.8 * math.sin(1.3 * at_s)
+    return math.sin(phase), 0.3 * math.sin(0.61 * phase + 1.0)
+
+
+class LateFinger:
+    """What a panel writes of such a finger, each report of where it was `LAG_S` before; and how late the service has it besides."""
+
+    def __init__(self):
+        self.written_s = []
+
+    def __iter__(self):
+        while True:
+            self.written_s.append(time.monotonic())
+            x, y = strokes(self.written_s[-1] - LAG_S)
+            yield round(2048 + 600 * x), round(2048 + 600 * y)
+
+    def lag_ms(self, heard_s):
+        """The true lag of contacts with these times."""
+        at = np.searchsorted(self.written_s, heard_s) - 1
+        return 1e3 * (LAG_S + np.median(np.array(heard_s) - np.array(self.written_s)[at]))
+
+
+def contacts(socket, ended):
+    """Times of the panel's contacts until something has ended."""
+    found = []
+    with PanelClient(str(socket)) as panel:
+        panel.subscribe("contacts")
+        while not ended.is_set():
+            found += [one.time_s for one in panel.heard(ContactNotice, 0.5)]
+    return found
+
+
+def move(page, till):
+    """Move the page's mouse as the finger until something is true."""
+    began_s, number = time.monotonic(), 0
+    while True:
+        x, y = strokes(time.monotonic())
+        event = {"type": "mouseMoved", "x": 640 + 400 * x, "y": 450 + 400 * y, "timestamp": time.time()}
+        page._socket.send(json.dumps({"id": 10**9, "method": "Input.dispatchMouseEvent", "params": event}))
+        number += 1
+        if number % 50 == 0 and page.value(till):
+            return
+        time.sleep(max(began_s + number / MOUSE_HZ - time.monotonic(), 0.0))
 
 
 def text(page, name):
@@ -65,4 +122,32 @@ def test_axes_are_calibrated_by_touches_on_known_places(bridge_with, touched, tm
         page.dark()
         assert page.value("document.documentElement.scrollWidth") == 390
         page.picture(pictures / "calibrate_phone.png")
+        assert page.said == []
+
+
+def test_the_lag_is_measured_by_a_mouse_of_the_page(bridge_with, touched, tmp_path):  # noqa: F811
+    panel, socket = touched
+    bridge = bridge_with(OPERATES, socket=str(socket))
+    finger, ended, heard_s = LateFinger(), threading.Event(), []
+    watcher = threading.Thread(target=lambda: heard_s.extend(contacts(socket, ended)))
+    with browser() as page:
+        page.size(1280, 900)
+        page.open(f"{bridge.address}live/calibrate.html")
+        page.until("!document.getElementById('lag').disabled")
+        press(page, "lag")
+        page.until("document.getElementById('say').textContent.startsWith('hold the mouse to the finger')")
+        page.picture((Path(PICTURES) if PICTURES else tmp_path) / "calibrate_lag.png")
+        watcher.start()
+        with panel.finger(finger):
+            move(page, "/^(Done|Not calibrated)/.test(document.getElementById('say').textContent)")
+        ended.set()
+        watcher.join()
+        assert text(page, "say") == "Done."
+        words = text(page, "words")
+        print(text(page, "lines"), words, "true:", finger.lag_ms(heard_s))
+        found_ms = float(re.fullmatch(r"lag_ms = (\S+)", text(page, "lines"))[1])
+        within_ms = sum(float(ms) for ms in re.findall(r"([\d.]+) ms (?:by chance|for what the mouse|for the page)", words))
+        assert within_ms < 8
+        assert found_ms == pytest.approx(finger.lag_ms(heard_s), abs=within_ms + 1.0)
+        page.picture((Path(PICTURES) if PICTURES else tmp_path) / "calibrate_lag_done.png")
         assert page.said == []

@@ -3,11 +3,13 @@
 import json
 import os
 import shutil
+import time
 
 import pytest
 from patience import wait_for
 from tables import each_row
 
+from controller.device.page.tools import PageTools
 from controller.device.page.traces import PART_BYTES, TraceFolder
 from controller.device.service.tracing.trace_report import read_trace
 from controller.errors import ConfigError
@@ -123,7 +125,7 @@ def assert_nested(events):
 
 def test_traces_and_calibration_are_for_operators(bridge, asks):
     with bridge.open() as page:
-        for kind in ("traces", "read_trace", "explain_trace", "calibrate", "cancel"):
+        for kind in ("traces", "read_trace", "explain_trace", "calibrate", "cancel", "mouse"):
             assert asks(page, kind=kind)["reason"] == (
                 f"this page's origin may not {kind}: the bridge's settings do not give it the right 'operate'"
             )
@@ -162,7 +164,6 @@ def test_a_calibration_ends_with_its_page(bridge_with, asks):
 @pytest.mark.parametrize(
     ("message", "reason"),
     [
-        ({"what": "lag"}, "the lag is measured against a mouse"),
         ({"what": "all"}, "Invalid enum value 'all'"),
         ({"what": "axes", "at_mm": [[1, 2, 3]]}, "Expected `array` of length 2"),
         ({"what": "axes", "at_mm": [[20, "x"]]}, "Expected `float`, got `str`"),
@@ -179,6 +180,46 @@ def test_a_calibration_ends_with_its_page(bridge_with, asks):
 def test_what_cannot_be_calibrated_is_refused_in_plain_words(bridge_with, asks, message, reason):
     with bridge_with(OPERATES).open() as page:
         assert reason in asks(page, kind="calibrate", **message)["reason"]
+
+
+STEPS = {"kind": "mouse", "sent_ms": 5.0, "steps": [[4.0, 1, -2]]}
+
+
+@pytest.mark.parametrize("address", ["192.168.1.5", "::ffff:192.168.1.5", "fe80::1%eth0"])
+def test_the_lag_is_measured_on_the_panels_own_machine_alone(tmp_path, address):
+    tools = PageTools("/none", address, TraceFolder(tmp_path), set(), print)
+    with pytest.raises(ConfigError, match="in a browser on the panel's own machine"):
+        tools.kinds["calibrate"]({"kind": "calibrate", "what": "lag"})
+
+
+@pytest.mark.parametrize(
+    ("changed", "reason"),
+    [
+        ({}, "no lag is being measured"),
+        ({"steps": [[4.0, 1]]}, "Expected `array` of length 3"),
+        ({"steps": [[4.0, 1, 2]] * 1001}, "Expected `array` of length <= 1000"),
+        ({"sent_ms": "now"}, "Expected `float`, got `str`"),
+        ({"arrived_s": 1.0}, "unknown field `arrived_s`"),
+    ],
+)
+def test_steps_of_a_mouse_that_nobody_asked_for_are_refused(tmp_path, changed, reason):
+    tools = PageTools("/none", "127.0.0.1", TraceFolder(tmp_path), set(), print)
+    with pytest.raises(ConfigError, match=reason):
+        tools.kinds["mouse"](STEPS | changed)
+
+
+def test_steps_of_the_mouse_come_with_the_panels_clock_while_the_lag_is_measured(bridge_with, asks):
+    with bridge_with(OPERATES).open() as page:
+        page.send(json.dumps({"kind": "calibrate", "what": "lag", "id": 7}))
+        assert heard(page, "calibration")[0]["say"].startswith("hold the mouse to the finger")
+        before_s = time.monotonic()
+        answers = [asks(page, **STEPS) for _ in range(3)]
+        assert [answer["outcome"] for answer in answers] == ["done"] * 3
+        times_s = [before_s, *(answer["time_s"] for answer in answers), time.monotonic()]
+        assert times_s == sorted(times_s)
+        page.send(json.dumps({"kind": "cancel", "id": 8}))
+        heard(page, "answer", 2)
+        assert asks(page, **STEPS)["reason"] == "no lag is being measured"
 
 
 def heard(page, kind, count=1):

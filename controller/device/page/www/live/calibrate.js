@@ -15,7 +15,7 @@
   const say = (words) => { at("say").textContent = words; };
   function show() {
     const may = panel.rights.includes("operate");
-    for (const what of ["axes", "ghosts"]) at(what).disabled = Boolean(running) || !may || !plate;
+    for (const what of ["axes", "ghosts", "lag"]) at(what).disabled = Boolean(running) || !may || !plate;
     at("cancel").hidden = !running;
   }
 
@@ -81,6 +81,29 @@
     begin("axes", at_mm.length ? { at_mm } : {});
   });
   at("ghosts").addEventListener("click", () => begin("ghosts"));
+
+  // ---- the lag: steps of a mouse, with the browser's times of them
+  const BATCH_MS = 50;
+  let steps = [], answered = null;
+  addEventListener("pointermove", (event) => {
+    if (running !== "lag" || event.pointerType !== "mouse") return;
+    const all = event.getCoalescedEvents?.() ?? [];
+    for (const one of all.length ? all : [event]) steps.push([one.timeStamp, one.movementX, one.movementY]);
+  });
+  async function send() {
+    const batch = { kind: "mouse", sent_ms: performance.now(), steps: steps.splice(0, 300), answered };
+    const { time_s } = await panel.send(batch);
+    if (time_s !== undefined) answered = [time_s, performance.now()];
+  }
+  at("lag").addEventListener("click", async () => {
+    const page = document.documentElement;
+    await page.requestPointerLock({ unadjustedMovement: true })?.catch(() => page.requestPointerLock())?.catch(() => {}); // without it: until the screen's edge
+    [steps, answered] = [[], null];
+    const sends = setInterval(send, BATCH_MS);
+    await begin("lag");
+    clearInterval(sends);
+    document.exitPointerLock();
+  });
   at("cancel").addEventListener("click", () => panel.send({ kind: "cancel" }));
   at("copy").addEventListener("click", async () => {
     try {
