@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from controller.clocks import MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import fpga_link
+from controller.commands.common.fpga_link import fpga_link, touch_panel_of
 from controller.commands.common.output import progress_bar, show
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board, own_board
@@ -46,7 +46,7 @@ def examine(options: argparse.Namespace) -> int:
     """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
     board = load_board(find_board(options.board or own_board()))
     real = MonotonicClock()
-    findings = look(board, real.now_s) + _releases()
+    findings = look(board, real.now_s, touch_panel_of(board)) + _releases()
     figures: dict[str, Any] = {}
     if options.link:
         clock = VirtualClock() if board.link.kind == "simulated" else real
@@ -65,7 +65,7 @@ def examine(options: argparse.Namespace) -> int:
         findings += examined.findings
         figures = examined.figures
     good = all(finding.good for finding in findings)
-    steps = [] if board.link.kind == "simulated" else [step._asdict() for step in way(board, findings)]
+    steps = [] if board.link.kind == "simulated" and not board.link.device else [step._asdict() for step in way(board, findings)]
     said = [asdict(finding) for finding in findings]
     show(options, {"board": board.name, "good": good, "findings": said, **figures, "way": steps}, _table)
     return 0 if good else 1

@@ -88,7 +88,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the board's panel, or simulate it."""
     board = named_board(options.board)
-    devices = board.link.kind != "simulated" or board.touch.has_device
+    devices = board.link.kind != "simulated" or (board.touch.has_device and not board.link.device)
     if devices and options.link is None:
         return _serve(options, board)
     return _simulate(options, board)
@@ -153,12 +153,13 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     from controller.commands.gateware import gateware_factory
     from controller.commands.run_report import felt
     from controller.device.touch.recordings.recording import Recording
+    from controller.workshop.gateware.actual_panel import actual_panel
     from controller.workshop.simulation import focus_evaluation, run_figures, simulated_run
     from controller.workshop.simulation.other_plate import on_other_plate
 
     picture = picture_path(options)
     board = simulated(board)
-    plate = on_other_plate(board, options.plate)
+    plate = on_other_plate(actual_panel(board).of(board), options.plate)
     board, drift = _drifting(options, board)
     scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)

@@ -72,7 +72,7 @@ def begun():
     """A survey of all channels, its session and link, and who feels it."""
     clock = VirtualClock()
     link = open_simulated(BOARD, clock.now_s)
-    person = FeelingPerson(BOARD, link, {}, ())
+    person = FeelingPerson(BOARD, link, BOARD)
     session = open_session(link, BOARD, clock.now_s)
     return survey(session, BOARD, clock, LiveSource(person.panel, BOARD), range(32), person, lambda _: None), session, link, person
 

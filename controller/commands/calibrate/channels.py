@@ -16,9 +16,10 @@ from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 from controller.device.service.drivers import open_session, open_touch
 from controller.device.touch.live_source import LiveSource
+from controller.device.touch.reports import FAULTS, describe_warnings
 from controller.device.touch_calibration.channel_map import ChannelMap, channel_map
 from controller.device.touch_calibration.channel_survey import survey
-from controller.errors import ConfigError, UsageError
+from controller.errors import UsageError
 
 if TYPE_CHECKING:
     from controller.device.fpga.links.link import Link
@@ -75,7 +76,8 @@ def channels(options: argparse.Namespace) -> int:
     finally:
         link.close()
     found = channel_map(board, places)
-    show(options, _figures(board, found), _table)
+    faults = describe_warnings({kind: source.warnings[kind] for kind in FAULTS})
+    show(options, _figures(board, found) | {"touch_panel": faults}, _table)
     return 1 if found.wrong else 0
 
 
@@ -83,14 +85,15 @@ def _before(board: Board, link: Link, options: argparse.Namespace) -> tuple[Touc
     """The touches of a board's panel, and who makes them."""
     if board.link.kind != "simulated":
         return open_touch(board), AtTerminal()
-    if board.touch.has_device:
-        raise ConfigError(f"board {board.name!r} has a simulated FPGA: nothing buzzes on its real touch panel")
+    from controller.workshop.gateware.actual_panel import ActualPanel, actual_panel, rewired
     from controller.workshop.gateware.simulated_link import SimulatedLink
     from controller.workshop.simulation.feeling_person import FeelingPerson
 
     assert isinstance(link, SimulatedLink)
-    wired = {output: on for a, b in options.swapped for output, on in ((a, b), (b, a))}
-    person = FeelingPerson(board, link, wired, options.dead)
+    real = actual_panel(board).of(board)
+    if options.swapped or options.dead:
+        real = ActualPanel(actuators=rewired(real, options.swapped, options.dead)).of(real)
+    person = FeelingPerson(board, link, real)
     return LiveSource(person.panel, board), person
 
 
@@ -102,4 +105,5 @@ def _figures(board: Board, found: ChannelMap) -> dict[str, Any]:
 def _table(figures: dict[str, Any]) -> str:
     wrong, count = figures["wrong"], len(figures["felt_at_disc"])
     said = wrong or [f"PASS: each of {count} channels moves its own disc"]
+    said = [*said, *(f"WARNING: touch panel: {fault}" for fault in figures["touch_panel"])]
     return "\n".join([*said, "Within a disc a finger cannot tell: `calibrate check` names swapped quadrants, of measurements"])

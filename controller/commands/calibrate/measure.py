@@ -69,6 +69,7 @@ def measure(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.recording.in_place import Excitation, InPlace, samples_before
     from controller.workshop.calibration.records.measurement_writer import claim, write_measurement, write_records
     from controller.workshop.calibration.records.points import read_points
+    from controller.workshop.gateware.actual_panel import actual_panel
     from controller.workshop.gateware.simulated_link import open_simulated
 
     board = load_board(find_board(options.board))
@@ -85,6 +86,7 @@ def measure(options: argparse.Namespace) -> int:
     link: Link = simulation or open_link(board, clock.now_s, unhurried=True)
     try:
         sensor = _simulated_sensor(options, board, simulation, clock, sync) if simulation and not recorder else None
+        frame = actual_panel(board).frame
         used = recorder or sensor
         if used is None:
             raise UsageError("which sensor? give --alsa NAME or --serial TTY")
@@ -99,7 +101,7 @@ def measure(options: argparse.Namespace) -> int:
         for done, index in enumerate(missing, len(names) - len(missing)):
             x_m, y_m = points_m[index]
             if sensor is not None:
-                sensor.place_m = points_m[index]
+                sensor.place_m = frame.place_m(points_m[index])
             _move(options, names[index], done, len(names), x_m * 1e3, y_m * 1e3, ask=sensor is None)
             write_records(folder, settings, names[index], _measured(played, names[index]).astype("float32"))
     except KeyboardInterrupt:
@@ -127,9 +129,10 @@ def measure(options: argparse.Namespace) -> int:
 def _simulated_sensor(options: argparse.Namespace, board: Board, link: SimulatedLink, clock: Clock, sync: int) -> SimulatedRecorder:
     """A sensor on the simulated plate that is asked for."""
     from controller.workshop.calibration.recording.simulated_recorder import SimulatedRecorder
+    from controller.workshop.gateware.actual_panel import actual_panel
     from controller.workshop.simulation.other_plate import on_other_plate
 
-    real = on_other_plate(board, options.plate)
+    real = on_other_plate(actual_panel(board).of(board), options.plate)
     return SimulatedRecorder(real, link, clock.now_s, options.rate_khz * 1e3, "m/s", sync, options.noise)
 
 

@@ -1,4 +1,4 @@
-"""The link of a command to a board's FPGA: a real one, or a simulated one, which only the workshop has."""
+"""A board's FPGA and touch panel for a command: real ones, or simulated ones, which only the workshop has."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Callable
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.links.link import Link
-from controller.device.service.drivers import OpenLink, open_link
+from controller.device.service.drivers import OpenLink, open_link, open_panel
+from controller.device.touch.event_reader import EventReader
 
 
 def open_fpga_of(board: Board) -> OpenLink:
@@ -17,6 +18,15 @@ def open_fpga_of(board: Board) -> OpenLink:
     from controller.workshop.gateware.simulated_link import open_simulated
 
     return open_simulated
+
+
+def touch_panel_of(board: Board) -> Callable[[Board], EventReader]:
+    """What opens the touch panel of a board: its own, or the one of a whole panel that is simulated."""
+    if board.link.kind != "simulated" or not board.link.device:
+        return open_panel
+    from controller.workshop.simulation.simulated_touch import simulated_touch
+
+    return simulated_touch
 
 
 def fpga_link(board: Board, now_s: Callable[[], float]) -> tuple[Link, Callable[[], Capture] | None]:

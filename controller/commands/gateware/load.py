@@ -35,37 +35,52 @@ def add(step: argparse.ArgumentParser) -> None:
 def gateware_load(options: argparse.Namespace) -> int:
     """Load a bitstream that the board's bring-up would take, while nothing else uses the board; the link stays silent."""
     board = load_board(find_board(options.board))
-    if board.gateware is None:
-        raise ConfigError(f"board {board.name!r} does not say how its FPGA is loaded: give it a table [gateware]")
-    command = list(board.gateware.load)
-    if options.flash:
-        if TO_MEMORY not in command:
-            raise ConfigError(f"board {board.name!r}: --flash: gateware.load has no {TO_MEMORY} that {TO_FLASH} could replace")
-        command[command.index(TO_MEMORY)] = TO_FLASH
+    command = [] if board.link.kind == "simulated" else _command(board, flash=options.flash)
     file = Path(options.file) if options.file else bitstream_path(board)
     if not file.is_file():
         raise ConfigError(f"{file}: there is no such bitstream: haptic-panel gateware build --board {options.board} --out {file}")
     if complaints := differences(read_identity(file), board, gateware_hash()):
         raise ConfigError(f"{file}: bring-up would refuse it: {'; '.join(complaints)}")
-    command = [word.replace("{bitstream}", str(file)) for word in command]
+    if command:
+        _run(board, [word.replace("{bitstream}", str(file)) for word in command], flash=options.flash)
+    else:
+        from controller.workshop.gateware.actual_panel import load_flash
+
+        load_flash(board, file)
+    show(options, {"file": str(file), "flash": options.flash}, lambda done: f"{done['file']}: loaded")
+    return 0
+
+
+def _command(board: Board, *, flash: bool) -> list[str]:
+    """What loads the FPGA of a board; raises ConfigError if it does not say."""
+    if board.gateware is None:
+        raise ConfigError(f"board {board.name!r} does not say how its FPGA is loaded: give it a table [gateware]")
+    command = list(board.gateware.load)
+    if flash:
+        if TO_MEMORY not in command:
+            raise ConfigError(f"board {board.name!r}: --flash: gateware.load has no {TO_MEMORY} that {TO_FLASH} could replace")
+        command[command.index(TO_MEMORY)] = TO_FLASH
+    return command
+
+
+def _run(board: Board, command: list[str], *, flash: bool) -> None:
+    """Load the FPGA by a program."""
+    assert board.gateware is not None
     with _nobody_else(board):
         tell(f"{shlex.join(command)}")
-        limit_s = FLASH_S if options.flash else board.gateware.limit_s
         package = PACKAGES.get(command[0], "")
         try:
-            run_program(command, limit_s, attempts=ATTEMPTS, package=package, shown=True)
+            run_program(command, FLASH_S if flash else board.gateware.limit_s, attempts=ATTEMPTS, package=package, shown=True)
         except CannotStart as error:
             raise ConfigError(str(error) if package else f"{error}: gateware.load of board.toml names it") from error
         except ProgramError as error:
             raise GatewareError(f"{error}: is its USB plugged in?") from error
-    show(options, {"file": str(file), "flash": options.flash}, lambda done: f"{done['file']}: loaded")
-    return 0
 
 
 @contextlib.contextmanager
 def _nobody_else(board: Board) -> Iterator[None]:
     """Keep every other program from the link, where this computer has it: none may have the outputs on meanwhile."""
-    if board.link.kind == "simulated" or not Path(board.link.device).exists():
+    if not Path(board.link.device).exists():
         yield
         return
     device = os.open(board.link.device, os.O_RDWR | os.O_NONBLOCK | os.O_NOCTTY)

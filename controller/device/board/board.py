@@ -227,4 +227,5 @@ def board_file(panels: tuple[type[TouchPanel], ...]) -> type[Board]:
 
 def simulated(board: Board) -> Board:
     """The same board with simulated gateware instead of its FPGA."""
-    return msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, kind="simulated"))
+    device = board.link.device if board.link.kind == "simulated" else ""
+    return msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, kind="simulated", device=device))

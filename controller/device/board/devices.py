@@ -49,7 +49,8 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     clock_hz: Clock of the FPGA's logic.
     sck_hz: SCK that is asked for; at most half of `clock_hz`.
     slots: Waveforms that the FPGA's memory holds.
-    device: Serial port, or /dev/spidevB.C.
+    device: Serial port, or /dev/spidevB.C; of a simulated link a file beside board.toml that says what is there of the panel, where
+        it is not as board.toml says (`haptic-panel rehearse`).
     spi_source_hz: Clock of the SPI controller, which divides it by an even number: 400e6 on a Pi 3, 500e6 on a Pi 4, 200e6 on a Pi
         5; left out: SCK is taken to be as asked.
     baud: Baud rate of a serial link.

@@ -28,15 +28,17 @@ from controller.device.scene.scene_file import find_scene
 from controller.device.service.drivers import open_link, open_panel, recording_path
 from controller.device.service.installation import missing_package
 from controller.device.service.scenes.prepare_scene import populate
+from controller.device.touch.event_reader import EventReader
 from controller.device.touch.panels.linux_input import LinuxInputTouch
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.reports import FAULTS, describe_warnings
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 
+OpenPanel = Callable[[Board], EventReader]
 NOT_SHARED = "no other program on this machine gets its touches; [touch] share = true hands them on"
 
 
-def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
+def look(board: Board, now_s: Callable[[], float], opened: OpenPanel = open_panel) -> list[Finding]:
     """Check everything that a board needs, without outputs and without disturbing a running service.
 
     For the service's board, its user checks with the limits of the unit; what root calls runs as that user (systemd/haptic-panel).
@@ -53,7 +55,11 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         ]
     elif link.kind == "serial":
         checks.append(("serial port", lambda: _opened(open_link(board, now_s), link.device)))
-    checks += [("touch panel", lambda: _touch(board, now_s)), ("scene", lambda: _scene(board)), ("bank", lambda: _bank(board))]
+    checks += [
+        ("touch panel", lambda: _touch(board, now_s, opened)),
+        ("scene", lambda: _scene(board)),
+        ("bank", lambda: _bank(board)),
+    ]
     if board.temperature is not None:
         checks.append(("temperature", lambda: _temperature(board)))
     if link.kind != "simulated":
@@ -138,7 +144,7 @@ def _lines(link: LinkSettings) -> str:
     return f"{', '.join(wanted)} on {link.gpio_chip}"
 
 
-def _touch(board: Board, now_s: Callable[[], float]) -> str | Finding:
+def _touch(board: Board, now_s: Callable[[], float], opened: OpenPanel = open_panel) -> str | Finding:
     touch = board.touch
     if not touch.has_device:
         return f"recording {Recording.open(recording_path(board, None)).name}"
@@ -146,7 +152,7 @@ def _touch(board: Board, now_s: Callable[[], float]) -> str | Finding:
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
     if isinstance(touch, I2cTouch | SerialTouch) and (served := _served(board)):
         return served  # its devices are the service's alone
-    panel = open_panel(board)
+    panel = opened(board)
     try:
         panel.read(now_s())  # a first look, also at the lines
         faults = [panel.description.remark, *describe_warnings({kind: panel.warnings[kind] for kind in FAULTS})]
@@ -161,7 +167,7 @@ def _touch(board: Board, now_s: Callable[[], float]) -> str | Finding:
         said.append(f"no finger in {len(touch.no_finger_mm)} rectangles of the plate")
     if isinstance(touch, I2cTouch):
         said.append(
-            f"whether line {touch.interrupt_line!r} announces reports shows when it is touched: `haptic-panel status`"
+            f"whether line {touch.interrupt_line!r} announces reports shows when it is touched: `calibrate channels`, `status`"
             if touch.interrupt_line
             else "polled, as the board names no interrupt line"
         )

@@ -30,7 +30,7 @@ def diagnose(received: bytes, sent: bytes) -> str:
     if not answer.strip(b"\0"):
         return "only zeros came back: is the FPGA powered and configured, is MISO wired, or is it held low?"
     if not answer.strip(b"\xff"):
-        return "only ones came back: is the FPGA powered and configured, is MISO wired? An open line is pulled up"
+        return "only ones came back: is the FPGA powered and loaded (gateware load), is MISO wired? An open line is pulled up"
     if _valid(answer):
         return "the status is whole: it was damaged when it was first looked at"
     if (echo := _own_bytes(answer, frame)) is not None:

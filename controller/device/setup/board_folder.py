@@ -27,8 +27,14 @@ from controller.device.setup.answers import SetupAnswers
 from controller.device.setup.placement import actuators_around
 from controller.errors import ConfigError
 
-FPGA: Final = "ulx3s"  # whose top.v, pins and fpga.toml both boards use
+FPGA: Final = "ulx3s"  # whose top.v, pins and fpga.toml all boards use
+SIMULATED: Final = "simulated"
 FPGA_FILES: Final = ("top.v", "pins.lpf", "fpga.toml")
+ACTUAL: Final = "actual.toml"  # what is really there of a simulated panel
+EMPTY: Final = """# What is there of this simulated panel, where it is not as board.toml says (workshop/gateware/actual_panel.py)
+[fpga]
+flash = "flash.bit"  # written by `gateware load`; not there: the FPGA is empty, as it is delivered
+"""
 KEPT: Final = ("waveform", "link", "gateware", "application_socket")
 PITCH: Final = 0.6  # of half the shortest wave: that of the simulated board
 NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
@@ -52,6 +58,8 @@ def write_board(folder: Path, answers: SetupAnswers, touch: Mapping[str, Any]) -
             board.mkdir()
             (board / "board.toml").write_text(text, encoding="utf-8")
             shutil.copy(data_folder("boards") / "simulated" / "plate.toml", board / "scene.toml")
+            if answers.fpga == SIMULATED:
+                (board / ACTUAL).write_text(EMPTY, encoding="utf-8")
             for name in FPGA_FILES:
                 shutil.copy(data_folder("boards") / FPGA / name, board)
             read = load_board(board)
@@ -64,8 +72,12 @@ def write_board(folder: Path, answers: SetupAnswers, touch: Mapping[str, Any]) -
 
 def board_text(name: str, answers: SetupAnswers, touch: Mapping[str, Any]) -> str:
     """Text of board.toml; raises ConfigError if keys of [touch] are invalid, or the discs do not fit on the glass."""
-    shipped = data_folder("boards") / answers.fpga / "board.toml"
+    shipped = data_folder("boards") / (FPGA if answers.fpga == SIMULATED else answers.fpga) / "board.toml"
     tables, sections = read_tables(shipped), _sections(shipped.read_text(encoding="utf-8"))
+    if answers.fpga == SIMULATED:
+        link = {key: tables["link"][key] for key in ("clock_hz", "sck_hz", "slots")}
+        sections["link"] = _table("link", {"kind": SIMULATED, "device": ACTUAL, **link})
+        del sections["gateware"]
     waveform = as_record(f"{shipped}: waveform.", tables["waveform"], Waveform)
     parts = Parts(disc=answers.disc)
     actuators = actuators_around(answers.length_mm, answers.width_mm, parts, answers.discs, answers.rim_mm)

@@ -12,10 +12,11 @@ from collections.abc import Callable, Sequence
 
 from controller.device.board.board import Board
 from controller.device.board.devices import LinkSettings
-from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.capture import Capture
 from controller.device.service.drivers import gateware_hash
+from controller.workshop.gateware.actual_panel import gateware_of
 from controller.workshop.gateware.gateware import Gateware, GatewareFactory, Permit
+from controller.workshop.gateware.model.empty import EmptyFpga
 from controller.workshop.gateware.model.model import GatewareModel
 from controller.workshop.gateware.pin_timing import READY_TICKS
 
@@ -107,5 +108,9 @@ class SimulatedLink:
 
 
 def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> SimulatedLink:
-    """Link to the simulated gateware of a board, just reset. `gateware` makes it: the model, or the compiled Verilog."""
-    return SimulatedLink(board.link, now_s, gateware(BuildParameters.of(board, gateware_hash())))
+    """Link to the simulated FPGA of a board, just reset. `gateware` makes it: the model, or the compiled Verilog.
+
+    Raises ConfigError or GatewareError if what is really there of the panel, or in its flash, cannot be read.
+    """
+    parameters = gateware_of(board, gateware_hash())
+    return SimulatedLink(board.link, now_s, EmptyFpga() if parameters is None else gateware(parameters))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Collection, Mapping
 from typing import Final
 
 import numpy as np
 
 from controller.device.board.board import Board
 from controller.workshop.gateware.simulated_link import SimulatedLink
-from controller.workshop.simulation.ghostly_panel import Finger, GhostlyPanel, Ghosts
+from controller.workshop.simulation.ghostly_panel import Finger
+from controller.workshop.simulation.simulated_touch import simulated_touch
 
 REACTS_S: Final = 0.4  # from the first edges to the finger, or to the word that nothing is felt
 HOLDS_S: Final = 0.5  # lifted before it feels the next
@@ -20,19 +20,18 @@ MISSES_MM: Final = 4.0  # at most, along x and y
 class FeelingPerson:
     """A `Person`, with the panel that reports its finger.
 
-    Captures of the link are consumed. `wired` has, by output, the actuator's channel that hangs on it, where it is another; `dead`
-    are actuators, by channel, that do not move.
+    Captures of the link are consumed. `real` is the board that is there: its patches, each with the output that it hangs on.
     """
 
-    def __init__(self, board: Board, link: SimulatedLink, wired: Mapping[int, int], dead: Collection[int], seed: int = 1) -> None:
-        self._places = {actuator.channel: (actuator.x_mm, actuator.y_mm) for actuator in board.actuators}
+    def __init__(self, board: Board, link: SimulatedLink, real: Board, seed: int = 1) -> None:
+        self._places = {actuator.channel: (actuator.x_mm, actuator.y_mm) for actuator in real.actuators}
         self._sides_mm = board.plate.length_mm, board.plate.width_mm
-        self._link, self._wired, self._dead = link, wired, dead
+        self._link = link
         self._random = random.Random(seed)
         self._fingers: list[Finger] = []
         self.felt: list[int] = []  # outputs that have moved alone, in order
         self._says_nothing = False
-        self.panel = GhostlyPanel(board, self._fingers, self._feels, Ghosts(0.0, (1, 1)), until_s=1e6)  # reports the finger
+        self.panel = simulated_touch(board, self._fingers, self._feels)  # reports the finger
 
     def fileno(self) -> None:
         """None: it speaks when it is asked."""
@@ -51,11 +50,11 @@ class FeelingPerson:
         moved = [int(bits).bit_length() - 1 for bits in capture.words[1:] ^ capture.words[:-1] if int(bits).bit_count() == 1]
         if moved and moved[-1:] != self.felt[-1:]:
             self.felt.append(moved[-1])
-            self._answer(self._wired.get(moved[-1], moved[-1]), at_s)
+            self._answer(moved[-1], at_s)
         return False
 
     def _answer(self, channel: int, at_s: float) -> None:
-        if channel in self._dead or channel not in self._places:
+        if channel not in self._places:
             self._says_nothing = True
             return
         off = [self._random.uniform(-MISSES_MM, MISSES_MM) for _ in range(2)]

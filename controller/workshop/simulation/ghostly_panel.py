@@ -96,8 +96,7 @@ class GhostlyPanel:
         if at_s is None or at_s > now_s:
             return ()
         self._scan += 1
-        down = [(f"finger {k}", place) for k, (begin_s, end_s, place) in enumerate(self._fingers) if begin_s <= at_s < end_s]
-        there = {name: _at(place, at_s) for name, place in down}
+        there = finger_places(self._fingers, at_s)
         if self._disturbed(at_s) and self._random.random() < self._settings.probability:
             self._haunt(list(there.values()))
         there |= {name: place for name, (place, _) in self._alive.items()}
@@ -144,6 +143,12 @@ class GhostlyPanel:
             (ev.EV_ABS, ev.ABS_MT_POSITION_Y, round(UNITS_PER_MM * y_mm)),
             *sized,
         ]
+
+
+def finger_places(fingers: Sequence[Finger], at_s: float) -> dict[str, Place]:
+    """Where each finger is that is down at a time, by its name."""
+    down = [(f"finger {k}", place) for k, (begin_s, end_s, place) in enumerate(fingers) if begin_s <= at_s < end_s]
+    return {name: _at(place, at_s) for name, place in down}
 
 
 def pins_of(link: SimulatedLink) -> Callable[[float], bool]:

@@ -63,14 +63,17 @@ class Chip(Protocol):
 class I2cReader:
     """An `EventReader` of a chip on a bus.
 
-    `settings` gives bus and lines; `warnings` is shared with the chip. Raises TouchError if bus, lines or chip are absent.
+    `settings` gives bus and lines, unless they are `wired` already; `warnings` is shared with the chip. Raises TouchError if bus,
+    lines or chip are absent.
     """
 
-    def __init__(self, settings: I2cTouch, chip: Chip, warnings: Counter[str]) -> None:
+    def __init__(
+        self, settings: I2cTouch, chip: Chip, warnings: Counter[str], wired: tuple[PanelLines, I2cBus] | None = None
+    ) -> None:
         self.warnings = warnings
         self._chip = chip
-        self._lines = PanelLines(settings.interrupt_chip, settings.interrupt_line, settings.reset_line)
-        self._bus = I2cBus(settings.bus, warnings)
+        lines = settings.interrupt_chip, settings.interrupt_line, settings.reset_line
+        self._lines, self._bus = wired or (PanelLines(*lines), I2cBus(settings.bus, warnings))
         self._contacts = ContactEvents(sized=False)
         self.present = False  # whether the chip answered the last transfer
         self.fileno = self._lines.fileno  # of the interrupt line
