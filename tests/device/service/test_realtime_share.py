@@ -74,7 +74,7 @@ def test_not_while_the_loop_is_an_ordinary_process(host):
 def test_a_loop_that_is_gone_or_ordinary_is_not_above(bank, preparer):  # noqa: F811
     assert not realtime_share._above_us(os.getpid())
     works(preparer)
-    pid = preparer.pid
+    pid = preparer.helper.process.pid
     assert os.sched_getscheduler(pid) == os.SCHED_OTHER
     preparer.close()
     assert not realtime_share._above_us(pid)
@@ -89,6 +89,6 @@ def test_the_process_that_checks_layers_follows_the_loop(preparer):  # noqa: F81
         works(preparer)
     finally:
         os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
-    assert os.sched_getscheduler(preparer.pid) == os.SCHED_RR
+    assert os.sched_getscheduler(preparer.helper.process.pid) == os.SCHED_RR
     works(preparer)
-    assert os.sched_getscheduler(preparer.pid) == os.SCHED_OTHER
+    assert os.sched_getscheduler(preparer.helper.process.pid) == os.SCHED_OTHER

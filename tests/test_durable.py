@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from controller.device.update import durable
+from controller import durable
 
 
 def test_a_write_that_fails_leaves_the_old_file(tmp_path, monkeypatch):
