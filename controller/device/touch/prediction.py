@@ -1,8 +1,8 @@
 """Prediction of the position of one finger: an alpha-beta filter over its reports.
 
-Chosen by measurement (`python -m controller.workshop.benchmark.device.prediction_error`, README): Kalman and one-euro filters are
-no better while fingers move, and overshoot more when they stop. Only the velocity is taken from the filter; the prediction starts
-at the last reported position, so that it does not lag behind a moving finger.
+Chosen by measurement (decision 0016, README): Kalman and one-euro filters are no better while fingers move, and overshoot more
+when they stop. Only the velocity is taken from the filter; the prediction starts at the last reported position, so that it does
+not lag behind a moving finger.
 """
 
 from __future__ import annotations

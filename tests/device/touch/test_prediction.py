@@ -1,10 +1,10 @@
-import json
 import math
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from prediction_error import HORIZONS_MS, LastReport, measure, overshoot_m, rest_m
 from scripted_source import ScriptedSource, touch
 
 from controller.device.board.touch_panels import TouchPanel
@@ -19,14 +19,11 @@ from controller.device.touch.prediction import (
 )
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.tracker import Tracker
-from controller.workshop.benchmark.device.prediction_error import HORIZONS_MS, main, measure, overshoot_m, rest_m
-from controller.workshop.benchmark.device.predictors import METHODS, Kalman
 
 TOUCH = TouchPanel(x_mm_from_axes=(210.0, 0.0, 0.0), y_mm_from_axes=(0.0, 148.0, 0.0))
 PERIOD_S = 8e-3
 FOLDER = Path(__file__).parent / "recordings"
 DEMO = Path(__file__).parents[3] / "boards" / "simulated" / "demo.evemu"
-OURS = "alpha-beta (the product)"
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
 
 
@@ -44,8 +41,13 @@ def place(motion, ahead_s, lag_s=0.0, known_s=None, period_s=PERIOD_S):
 
 
 @pytest.fixture(scope="module")
-def figures():
-    return measure(Recording.open(path) for path in [*sorted(FOLDER.glob("*.ev*")), DEMO])
+def recorded():
+    return [Recording.open(path) for path in [*sorted(FOLDER.glob("*.ev*")), DEMO]]
+
+
+@pytest.fixture(scope="module")
+def ours(recorded):
+    return measure(recorded, Motion)
 
 
 @given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.floats(0, 0.015), st.floats(0.004, 0.012))
@@ -163,26 +165,16 @@ def test_whatever_is_reported_and_however_time_jumps_the_place_is_not_far_from_t
     assert math.dist(motion.predict(at_s, known_s, lag_s, PERIOD_S), (motion.x_m, motion.y_m)) <= MAX_EXTRAPOLATION_M * (1 + 1e-9)
 
 
-def test_on_the_recordings_the_product_is_as_good_as_the_readme_says(figures):
-    errors = figures["methods"][OURS]["error_mm"]
+def test_on_the_recordings_it_is_as_good_as_the_readme_says(ours):
     for horizon_ms, p95_mm, worst_mm in (("5", 0.36, 3.4), ("10", 0.6, 6.0), ("20", 1.1, 9.0), ("30", 1.6, 11.5)):
-        assert errors[horizon_ms]["p95"] < p95_mm
-        assert errors[horizon_ms]["worst"] < worst_mm
+        assert ours[horizon_ms]["p95"] < p95_mm
+        assert ours[horizon_ms]["worst"] < worst_mm
 
 
-def test_on_the_recordings_the_product_is_several_times_better_than_no_prediction(figures):
-    none, ours = (figures["methods"][name]["error_mm"] for name in ("last report", OURS))
-    for horizon_ms in ("5", "10", "20", "30"):
-        assert ours[horizon_ms]["p95"] < none[horizon_ms]["p95"] / 3
-        assert ours[horizon_ms]["median"] < none[horizon_ms]["median"] / 4
-
-
-def test_on_the_recordings_no_other_way_is_better_where_it_counts(figures):
-    for horizon_ms in ("20", "30"):
-        p95_mm = {name: found["error_mm"][horizon_ms]["p95"] for name, found in figures["methods"].items()}
-        worst_mm = {name: found["error_mm"][horizon_ms]["worst"] for name, found in figures["methods"].items()}
-        assert min(worst_mm, key=worst_mm.get) == OURS
-        assert p95_mm[OURS] < 1.1 * min(p95_mm.values())
+def test_on_the_recordings_it_is_several_times_better_than_no_prediction(ours, recorded):
+    for horizon_ms, none in measure(recorded, LastReport).items():
+        assert ours[horizon_ms]["p95"] < none["p95"] / 3
+        assert ours[horizon_ms]["median"] < none["median"] / 4
 
 
 def test_the_figures_are_of_the_call_that_the_loop_makes(perform, evemu_text, monkeypatch):
@@ -196,48 +188,29 @@ def test_the_figures_are_of_the_call_that_the_loop_makes(perform, evemu_text, mo
 
     monkeypatch.setattr(Tracker, "predict", elsewhere)
     reports = [(k * PERIOD_S, {0: (85.0, 54.0 + 0.5 * k)}) for k in range(60)]
-    for found in measure([Recording(evemu_text(*reports))])["methods"].values():
-        for horizon_ms in HORIZONS_MS:
-            assert found["error_mm"][f"{horizon_ms:g}"]["median"] == pytest.approx(20.6, abs=1.0)
-    assert {round(ahead_s * 1e3, 6) for ahead_s in asked_ahead_s} == {*HORIZONS_MS, 3.4}
+    for error_mm in measure([Recording(evemu_text(*reports))], Motion).values():
+        assert error_mm["median"] == pytest.approx(20.6, abs=1.0)
+    assert {round(ahead_s * 1e3, 6) for ahead_s in asked_ahead_s} == {*HORIZONS_MS}
     asked_ahead_s.clear()
     run = perform([*reports, (0.6, {0: None})], CLICK)
     assert {(e.x_m, e.y_m) for played in run.played for e in played.emissions} == {(0.105, 0.074)}
     assert 0 <= min(asked_ahead_s) < max(asked_ahead_s) < max(HORIZONS_MS) * 1e-3
 
 
-def test_stops_turns_and_rest_are_met_better_than_by_the_kalman_filter():
-    assert overshoot_m(METHODS[OURS], turns=False) < 0.7e-3
-    assert overshoot_m(Kalman, turns=False) > 1.5e-3
-    assert overshoot_m(METHODS[OURS], turns=True) < 0
-    assert rest_m(METHODS[OURS]) == 0
-    assert rest_m(Kalman) > 0.2e-3
+def test_stops_turns_and_rest_are_met_as_the_readme_says():
+    assert overshoot_m(Motion, turns=False) < 0.7e-3
+    assert overshoot_m(Motion, turns=True) < 0
+    assert rest_m(Motion) == 0
+    assert rest_m(LastReport) > 0.2e-3
 
 
-def test_every_method_is_exact_on_a_straight_line_and_distinguished_at_one_percent(evemu_text):
+def test_it_is_exact_on_a_straight_line_and_an_error_of_one_percent_is_seen(evemu_text):
     recording = Recording(evemu_text(*[(k * 8e-3, {0: (20 + 1.6 * k, 50)}) for k in range(90)]))
-    found = measure([recording])["methods"]
-    assert found["last report"]["error_mm"]["10"]["median"] == pytest.approx(2.0, rel=0.009)
-    for name in METHODS.keys() - {"last report"}:
-        assert found[name]["error_mm"]["10"]["median"] < (0.05 if name == "one-euro" else 0.02)  # it lags
+    assert measure([recording], LastReport)["10"]["median"] == pytest.approx(2.0, rel=0.009)
+    assert measure([recording], Motion)["10"]["median"] < 0.02
 
 
 def test_a_finger_that_the_panel_loses_in_between_is_measured_as_one(evemu_text):
     recording = Recording(evemu_text(*[(k * 8e-3, {0: None if k == 30 else (20 + 1.6 * k, 50)}) for k in range(90)]))
-    assert measure([recording])["methods"]["last report"]["error_mm"]["20"]["median"] == pytest.approx(4.0, rel=0.009)
-    assert measure([recording])["methods"][OURS]["error_mm"]["20"]["worst"] < 4.1  # at its first report
-
-
-def test_the_command_prints_a_table_or_json_and_draws(capsys, tmp_path):
-    file = str(FOLDER / "ep0430m09.2-fingers-touch-release.events")
-    assert main([file, "--plot", str(tmp_path / "error.png")]) == 0
-    assert OURS in capsys.readouterr().out
-    assert (tmp_path / "error.png").stat().st_size > 1000
-    assert main([file, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["recordings"]["ep0430m09.2-fingers-touch-release.events"]["fingers"] == 2
-
-
-@pytest.mark.parametrize(("arguments", "code"), [(["absent.evemu"], 69), ([__file__, "--plot", "x.gif"], 78)])
-def test_what_cannot_be_done_is_said_in_one_line(arguments, code, capsys):
-    assert main(arguments) == code
-    assert capsys.readouterr().err.count("\n") == 1
+    assert measure([recording], LastReport)["20"]["median"] == pytest.approx(4.0, rel=0.009)
+    assert measure([recording], Motion)["20"]["worst"] < 4.1  # at its first report

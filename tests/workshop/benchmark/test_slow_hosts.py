@@ -1,15 +1,12 @@
 """The schedule on slow hosts: few beats are late, and each by no more than its own command."""
 
-import json
-
 import pytest
 
 from controller.device.bank.reader import Bank
 from controller.device.touch.recordings.recording import Recording
-from controller.workshop.benchmark.device import slow_hosts
-from controller.workshop.benchmark.device.slow_host import LATE_S, moving, run_slow, scene_of
-from controller.workshop.benchmark.device.slow_hosts import TRAIN, aim_errors, rates
+from tests.workshop.benchmark.slow_host import LATE_S, TRAIN, moving, run_slow, scene_of
 
+FINE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 0.5 }]\n'
 LATE_PERCENT = {140: 0.5, 220: 0.5, 550: 2.0, 1300: 5.0}  # of the beats, at most, by the median host time in µs
 
 
@@ -57,25 +54,10 @@ def test_a_host_that_takes_no_time_is_never_late(run):
 
 @pytest.mark.slow
 def test_a_host_says_the_rate_that_it_reaches(board, bank_file):
+    fine, reached_hz = scene_of(board, FINE), []
     with Bank.open(bank_file, board) as bank:
-        rows = rates(board, bank, 1.5, [220, 1300])
-    for row in rows:
-        assert row["said_hz"] == pytest.approx(row["reached_hz"], rel=0.2)
-    assert rows[0]["reached_hz"] > 1.5 * rows[1]["reached_hz"]
-
-
-def test_a_beat_prepared_earlier_is_aimed_farther_off():
-    rows = aim_errors((2.1, 8.5), (0.1, 1.0))
-    by = {(row["speed_m_s"], row["lead_ms"]): row["p95_mm"] for row in rows}
-    assert by[0.1, 2.1] < by[0.1, 8.5] < 0.5 < by[1.0, 2.1] < by[1.0, 8.5]
-
-
-def test_the_command_prints_its_figures(capsys, monkeypatch):
-    monkeypatch.setattr(slow_hosts, "HOSTS_US", (220.0,))
-    monkeypatch.setattr(slow_hosts.late_pulses, "__defaults__", ((220.0,), 1))
-    monkeypatch.setattr(slow_hosts.rates, "__defaults__", ((220.0,), 1))
-    assert slow_hosts.main(["--seconds", "1", "--json"]) == 0
-    figures = json.loads(capsys.readouterr().out)
-    assert [row["fingers"] for row in figures["late_pulses"]] == ["one finger", "two fingers", "recording"]
-    assert figures["rates"][0]["host_p50_us"] == 220
-    assert slow_hosts.table(figures["aim_errors"]).startswith("| speed_m_s | lead_ms |")
+        for p50_us in (220, 1300):
+            done = run_slow(board, fine, bank, moving(1.5, speed_m_s=1.0, report_s=2e-3), p50_us * 1e-6)
+            assert done.timing.figures()["uploads_hz"] == pytest.approx(done.emissions_hz, rel=0.2)
+            reached_hz.append(done.emissions_hz)
+    assert reached_hz[0] > 1.5 * reached_hz[1]

@@ -44,6 +44,7 @@ REPORT_SHARE = 0.33  # host time of a touch report
 REPORT_S, SPEED_M_S = 8e-3, 0.2  # of moving fingers
 SETTLE_S = 50e-3  # from the end of the ramp to the first report
 LATE_S = 1e-6  # a pulse that starts later than this after its time is late
+TRAIN = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "train", rate_hz = 50.0, duration_ms = 3.6e6 }]\n'
 AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0 0 0\n"  # tenths of a millimetre on the plate
 
 
