@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.packing import CHANNELS
-from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.physics.responses.response_source import ResponseSource
@@ -27,6 +26,8 @@ class CheckedSource:
 
     def __init__(self, board: Board, source: ResponseSource) -> None:
         self._source = source
+        self.provenance, self.samples = source.provenance, source.samples
+        self.bit_clock_hz, self.plate_m = source.bit_clock_hz, source.plate_m
         self._undriven = np.setdiff1d(np.arange(CHANNELS), [a.channel for a in board.actuators])
         waveform, plate = board.waveform, board.plate
         for what, unit, reported, own in (
@@ -40,26 +41,6 @@ class CheckedSource:
                     f"board {board.name!r}: the {source.provenance.kind} responses are for {what} {reported:g} {unit}, the"
                     f" board has {own:g} {unit}: choose the board that was measured, or measure this one"
                 )
-
-    @property
-    def provenance(self) -> Provenance:
-        """Where they come from."""
-        return self._source.provenance
-
-    @property
-    def samples(self) -> int:
-        """Samples of a response."""
-        return self._source.samples
-
-    @property
-    def bit_clock_hz(self) -> float:
-        """Rate of the samples."""
-        return self._source.bit_clock_hz
-
-    @property
-    def plate_m(self) -> tuple[float, float]:
-        """Extent of the plate along x and y."""
-        return self._source.plate_m
 
     def responses(
         self, points_m: ArrayLike, *, band_limited: bool = False, dtype: DTypeLike = np.float64, out: Reals | None = None

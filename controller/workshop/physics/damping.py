@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from controller.device.board.panel import Plate
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.modes.modes import Modes
-from controller.workshop.physics.modes.retuned import Retuned, retuned
+from controller.workshop.physics.modes.retuned import retuned
 from controller.workshop.physics.modes.ritz_modes import RitzModes
 
 Floats = NDArray[np.float64]
@@ -47,8 +47,7 @@ def decay_rates(modes: Modes, plate: Plate) -> Floats:
     strips = foam_strips(plate)
     if strips and plate.foam is not None and plate.foam.dashpot_pa_s_m:
         per_area = plate.density_kg_m3 * plate.thickness_m
-        base = modes.base if isinstance(modes, Retuned) else modes
-        share = base.foam_share if isinstance(base, RitzModes) else strip_share(modes, strips, _shortest_m(modes, plate))
+        share = modes.foam_share if isinstance(modes, RitzModes) else strip_share(modes, strips, _shortest_m(modes, plate))
         rate = rate + plate.foam.dashpot_pa_s_m / (2 * per_area) * share
     found: Floats = rate
     return found

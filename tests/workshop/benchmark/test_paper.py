@@ -14,7 +14,7 @@ from controller.device.board.lookup import find_board
 from controller.errors import ConfigError
 from controller.workshop.benchmark.paper import paper, paper_equations
 from controller.workshop.benchmark.paper.paper import PaperEffort, paper_figures
-from controller.workshop.benchmark.paper.paper_row import Row, markdown, paper_table
+from controller.workshop.benchmark.paper.paper_row import markdown, paper_table, rows
 from controller.workshop.benchmark.paper.plot_paper import CURVES, LISTS, plot_paper
 from controller.workshop.physics.modes.plate_modes import modes_of
 
@@ -127,8 +127,8 @@ def test_a_plate_too_small_for_foci_is_refused():
 
 
 def test_a_row_without_spread_or_without_the_papers_figure():
-    assert Row.of("a", "b", None, 3.0, "because so").figures()["ratio"] is None
-    row = Row.of("a", "b", 2.0, range(101), "because so")
+    assert rows({"learning_points": 3.0})[0].figures()["ratio"] is None
+    (row,) = rows({"repetition": range(101)}, {"repetition": 2.0})
     assert row.here == (5.0, 50.0, 95.0)
     assert row.figures()["ratio"] == 25.0
 

@@ -10,20 +10,13 @@ from numpy.typing import NDArray
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.benchmark.focus.focus_emission import emission_figures
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
-from controller.workshop.benchmark.paper.paper_row import Row
+from controller.workshop.benchmark.paper.paper_row import Row, rows
 from controller.workshop.physics.design import design
 from controller.workshop.physics.field import Field
 from controller.workshop.physics.responses.modal_history import Energy, modal_energy, modal_history
 
 Floats = NDArray[np.float64]
 AFTER_S = 3e-3  # fig. 8 ends 3 ms after T
-# Why figures differ from the paper's
-OF_SCAN = "eq. (8) with differences over 2 mm misses a fifth; how the paper took its derivatives it does not say"
-OF_KINETIC = "appendix B takes the plate at rest at T; what does not focus is not"
-OF_EQ_6 = "takes all modes from 0 Hz as alike and the spot as λ/2"
-OF_BAND = "the same derivation with the band's own modes: near what the paper measured"
-OF_HEAT = "not in the paper, whose 45 mW are the plate's: C V² of the edges is 180 times as much"
-OF_DECAY = "printed as 2 τ; energy is the square of what decays with τ: τ / 2"
 SCAN_M = 2e-3  # steps of the paper's vibrometer
 SETTLED_S = 0.2e-3  # after T, from when on the decay is measured
 
@@ -55,19 +48,18 @@ def energy_rows(panel: PaperPanel, energies: list[Energy]) -> list[Row]:
     scanned_uj = kinetic * total_uj + [scanned_energy_j(panel, field, SCAN_M) * 1e6 for field in panel.fields[:count]]
     band_uj = band_energy_j(panel, amplitudes_m) * 1e6
     decay_ms = np.array([_decay_s(energy, last, waveform.bit_period_s) for energy in energies]) * 1e3
-    return [
-        Row.of(key, quantity, paper, here, why)
-        for key, quantity, paper, here, why in (
-            ("energy_uj", "energy at T (µJ)", 90.0, total_uj, "all modes, kinetic part included; see the scan below"),
-            ("energy_scan_uj", "energy at T as a scan of 2 mm shows it, kinetic part included (µJ)", 90.0, scanned_uj, OF_SCAN),
-            ("energy_kinetic", "of it kinetic", 0.0, kinetic, OF_KINETIC),
-            ("eq6_here_uj", "energy, eq. (6) with our A and Rs (µJ)", 59.0, printed_uj, OF_EQ_6),
-            ("appendix_b_uj", "energy, appendix B summed over 20–70 kHz, with our A (µJ)", None, band_uj, OF_BAND),
-            ("power_mw", "mechanical power over T (mW)", 45.0, power_mw, "E / T, as the paper has it"),
-            ("resistor_w", "heat in the 32 series resistors while emitting (W)", None, heat_w, OF_HEAT),
-            ("energy_decay_ms", "decay of the energy after T (ms)", 2.0, decay_ms, OF_DECAY),
-        )
-    ]
+    return rows(
+        {
+            "energy_uj": total_uj,
+            "energy_scan_uj": scanned_uj,
+            "energy_kinetic": kinetic,
+            "eq6_here_uj": printed_uj,
+            "appendix_b_uj": band_uj,
+            "power_mw": power_mw,
+            "resistor_w": heat_w,
+            "energy_decay_ms": decay_ms,
+        }
+    )
 
 
 def band_energy_j(panel: PaperPanel, amplitudes_m: Floats) -> Floats:

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
-from controller.workshop.benchmark.paper.paper_row import Row
+from controller.workshop.benchmark.paper.paper_row import Row, rows
 from controller.workshop.physics.design import design
 from controller.workshop.physics.finger import Finger, point_motion
 
 MASSES_MG = (10.0, 20.0, 35.0, 50.0, 70.0, 100.0, 140.0, 230.0)
+SHOWN_MG = (20.0, 100.0, 140.0, 230.0)
 PAPER_KEPT = 3 / 7  # fig. 11 at 1 N
 PAPER_RESOLUTION_M = 5e-3  # section V
 NEAR_S = 12e-6  # of T: half a period at 42 kHz, within which the peak is looked for; mass makes it late
@@ -24,41 +25,26 @@ def finger_rows(panel: PaperPanel, count: int) -> tuple[list[Row], dict[str, Any
     by_mass = dict(zip(MASSES_MG, loaded.T, strict=True))
     plate = panel.board.plate
     formula = [design.gate_attenuation(plate, mass * 1e-6, PAPER_RESOLUTION_M) for mass in MASSES_MG]
-    rows = [
-        Row.of(
-            "finger_eq7",
-            "finger of 140 mg at the focus: kept, eq. (7)",
-            PAPER_KEPT,
-            formula[MASSES_MG.index(140.0)],
-            "the paper's own formula, its M for 1 N from literature, and 7 → 3 µm of fig. 11",
-        ),
-        *(
-            Row.of(
-                f"finger_{mass:g}_mg",
-                f"finger of {mass:g} mg: kept, point mass on the modal plate",
-                design.gate_attenuation(plate, mass * 1e-6, PAPER_RESOLUTION_M),
-                by_mass[mass],
-                "against eq. (7), whose gate has a part at 0 Hz that no mass holds back",
-            )
-            for mass in (20.0, 100.0, 140.0, 230.0)
-        ),
-    ]
+    by_formula = dict(zip(MASSES_MG, formula, strict=True))
     reads = [float(np.interp(-PAPER_KEPT, -np.array([1.0, *shares]), [0.0, *MASSES_MG])) for shares in loaded]
-    rows.append(
-        Row.of(
-            "finger_mass_mg",
-            "mass that leaves 3 of 7 µm (mg)",
-            design.gate_mass_kg(plate, PAPER_KEPT, PAPER_RESOLUTION_M) * 1e6,
-            reads,
-            "the paper's column: read by eq. (7); a point mass on the modal plate need be less than half",
-        )
+    found = rows(
+        {
+            "finger_eq7": by_formula[140.0],
+            **{f"finger_{mass:g}_mg": by_mass[mass] for mass in SHOWN_MG},
+            "finger_mass_mg": reads,
+        },
+        {
+            "finger_eq7": PAPER_KEPT,
+            **{f"finger_{mass:g}_mg": by_formula[mass] for mass in SHOWN_MG},
+            "finger_mass_mg": design.gate_mass_kg(plate, PAPER_KEPT, PAPER_RESOLUTION_M) * 1e6,
+        },
     )
     curve = {
         "mass_mg": [0.0, *MASSES_MG],
         "formula": [1.0, *formula],
         "modal": [1.0, *np.median(loaded, axis=0).tolist()],
     }
-    return rows, curve
+    return found, curve
 
 
 def loaded_shares(panel: PaperPanel, index: int) -> list[float]:

@@ -7,7 +7,7 @@ import numpy as np
 from controller.workshop.benchmark.focus.focus_emission import field_of_pulse, pulse_s
 from controller.workshop.benchmark.focus.focus_figures import emit, idling_low
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
-from controller.workshop.benchmark.paper.paper_row import Row
+from controller.workshop.benchmark.paper.paper_row import Row, rows
 from controller.workshop.physics.design import design
 from controller.workshop.physics.field import Field, half_width
 from controller.workshop.physics.focusing import focus
@@ -21,56 +21,27 @@ def focus_rows(panel: PaperPanel) -> list[Row]:
     evaluated = [field.focus_metrics(*point) for field, point in zip(panel.fields, panel.points_m.tolist(), strict=True)]
     lasting = [pulse_s(field_of_pulse(emission), *emission.points_m[0]) for emission in panel.emissions]
     narrow = [spot_m(field, point, HALF_POWER) for field, point in zip(panel.fields, panel.points_m.tolist(), strict=True)]
-    return [
-        Row.of(
-            "amplitude_um",
-            "amplitude (µm)",
-            7.68,
-            panel.amplitudes_m * 1e6,
-            "the piezo constant is fitted to this one figure: the median says nothing, the spread does",
-        ),
-        Row.of(
-            "spot_half_mm",
-            "spot, full width at half height (mm)",
-            5.2,
-            [one.spot_m * 1e3 for one in evaluated],
-            "the paper does not say at which height; patches and drivers favour the lower band, so wider than λ/2",
-        ),
-        Row.of("spot_3db_mm", "spot, full width at −3 dB (mm)", 5.2, np.array(narrow) * 1e3, "the same spots, higher up"),
-        Row.of(
-            "contrast",
-            "contrast, rms outside 10 mm",
-            29.0,
-            [one.contrast for one in evaluated],
-            "the paper does not say over which points; its 29 is this one's size",
-        ),
-        Row.of(
-            "contrast_all",
-            "contrast, rms over all points",
-            24.0,
-            [one.contrast_all for one in evaluated],
-            "what eq. (1) is about; the band is weighted by patches and drivers, so fewer modes count",
-        ),
-        Row.of(
-            "duration_us",
-            "duration of the focus at half height (µs)",
-            7.0,
-            np.array(lasting) * 1e6,
-            "eq. (4) is half a period of the highest frequency; the band's middle is lower",
-        ),
-        idle_row(panel),
-    ]
+    return rows(
+        {
+            "amplitude_um": panel.amplitudes_m * 1e6,
+            "spot_half_mm": [one.spot_m * 1e3 for one in evaluated],
+            "spot_3db_mm": np.array(narrow) * 1e3,
+            "contrast": [one.contrast for one in evaluated],
+            "contrast_all": [one.contrast_all for one in evaluated],
+            "duration_us": np.array(lasting) * 1e6,
+            "contrast_idle_low": idle_low_contrasts(panel),
+        }
+    )
 
 
-def idle_row(panel: PaperPanel) -> Row:
-    """Contrast if every channel rests at 0 V instead of half of each disc's quadrants high."""
+def idle_low_contrasts(panel: PaperPanel) -> list[float]:
+    """Contrast of each focus if every channel rests at 0 V instead of half of each disc's quadrants high."""
     low = idling_low(panel.board)
     twin = PlateTwin(low)
-    found = []
-    for response, point in zip(panel.in_band, panel.points_m.tolist(), strict=True):
-        found.append(emit(twin, focus(response[None], [1.0], low.idle_word)).focus_metrics(*point).contrast)
-    why = "0–60 V from rest at 0 V is a step of 30 V on all channels: 29 needs levels that idle in the middle, as ours do"
-    return Row.of("contrast_idle_low", "contrast of a single emission from 0 V, outside 10 mm", 29.0, found, why)
+    return [
+        emit(twin, focus(response[None], [1.0], low.idle_word)).focus_metrics(*point).contrast
+        for response, point in zip(panel.in_band, panel.points_m.tolist(), strict=True)
+    ]
 
 
 def spot_m(field: Field, point_m: tuple[float, float], height: float) -> float:
@@ -114,10 +85,8 @@ def longer_emission_amplitudes(panel: PaperPanel, longest_s: float) -> dict[str,
 def duration_rows(curves: dict[str, list[float]]) -> list[Row]:
     """Rows of `longer_emission_amplitudes`: T = 2 ms over endless."""
     at = int(np.searchsorted(curves["duration_ms"], 2.0 - 1e-9))
-    rows = []
-    for kind, name, law in (("one_bit", "1-bit drive", "1 − e^(−T/τ)"), ("linear", "linear time reversal", "1 − e^(−2T/τ)")):
-        grown = curves[f"{kind}_um"][at] / curves[f"{kind}_um"][-1]
-        expected = curves[f"{kind}_law_um"][at] / curves[f"{kind}_law_um"][-1]
-        why = f"{law}; the paper's law is that of linear time reversal" if kind == "one_bit" else f"{law}, section III-B"
-        rows.append(Row.of(f"duration_{kind}", f"amplitude at T = 2 ms over that at 4 ms, {name}", expected, grown, why))
-    return rows
+    over = {name: values[at] / values[-1] for name, values in curves.items()}
+    kinds = ("one_bit", "linear")
+    return rows(
+        {f"duration_{kind}": over[f"{kind}_um"] for kind in kinds}, {f"duration_{kind}": over[f"{kind}_law_um"] for kind in kinds}
+    )

@@ -9,20 +9,20 @@ from collections.abc import Iterator
 
 import msgspec
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.stats.qmc import Halton
 
 from controller.device.touch.prediction import Motion
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel, kept
-from controller.workshop.benchmark.paper.paper_row import Row
+from controller.workshop.benchmark.paper.paper_row import Row, rows
 from controller.workshop.physics.modes.retuned import drifted
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import StepResponse
 
 Floats = NDArray[np.float64]
 
-CLOCKS_HZ = {1e6: 1.0, 500e3: 0.991, 250e3: 0.964, 200e3: 0.942}
-OFF_MM = {1.0: 0.93, 2.0: 0.73, 3.0: 0.46}
+CLOCKS_HZ = (1e6, 500e3, 250e3, 200e3)
+OFF_MM = (1.0, 2.0, 3.0)
 COARSE_M, FINE_M = 5e-3, 2e-3  # pitches of the grids
 CORNERS = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])  # of a cell
 DETUNING = 0.005
@@ -32,10 +32,6 @@ NOISE_M = 0.05e-3  # of a report
 REPORTS = 30  # before a prediction
 
 
-def _kept(key: str, what: str, trial: float, here: ArrayLike, why: str) -> Row:
-    return Row.of(key, f"kept: {what}", trial, here, why, trial=True)
-
-
 def clock_rows(panel: PaperPanel) -> list[Row]:
     """Rows of the bit clock: what bits of each length reach, relative to 1 MHz."""
     duration_s = panel.board.waveform.samples * panel.board.waveform.bit_period_s
@@ -43,40 +39,37 @@ def clock_rows(panel: PaperPanel) -> list[Row]:
     for clock_hz in CLOCKS_HZ:
         responses = panel.band_responses(panel.points_m, 1 / clock_hz, round(duration_s * clock_hz))
         reached[clock_hz] = np.abs(responses).sum(axis=(1, 2))
-    best = reached[1e6]
-    why = "edges fall on a coarser grid of times"
-    return [
-        _kept(f"clock_{hz / 1e3:g}_khz", f"bit clock {hz / 1e3:g} kHz", paper, reached[hz] / best, why)
-        for hz, paper in CLOCKS_HZ.items()
-    ]
+    return rows({f"clock_{hz / 1e3:g}_khz": values / reached[1e6] for hz, values in reached.items()})
 
 
 def place_rows(panel: PaperPanel) -> list[Row]:
     """Rows of a focus beside the finger: the spot's flank, in all directions."""
-    rows = []
-    for off_mm, paper in OFF_MM.items():
-        found = [
+    found = {}
+    for off_mm in OFF_MM:
+        found[f"off_{off_mm:g}_mm"] = [
             field.at(panel.ring(point, off_mm * 1e-3)) / amplitude
             for field, point, amplitude in zip(panel.fields, panel.points_m, panel.amplitudes_m, strict=True)
         ]
-        rows.append(_kept(f"off_{off_mm:g}_mm", f"focus {off_mm:g} mm off", paper, found, "the spot's own shape"))
-    return rows
+    return rows(found)
 
 
 def grid_rows(panel: PaperPanel) -> list[Row]:
     """Rows of grids of cells: nearest cell, bilinear responses, bilinear 1-bit words."""
     nearest, bilinear = _between_cells(panel, COARSE_M)
     _, packed = _between_cells(panel, FINE_M, packed=True)
-    worst = float(np.quantile(nearest, 0.05)), float(np.quantile(bilinear, 0.05)), float(np.quantile(packed, 0.05))
-    flank = "anywhere in the cell: 2.0 mm off by median, 3.0 mm at worst 5 %, on the spot's flank"
-    waves = "waves of neighbouring cells cancel in part between them; the trial lost half as much"
-    return [
-        _kept("nearest", "nearest cell, 5 mm grid", 0.78, nearest, flank),
-        _kept("nearest_worst", "nearest cell, 5 mm grid, worst 5 %", 0.52, worst[0], flank),
-        _kept("bilinear", "bilinear responses, 5 mm grid", 0.95, bilinear, waves),
-        _kept("bilinear_worst", "bilinear responses, 5 mm grid, worst 5 %", 0.92, worst[1], waves),
-        _kept("packed_worst", "bilinear 1-bit words, 2 mm grid, worst 5 %", 0.957, worst[2], "only signs are summed"),
-    ]
+
+    def worst(found: list[float]) -> float:
+        return float(np.quantile(found, 0.05))
+
+    return rows(
+        {
+            "nearest": nearest,
+            "nearest_worst": worst(nearest),
+            "bilinear": bilinear,
+            "bilinear_worst": worst(bilinear),
+            "packed_worst": worst(packed),
+        }
+    )
 
 
 def bits_rows(panel: PaperPanel) -> list[Row]:
@@ -89,11 +82,7 @@ def bits_rows(panel: PaperPanel) -> list[Row]:
             step = np.abs(responses).max(axis=(1, 2), keepdims=True) / 2 ** (bits - 1)
             rounded = (np.floor(responses / step) + 0.5) * step  # no level at zero: a small response keeps its sign
             some.append(kept(np.tensordot(shares, rounded, 1), true) / exact)
-    why = "rounded to levels that leave out zero, one scale a cell; between cells of 2.5 mm, over exact ones there"
-    return [
-        _kept("bits_8", "responses in 8 bits before summing", 1.0, found[8], why),
-        _kept("bits_4", "responses in 4 bits before summing", 0.98, found[4], why),
-    ]
+    return rows({"bits_8": found[8], "bits_4": found[4]})
 
 
 def drift_rows(panel: PaperPanel) -> list[Row]:
@@ -108,11 +97,7 @@ def drift_rows(panel: PaperPanel) -> list[Row]:
         for learned, now, then in zip(panel.in_band[:, ::-1], true, faster, strict=True):
             as_it_is.append(kept(learned, now))
             rescaled.append(float(np.vdot(np.sign(learned), then) / np.abs(now).sum()))
-    why = "at 45 kHz, 0.5 % of 2 ms is half a period"
-    return [
-        _kept("drift", "frequencies 0.5 % off", 0.60, as_it_is, why),
-        _kept("drift_rescaled", "the same, bit clock rescaled", 0.996, rescaled, "only the decay is not rescaled with it"),
-    ]
+    return rows({"drift": as_it_is, "drift_rescaled": rescaled})
 
 
 def slip_rows(panel: PaperPanel) -> list[Row]:
@@ -123,10 +108,7 @@ def slip_rows(panel: PaperPanel) -> list[Row]:
     step = StepResponse.of(panel.modes, DriverResponse.of(prompt))
     learned = panel.band_responses(panel.points_m, board.waveform.bit_period_s, board.waveform.samples, step)
     found = [kept(without, h) for without, h in zip(learned, panel.in_band[:, ::-1], strict=True)]
-    return [
-        _kept("slip", "one sample of slip between learning and playing", 0.90, slipped, "2 µs are 0.6 rad at 45 kHz"),
-        _kept("driver_left_out", "driver left out when learning", 0.20, found, "its phase turns by more than 90° in the band"),
-    ]
+    return rows({"slip": slipped, "driver_left_out": found})
 
 
 def finger_motion_rows(panel: PaperPanel) -> list[Row]:
@@ -139,16 +121,7 @@ def finger_motion_rows(panel: PaperPanel) -> list[Row]:
             behind.append(float(field.at(point + SPEED_M_S * LAG_S * direction)[0] / amplitude))
             missed = _predicted_m(random, direction) - direction * SPEED_M_S * LAG_S
             ahead.append(float(field.at(point - missed)[0] / amplitude))
-    return [
-        _kept("moving", "finger at 200 mm/s, 15 ms of lag", 0.46, behind, "3 mm off, as above"),
-        _kept(
-            "moving_predicted",
-            "the same with velocity prediction",
-            0.9,
-            ahead,
-            "the trial has > 0.9; steady motion, reports at 100–250 Hz with 0.05 mm of noise, the product's predictor",
-        ),
-    ]
+    return rows({"moving": behind, "moving_predicted": ahead})
 
 
 def _predicted_m(random: np.random.Generator, direction: Floats) -> Floats:

@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
+import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 SPREAD = (0.05, 0.5, 0.95)
 TRIAL = "* not the paper's: of an earlier simulation of its panel, made apart from this one"
+TABLE: Final[dict[str, dict[str, Any]]] = tomllib.loads(Path(__file__).with_name("paper_rows.toml").read_text(encoding="utf-8"))
 
 
 @dataclass(frozen=True)
 class Row:
     """One figure of the paper beside ours."""
 
-    key: str  # for tests and programs
-    quantity: str  # what it is, with its unit
-    paper: float | None  # what the paper says; None if it says nothing
+    key: str  # of paper_rows.toml
     here: tuple[float, float, float]  # (p5, median, p95): over the foci; three times the same for what has no spread
-    why: str  # why they differ, or what is computed where the paper is garbled
-    trial: bool = False  # whether `paper` is not the paper's, but of an earlier simulation, independent of this one
-
-    @classmethod
-    def of(cls, key: str, quantity: str, paper: float | None, here: ArrayLike, why: str, *, trial: bool = False) -> Row:
-        """Row of all values found, (n,), or of a single one."""
-        low, median, high = np.quantile(np.asarray(here, np.float64).ravel(), SPREAD).tolist()
-        return cls(key, quantity, paper, (low, median, high), why, trial)
+    paper: float | None  # what the paper says; None if it says nothing
 
     @property
     def median(self) -> float:
@@ -37,16 +32,29 @@ class Row:
     def figures(self) -> dict[str, Any]:
         """Plain values for JSON."""
         low, median, high = self.here
-        ratio = median / self.paper if self.paper else None
+        about = TABLE[self.key]
         return {
             "key": self.key,
-            "quantity": self.quantity,
+            "quantity": about["quantity"],
             "paper": self.paper,
-            "trial": self.trial,
+            "trial": "trial" in about,
             "here": {"median": median, "p5": low, "p95": high},
-            "ratio": ratio,
-            "why": self.why,
+            "ratio": median / self.paper if self.paper else None,
+            "why": about["why"],
         }
+
+
+def rows(here: Mapping[str, ArrayLike], expected: Mapping[str, float] | None = None) -> list[Row]:
+    """Rows of what was found, by their keys in paper_rows.toml: all values, or a single one.
+
+    `expected` are numbers of the paper that are computed.
+    """
+    found = []
+    for key, values in here.items():
+        low, median, high = np.quantile(np.asarray(values, np.float64).ravel(), SPREAD).tolist()
+        about = TABLE[key]
+        found.append(Row(key, (low, median, high), (expected or {}).get(key, about.get("paper", about.get("trial")))))
+    return found
 
 
 def paper_table(figures: dict[str, Any]) -> str:

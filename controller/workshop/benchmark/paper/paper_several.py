@@ -17,7 +17,7 @@ from controller.workshop.bank_builder.methods.device_composition import DeviceCo
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.benchmark.focus.focus_figures import SETTLED, SQUARE_M, emit
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
-from controller.workshop.benchmark.paper.paper_row import Row
+from controller.workshop.benchmark.paper.paper_row import Row, rows
 from controller.workshop.physics.design import design
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.plate_twin import PlateTwin
@@ -62,65 +62,26 @@ def four_foci_rows(panel: PaperPanel) -> list[Row]:
                 spots += [field.focus_metrics(*corner, foci).spot_m * 1e3 for corner in foci]
                 words = composer.design([(x_m, y_m, 1.0) for x_m, y_m in foci]).words
                 devices.append(np.abs(emit(twin, words).at(corners)) / alone)
-    return [
-        Row.of(
-            "four_plain",
-            "four foci 10 mm apart: each of a single one, sum, then sign",
-            0.378,
-            plain,
-            "the sign of a sum of four unlike responses keeps 1/√4 of each; why the paper's has less it does not say",
-        ),
-        Row.of(
-            "four_device",
-            "the same by the device: polarities, balance, int8, between cells",
-            0.378,
-            devices,
-            "free polarities and balance lift the worst corner",
-        ),
-        Row.of(
-            "four_device_worst",
-            "worst of the four, device over plain",
-            None,
-            np.min(devices, axis=1) / np.min(plain, axis=1),
-            "what is felt first is what is weakest",
-        ),
-        Row.of("four_spot_mm", "spot of one of four, half height (mm)", 5.3, spots, "as for one focus"),
-    ]
+    worst = np.min(devices, axis=1) / np.min(plain, axis=1)
+    return rows({"four_plain": plain, "four_device": devices, "four_device_worst": worst, "four_spot_mm": spots})
 
 
 def repetition_rows(panel: PaperPanel, count: int, curve: Figures) -> list[Row]:
     """Rows of 20 repetitions at 500 Hz, of the first `count` foci, and of those at Tr = tau, of `repetition_curve`."""
     found = np.array([_contrasts(panel.twin, panel, index, PAPER_PERIOD_MS) for index in range(count)])
-    factor = design.repetition_factor(PAPER_PERIOD_MS * 1e-3, panel.board.plate.decay_time_s)
-    amplitudes = found[:, 1, -1] / found[:, 1, 0]
-    return [
-        Row.of(
-            "repetition",
-            "contrast kept after 20 repetitions at 500 Hz",
-            factor,
-            found[:, 0, -1] / found[:, 0, 0],
-            "appendix A's √(1 − e^(−2Tr/τ)); what rings on is not random but the same each time",
-        ),
-        Row.of(
-            "repetition_tau",
-            "the same with Tr = T = τ = 1 ms, over one emission of 1 ms",
-            0.93,
-            curve["contrast_kept"][curve["period_ms"].index(1.0)],
-            "appendix A again; back to back, the echo of the last emission is strongest",
-        ),
-        Row.of(
-            "repetition_amplitude",
-            "amplitude after 20 repetitions over the first",
-            1.0,
-            amplitudes,
-            "appendix A leaves the peak as it is; the echo of the last focus adds or takes away",
-        ),
-    ]
+    return rows(
+        {
+            "repetition": found[:, 0, -1] / found[:, 0, 0],
+            "repetition_tau": curve["contrast_kept"][curve["period_ms"].index(1.0)],
+            "repetition_amplitude": found[:, 1, -1] / found[:, 1, 0],
+        },
+        {"repetition": design.repetition_factor(PAPER_PERIOD_MS * 1e-3, panel.board.plate.decay_time_s)},
+    )
 
 
 def repetition_curve(panel: PaperPanel, count: int) -> Figures:
     """Contrast kept over the period Tr, appendix A beside it: medians of the first `count` foci."""
-    rows = []
+    found_rows = []
     tau_s = panel.board.plate.decay_time_s
     for period_ms in (*SHORT_MS, PAPER_PERIOD_MS, *LONG_MS):
         duration_ms = min(period_ms, panel.board.waveform.duration_ms)
@@ -128,8 +89,8 @@ def repetition_curve(panel: PaperPanel, count: int) -> Figures:
         twin = PlateTwin(msgspec.structs.replace(panel.board, waveform=waveform))
         found = np.array([_contrasts(twin, panel, index, period_ms) for index in range(count)])
         law = design.repetition_factor(period_ms * 1e-3, tau_s)
-        rows.append((period_ms, float(np.median(found[:, 0, -1] / found[:, 0, 0])), law))
-    period_ms_, kept, laws = (list(column) for column in zip(*rows, strict=True))
+        found_rows.append((period_ms, float(np.median(found[:, 0, -1] / found[:, 0, 0])), law))
+    period_ms_, kept, laws = (list(column) for column in zip(*found_rows, strict=True))
     return {"period_ms": period_ms_, "contrast_kept": kept, "appendix_a": laws}
 
 

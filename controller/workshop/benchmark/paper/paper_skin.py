@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
-from controller.workshop.benchmark.paper.paper_row import Row
+from controller.workshop.benchmark.paper.paper_row import Row, rows
 from controller.workshop.physics.design import design
 from controller.workshop.physics.finger import point_motion
 from controller.workshop.physics.skin import Pulp, SkinMotion, skin_motion
@@ -54,7 +54,6 @@ def skin_rows(panel: PaperPanel, count: int) -> tuple[list[Row], dict[str, Any]]
     The mass is drawn from the range that the paper has from literature.
     """
     random = np.random.default_rng(panel.seed)
-    rows = []
     curve: dict[str, Any] = {}
     motions: dict[float, list[SkinMotion]] = {press_n: [] for press_n in PRESS_N}
     for index in range(count):
@@ -67,15 +66,11 @@ def skin_rows(panel: PaperPanel, count: int) -> tuple[list[Row], dict[str, Any]]
             thrown = [free.throw(panel, Pulp(press_n=press_n)).longest_flight() for press_n in CURVE_N]
             curve |= {"press_n": list(CURVE_N)}
             curve |= {"flight_ms": [one[0] * 1e3 for one in thrown], "height_um": [one[1] * 1e6 for one in thrown]}
-    why = "illustrative: lumped skin of 70–230 mg, as in literature; nothing fitted, and the paper does not tell the force"
+    found: dict[str, Floats] = {}
     for press_n, some in motions.items():
         flights = np.array([motion.longest_flight() for motion in some])
-        pressed = f"{press_n:g} N"
-        rows += [
-            Row.of(f"skin_um_{press_n:g}_n", f"skin pressed with {pressed}: thrown up by (µm)", 25.0, flights[:, 1] * 1e6, why),
-            Row.of(f"skin_ms_{press_n:g}_n", f"skin pressed with {pressed}: off the plate for (ms)", 0.3, flights[:, 0] * 1e3, why),
-        ]
-    return rows, curve
+        found |= {f"skin_um_{press_n:g}_n": flights[:, 1] * 1e6, f"skin_ms_{press_n:g}_n": flights[:, 0] * 1e3}
+    return rows(found), curve
 
 
 def _curve(free: FreeFocus, motions: dict[float, SkinMotion]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from controller.errors import ConfigError
 from controller.workshop.physics.damping import damped
 from controller.workshop.physics.modes.closed_form import SimplySupported
 from controller.workshop.physics.modes.modes import Modes
-from controller.workshop.physics.modes.retuned import Retuned, retuned
+from controller.workshop.physics.modes.retuned import retuned
 from controller.workshop.physics.modes.ritz_modes import RitzModes
 from controller.workshop.physics.patches import BASIS, CombinedModes, with_patches
 from controller.workshop.physics.plate import mode_cut_hz
@@ -83,9 +83,9 @@ def in_words(board: Board, modes: Modes) -> str:
     shortest_ms, longest_ms = 1e3 / float(modes.decay_rate.max()), 1e3 / float(modes.decay_rate.min())
     decay = f"{shortest_ms:.3g}" if math.isclose(shortest_ms, longest_ms) else f"{shortest_ms:.3g} to {longest_ms:.3g}"
     layers = f" of {len(plate.layers)} layers" if plate.layers else ""
-    patches, combined = "", modes.base if isinstance(modes, Retuned) else modes
-    if board.patches is not None and isinstance(combined, CombinedModes):
-        shift, alone = (100 * part for part in combined.shift(board.waveform.band_low_hz, board.waveform.band_high_hz))
+    patches = ""
+    if board.patches is not None and isinstance(modes, CombinedModes):
+        shift, alone = (100 * part for part in modes.shift(board.waveform.band_low_hz, board.waveform.band_high_hz))
         count = len(board.patches.on(plate, board.actuators))
         patches = f", {count} patches ({shift:+.2f} % in frequency, {alone:+.2f} % to first order)"
     return (
