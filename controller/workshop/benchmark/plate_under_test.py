@@ -21,6 +21,7 @@ from controller.workshop.physics.field import Field, FocusScale
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 Words = NDArray[np.uint32]
@@ -58,7 +59,7 @@ class PlateUnderTest:
     def volts(self, words: Words) -> Floats:
         """Voltage of each channel above that at rest over the board's whole emission, (sample, 32); shorter ones start later."""
         volts = np.zeros((self.model.samples, len(self._idle_bits)))
-        volts[len(volts) - len(words) :] = (channel_bits(words) - self._idle_bits) * self.board.driver.supply_v
+        volts[len(volts) - len(words) :] = volts_above_idle(self.board, words)
         return volts
 
     def signs(self, words: Words) -> Floats:

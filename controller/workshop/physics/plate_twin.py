@@ -32,6 +32,7 @@ from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
+from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 Reals = NDArray[np.floating[Any]]
@@ -169,8 +170,7 @@ class PlateTwin:
     def _amplitudes_of(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
         """Displacement at each point by the words that weighted responses give, from rest at the idle word."""
         words = focus(in_band, weights.tolist(), self.board.idle_word)
-        above_idle = self._volts(words) - self._volts(np.array([self.board.idle_word], np.uint32))
-        reached = whole.reshape(len(whole), -1) @ above_idle.ravel()
+        reached = whole.reshape(len(whole), -1) @ volts_above_idle(self.board, words).ravel()
         return reached.astype(np.float64, copy=False)
 
     def _group_state(self, ticks: NDArray[np.int64], words: NDArray[np.uint32], bit_ticks: float) -> GroupState:

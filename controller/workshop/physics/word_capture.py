@@ -1,11 +1,20 @@
-"""Pins that play words without an FPGA."""
+"""Pins and stages that play words without an FPGA."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.device.bank.packing import channel_bits
+from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
+
+
+def volts_above_idle(board: Board, words: NDArray[np.uint32]) -> NDArray[np.float64]:
+    """Voltage of each channel's stage above that at rest: (sample, 32)."""
+    above = channel_bits(words).astype(np.float64) - channel_bits(np.array([board.idle_word], np.uint32))
+    above *= board.driver.supply_v
+    return above
 
 
 def capture_of_words(

@@ -10,13 +10,13 @@ from PIL import Image
 from tables import each_row
 
 from controller.cli import main
-from controller.device.bank.packing import channel_bits
 from controller.errors import ConfigError
 from controller.workshop.benchmark.focus.focus_emission import emission_at
 from controller.workshop.physics.pictures.modal_frames import modal_frames
 from controller.workshop.physics.pictures.movie import MOST_FRAMES, Movie, PixelGrid
 from controller.workshop.physics.pictures.movie_file import HELD, check_movie, write_movie
 from controller.workshop.physics.responses.modal_history import modal_history
+from controller.workshop.physics.word_capture import volts_above_idle
 
 POINT = (0.052, 0.031)
 
@@ -33,8 +33,7 @@ def unseen(done, total):
 def played_volts(emission, bits):
     board = emission.twin.board
     words = np.append(emission.words, np.full(max(0, bits - len(emission.words)), board.idle_word, np.uint32))[:bits]
-    idle = channel_bits(np.array([board.idle_word], "<u4")).astype(float)
-    return (channel_bits(words.astype("<u4")) - idle) * board.driver.supply_v
+    return volts_above_idle(board, words)
 
 
 @pytest.mark.parametrize(("every", "first"), [(1, 240), (10, 0), (7, 100), (300, 0), (257, 0)])

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.modal_response import pulse_response
 from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.physics.word_capture import volts_above_idle
 
 NEAR_S = 25e-6  # a null is evaluated this long before and after T
 
@@ -24,20 +24,13 @@ class FocusPrediction:
     """
 
     def __init__(self, board: Board, source: ResponseSource) -> None:
-        self._source = source
-        self._supply_v = board.driver.supply_v
-        self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+        self._source, self._board = source, board
 
     def at_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
         """Displacement at T of each of `points_m`, (point, 2): (point,) in m."""
         responses = self._source.responses(points_m)[:, ::-1]
-        reached: NDArray[np.floating[Any]] = responses.reshape(len(responses), -1) @ self._volts(words).ravel()
+        reached: NDArray[np.floating[Any]] = responses.reshape(len(responses), -1) @ volts_above_idle(self._board, words).ravel()
         return reached
-
-    def _volts(self, words: NDArray[np.uint32]) -> NDArray[np.floating[Any]]:
-        """Voltage of each channel above that at rest: (sample, 32)."""
-        above: NDArray[np.floating[Any]] = (channel_bits(words) - self._idle_bits) * self._supply_v
-        return above
 
 
 class Prediction(FocusPrediction):
@@ -56,7 +49,7 @@ class Prediction(FocusPrediction):
 
         The channels return to the idle word at T.
         """
-        volts = self._volts(words)
+        volts = volts_above_idle(self._board, words)
         places_m = np.asarray(points_m, np.float64).reshape(-1, 2)
         found = np.empty((len(places_m), 2 * self.near_samples + 1))
         for index, place_m in enumerate(places_m):

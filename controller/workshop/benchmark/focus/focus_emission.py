@@ -25,6 +25,7 @@ from controller.workshop.physics.mapped_energy import mapped_energy
 from controller.workshop.physics.memory import focus_bytes, require
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.modal_history import ModalMotion, modal_energy
+from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
@@ -83,9 +84,8 @@ def evaluated_foci(emission: FocusEmission, period_s: float) -> list[Figures]:
 def repeated_field(emission: FocusEmission, period_s: float) -> Field:
     """The plate at T of one of endless emissions, each `period_s` after the one before: exact, steps to idle and back included."""
     twin, field = emission.twin, emission.field
-    step, board = twin.step, twin.board
-    levels = channel_bits(np.array([emission.words[-1], board.idle_word], "<u4")).astype(np.float64) * board.driver.supply_v
-    to_idle = twin.forces @ (levels[1] - levels[0])
+    step = twin.step
+    to_idle = -(twin.forces @ volts_above_idle(twin.board, emission.words[-1:])[0])
     plate = field.pole_amplitudes + step.residues * to_idle[step.mode_of_pole]
     driver = field.driver_amplitudes + step.driver_residues * to_idle[:, None]
     decayed, settled = np.exp(step.poles * period_s), np.exp(step.driver_poles * period_s)

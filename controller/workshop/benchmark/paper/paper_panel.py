@@ -7,7 +7,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.benchmark.focus.focus_emission import FocusEmission
@@ -18,6 +17,7 @@ from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.modal_response import band_limited_response
 from controller.workshop.physics.responses.step_response import StepResponse
+from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 Words = NDArray[np.uint32]
@@ -81,8 +81,7 @@ class PaperPanel:
 
     def volts(self, words: Words, after: int = 0, parts: int = 1) -> Floats:
         """Levels of the stages above their idle levels, (bit, 32), and `after` more bits at rest; each bit `parts` times."""
-        idle = channel_bits(np.array([self.board.idle_word], "<u4")).astype(np.float64)
-        played = (channel_bits(words.astype("<u4")) - idle) * self.board.driver.supply_v
+        played = volts_above_idle(self.board, words)
         return np.repeat(np.concatenate([played, np.zeros((after, played.shape[1]))]), parts, axis=0)
 
     def band_responses(self, points_m: ArrayLike, bit_period_s: float, samples: int, step: StepResponse | None = None) -> Floats:

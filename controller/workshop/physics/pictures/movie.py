@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
 from controller.errors import ConfigError
 from controller.workshop.physics.field import map_axis
 from controller.workshop.physics.memory import BASE_BYTES, TABLE_BYTES, require
@@ -20,6 +19,7 @@ from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.pictures.modal_frames import modal_frames
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.modal_history import STATES_AT_ONCE
+from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.float32]
@@ -109,8 +109,7 @@ class Movie:
         played = np.full(int(self.bits[-1]) + 1, board.idle_word, np.uint32)
         count = min(len(words), len(played))
         played[:count] = words[:count]
-        idle = channel_bits(np.array([board.idle_word], "<u4")).astype(np.float64)
-        volts = (channel_bits(played.astype("<u4")) - idle) * board.driver.supply_v
+        volts = volts_above_idle(board, played)
         every, first = int(self.bits[1] - self.bits[0]), int(self.bits[0])
         yield from modal_frames(twin.step, twin.forces, volts, board.waveform.bit_period_s, every, first)
 
