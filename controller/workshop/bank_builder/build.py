@@ -29,10 +29,8 @@ from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.bank_builder.writer import BankWriter
 from controller.workshop.physics.responses.response_source import ResponseSource
 
-INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
 WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
 CELLS_COMPARED = 32  # at most, of an optimised bank: 10 ms each
-CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 
 
 @dataclass(frozen=True)
@@ -45,17 +43,10 @@ class BuildReport:
     modes: int | None  # in every response; None: the responses do not come from modes
     responses: str  # where they come from, `Provenance.in_words`
     seconds: float  # of the whole build, by the clock
-    # model_seconds, response_seconds: processor time of the plate model (none of another source) and of the responses
-    model_seconds: float
-    response_seconds: float
-    # Additions and multiplications that the responses need, in 10^9 for a second of `response_seconds`; None: no model's, or
-    # too few to be timed
-    response_gflops: float | None
     peak_memory_mb: float  # in MB of 10^6 bytes
     worst_edge_rate_hz: float  # edges per second of the busiest channel of all entries
     interpolation_error: dict[str, Any]  # `InterpolationError.summary`: what fingers between cells lose
     optimised: dict[str, Any] | None  # what entries were optimised for, and what became of their amplitude; None: they are plain
-    optimise_seconds: float  # by the clock
 
 
 def build_bank(request: BankRequest) -> BuildReport:
@@ -74,14 +65,8 @@ def build_bank(request: BankRequest) -> BuildReport:
         BankWriter(path, plan.header, plan.wanted, overwrite=request.overwrite) as writer,  # before the work: it may be refused
     ):
         entries = _Entries(plan.board, plan.header, writer)
-        before = time.process_time()
-        if plan.model:
-            plan.model.entry_kernel()
-        model_seconds = time.process_time() - before
-        before = time.perf_counter()
         optimised = _optimised(request, plan) if aim else None
-        optimise_seconds = time.perf_counter() - before
-        response_seconds = _write_cells(plan, entries, optimised, path.name, progress=request.progress)
+        _write_cells(plan, entries, optimised, path.name, progress=request.progress)
         for key, words in plan.composed:
             entries.add_composition(key, words)
         results = plan.header.parameters
@@ -97,14 +82,10 @@ def build_bank(request: BankRequest) -> BuildReport:
         modes=plan.model.modes if plan.model else None,
         responses=source.provenance.in_words(),
         seconds=time.perf_counter() - started,
-        model_seconds=model_seconds,
-        response_seconds=response_seconds,
-        response_gflops=plan.flops() / response_seconds / 1e9 if plan.model and response_seconds else None,  # of few cells, no time
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=entries.worst_edge_rate_hz,
         interpolation_error=results["interpolation_error"],
         optimised={"aim": aim.name, "amplitude_of_plain": results["amplitude_of_plain"]} if aim else None,
-        optimise_seconds=optimise_seconds if aim else 0.0,
     )
 
 
@@ -117,15 +98,13 @@ def _optimised(request: BankRequest, plan: BankPlan) -> Words:
     return optimised_words(whole, plan.numbers, kept, request.workers, progress=request.progress)
 
 
-def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, name: str, *, progress: bool) -> float:
-    """Compute and write the entries of all cells; processor time of their responses, in s."""
-    header, seconds = plan.header, 0.0
+def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, name: str, *, progress: bool) -> None:
+    """Compute and write the entries of all cells."""
+    header = plan.header
     room = np.empty((max(map(len, plan.blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
     with tqdm(total=len(plan.numbers), unit="cell", desc=f"bank {name}", disable=None if progress else True) as bar:
         for block in plan.blocks:
-            before = time.process_time()
             responses = plan.source.entry_responses(plan.points_m[block.start : block.stop], out=room[: len(block)])
-            seconds += time.process_time() - before
             for index, response in zip(block, responses, strict=True):
                 plain = drive_words(response[: header.samples], plan.board.idle_word)
                 entries.add_cell(int(plan.numbers[index]), plain if optimised is None else optimised[index], response)
@@ -134,7 +113,6 @@ def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, nam
         raise ConfigError(
             f"board {plan.board.name!r}: no channel moves any of the {len(plan.numbers)} cells: a bank of nothing is not written"
         )
-    return seconds
 
 
 class _Entries:

@@ -72,11 +72,6 @@ class BankPlan:
         """The plate model, where responses come from it."""
         return self.source if isinstance(self.source, ResponseModel) else None
 
-    def flops(self) -> float:
-        """Additions and multiplications that the model's responses need."""
-        blocks = (self.points_m[block.start : block.stop] for block in self.blocks)
-        return sum(map(self.model.entry_flops, blocks)) if self.model else 0.0
-
 
 def _wanted(request: BankRequest, grid: Grid) -> NDArray[np.bool_]:
     """Cells of the grid that are to be built."""

@@ -61,7 +61,6 @@ def test_only_the_drive_words_differ_and_the_bank_says_what_for(banks):
     assert reported["amplitude_of_plain"]["cells"] == 5
     assert 0.8 < reported["amplitude_of_plain"]["least"] <= reported["amplitude_of_plain"]["median"] < 1.3
     assert report.optimised == {"aim": "contrast", "amplitude_of_plain": reported["amplitude_of_plain"]}
-    assert 0 < report.optimise_seconds < report.seconds
     assert reported["inputs_sha256"] != bank_info(plain)["parameters"]["inputs_sha256"]
     assert not list(path.parent.glob(".*"))
 

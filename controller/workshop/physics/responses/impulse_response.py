@@ -20,7 +20,7 @@ from controller.workshop.physics.modes.modes import Modes, slowest_decay_s
 from controller.workshop.physics.modes.plate_modes import in_words, modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.modal_response import band_limited_response, modes_at_once, pulse_response
-from controller.workshop.physics.responses.row_responses import RowResponses, flops_in_rows, in_rows
+from controller.workshop.physics.responses.row_responses import RowResponses, in_rows
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
@@ -113,11 +113,10 @@ class ResponseModel:
         Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 4 samples; what
         the last row has beyond the last sample is zero.
         """
-        return self._responses(points_m, self.entry_kernel(dtype), out)
+        return self._responses(points_m, self._entry_kernel(np.dtype(dtype)), out)
 
-    def entry_kernel(self, dtype: DTypeLike = np.float32) -> NDArray[np.floating[Any]]:
+    def _entry_kernel(self, kind: np.dtype[Any]) -> NDArray[np.floating[Any]]:
         """What `entry_responses` multiplies with, (sample and row, mode), computed with the first call."""
-        kind = np.dtype(dtype)
         key = ("entry", kind.str)
         if key not in self._kernels:
             rows = -(-self.samples // REST_SAMPLES)
@@ -130,13 +129,6 @@ class ResponseModel:
                 kernel[self.samples :, some] = outside.reshape(len(in_band), rows, REST_SAMPLES).mean(axis=2).T
             self._kernels[key] = kernel
         return self._kernels[key]
-
-    def entry_flops(self, points_m: NDArray[np.float64]) -> float:
-        """Additions and multiplications that `entry_responses` needs for `points_m`, (point, 2)."""
-        rows = self.samples + -(-self.samples // REST_SAMPLES)
-        if (factors := self.plate_modes.factors) is not None and in_rows(points_m):
-            return flops_in_rows(factors, rows, points_m)
-        return 2.0 * len(points_m) * self.modes * rows * CHANNELS
 
     def _kernel(self, dtype: np.dtype[Any], *, band_limited: bool, reverse: bool = False) -> NDArray[np.floating[Any]]:
         """Modal responses as the (sample, mode) factor of the GEMM; kept."""

@@ -24,17 +24,7 @@ POINTS_PER_ROW = 8  # fewer points a row than this on average, and the one large
 
 def in_rows(points_m: NDArray[np.float64]) -> bool:
     """Whether enough of `points_m`, (point, 2), share their y for `RowResponses` to be faster."""
-    return len(points_m) >= POINTS_PER_ROW * _rows(points_m)
-
-
-def flops_in_rows(factors: TensorFactors, samples: int, points_m: NDArray[np.float64]) -> float:
-    """Additions and multiplications that the responses of `points_m`, (point, 2), need row by row, `samples` a channel."""
-    x_factors = int(factors.x_index.max()) + 1
-    return 2.0 * samples * CHANNELS * (factors.x_index.size * _rows(points_m) + x_factors * len(points_m))
-
-
-def _rows(points_m: NDArray[np.float64]) -> int:
-    return len(np.unique(points_m[:, 1]))
+    return len(points_m) >= POINTS_PER_ROW * len(np.unique(points_m[:, 1]))
 
 
 class RowResponses:
