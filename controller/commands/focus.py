@@ -93,7 +93,7 @@ def _idle(options: argparse.Namespace, board: Board, picture: Path | None) -> No
 
     found = idle_figures(board, options.seed)
     if picture:
-        from controller.workshop.benchmark.device.plot_idle import plot_idle
+        from controller.workshop.benchmark.device.idle import plot_idle
 
         plot_idle(picture, board, found)
     show(options, found, plain_table)
@@ -105,7 +105,7 @@ def _amplitudes(options: argparse.Namespace, board: Board, picture: Path | None)
     pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
     found = amplitude_figures(board, options.seed, pitch_m=pitch_mm * 1e-3)
     if picture:
-        from controller.workshop.benchmark.focus.plot_amplitude import plot_amplitude
+        from controller.workshop.benchmark.focus.amplitude import plot_amplitude
 
         plot_amplitude(picture, found)
     show(options, found, amplitude_table)
@@ -123,7 +123,7 @@ def _points(options: argparse.Namespace, board: Board, picture: Path | None, mov
         "emission": emission_figures(emission, period_s),
     }
     if options.finger_load:
-        from controller.workshop.benchmark.focus.focus_fingers import finger_figures
+        from controller.workshop.benchmark.focus.focus_emission import finger_figures
         from controller.workshop.physics.finger import Finger
 
         mass_mg, damping_n_s_m, stiffness_n_m = options.finger_load

@@ -10,8 +10,8 @@ LABELS = {
     "amplitude_um": "amplitude (µm)",
     "contrast": "contrast (outside 0.95 λ)",
     "contrast_all": "contrast (all points)",
-    "spot_mm": "fixed emitter (mm)",
-    "spot_wavelengths": "fixed emitter (λ)",
+    "spot_mm": "spot (mm)",
+    "spot_wavelengths": "spot (λ)",
     "distance_mm": "crest to finger (mm)",
 }
 REFUSED = ("far_outside", "no_finger", "too_fast", "more_than_played")
@@ -42,7 +42,7 @@ def run_table(figures: dict[str, Any]) -> str:
         """The worst value, unless this machine was late: then it would be a figure of the machine, not of the panel."""
         return _number(None if figures["spoiled"] else figure["worst"])
 
-    for title, key in (("focus at the finger", "focus"), ("untracked spots", "fixed_emitters")):
+    for title, key in (("focus at the finger", "focus"), ("fixed emitters", "fixed_emitters")):
         values = figures[key]
         if values["count"]:
             heading = f"{title} ({values['count']})"

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.device.bank.file_format import Header, creator
+from controller.device.bank.file_format import REST_SAMPLES, Header, creator
 from controller.device.bank.grid import Grid
+from controller.device.bank.packing import CHANNELS
 from controller.device.bank.provenance import as_parameter
 from controller.device.board.board import Board
 from controller.errors import ConfigError
-from controller.workshop.bank_builder.checked_source import CheckedSource
 from controller.workshop.bank_builder.compositions import Composition, compositions
 from controller.workshop.bank_builder.optimised import reported
 from controller.workshop.bank_builder.request import BankRequest
@@ -24,8 +24,11 @@ from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.response_source import ResponseSource
 
+Reals = NDArray[np.floating[Any]]
+
 INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
+SAME = 1e-6  # relative: numbers that differ by less are written in files
 
 
 @dataclass(frozen=True)
@@ -134,3 +137,61 @@ def _blocks(numbers: NDArray[np.intp], cells_per_row: int, most: int) -> list[ra
     at_once = max(most // cells_per_row, 1) * cells_per_row
     firsts = np.flatnonzero(np.diff(numbers // at_once, prepend=-1)).tolist()
     return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
+
+
+class CheckedSource:
+    """A `ResponseSource` whose responses are checked before they are used.
+
+    Raises ConfigError if the source is of another plate, bit clock or length of an emission.
+    """
+
+    def __init__(self, board: Board, source: ResponseSource) -> None:
+        self._source = source
+        self.provenance, self.samples = source.provenance, source.samples
+        self.bit_clock_hz, self.plate_m = source.bit_clock_hz, source.plate_m
+        self._undriven = np.setdiff1d(np.arange(CHANNELS), [a.channel for a in board.actuators])
+        waveform, plate = board.waveform, board.plate
+        for what, unit, theirs, own in (
+            ("a bit clock of", "Hz", source.bit_clock_hz, waveform.bit_clock_hz),
+            ("an emission of", "samples", source.samples, waveform.samples),
+            ("a plate whose length is", "m", source.plate_m[0], plate.length_m),
+            ("a plate whose width is", "m", source.plate_m[1], plate.width_m),
+        ):
+            if abs(theirs - own) > SAME * own:
+                raise ConfigError(
+                    f"board {board.name!r}: the {source.provenance.kind} responses are for {what} {theirs:g} {unit}, the"
+                    f" board has {own:g} {unit}: choose the board that was measured, or measure this one"
+                )
+
+    def responses(
+        self, points_m: ArrayLike, *, band_limited: bool = False, dtype: DTypeLike = np.float64, out: Reals | None = None
+    ) -> Reals:
+        """As `ResponseSource.responses`."""
+        found = self._source.responses(points_m, band_limited=band_limited, dtype=dtype, out=out)
+        return self._checked(found, points_m, self.samples)
+
+    def drive_order_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
+        """As `ResponseSource.drive_order_responses`."""
+        return self._checked(self._source.drive_order_responses(points_m, out, dtype), points_m, self.samples)
+
+    def entry_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
+        """As `ResponseSource.entry_responses`."""
+        rows = self.samples + -(-self.samples // REST_SAMPLES)
+        return self._checked(self._source.entry_responses(points_m, out, dtype), points_m, rows)
+
+    def _checked(self, found: Reals, points_m: ArrayLike, rows: int) -> Reals:
+        points = np.asarray(points_m, np.float64).reshape(-1, 2)
+        if found.shape != (len(points), rows, CHANNELS):
+            raise ConfigError(f"{self._called}: they are {found.shape}, not {(len(points), rows, CHANNELS)}")
+        bad = np.flatnonzero(~np.isfinite(found).all(axis=(1, 2)))
+        if bad.size:
+            x_mm, y_mm = 1e3 * points[bad[0]]
+            raise ConfigError(f"{self._called}: that of ({x_mm:g}, {y_mm:g}) mm has values that are not finite")
+        moved = self._undriven[found[:, :, self._undriven].any(axis=(0, 1))]
+        if moved.size:
+            raise ConfigError(f"{self._called}: channel {moved[0]} moves the plate, but has no actuator on this board")
+        return found
+
+    @property
+    def _called(self) -> str:
+        return f"the {self.provenance.kind} responses cannot be used"

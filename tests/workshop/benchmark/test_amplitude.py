@@ -11,9 +11,8 @@ from controller.device.waveforms.composition import Composer
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
-from controller.workshop.benchmark.focus.amplitude import amplitude_figures
+from controller.workshop.benchmark.focus.amplitude import amplitude_figures, plot_amplitude
 from controller.workshop.benchmark.focus.focus_figures import emit
-from controller.workshop.benchmark.focus.plot_amplitude import plot_amplitude
 from controller.workshop.physics.plate_twin import PlateTwin
 
 PITCH_M = 2.5e-3

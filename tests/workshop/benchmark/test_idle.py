@@ -7,8 +7,7 @@ import pytest
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.workshop.benchmark.device.idle import first_order_bits, idle_figures, ramp_samples, ramp_words
-from controller.workshop.benchmark.device.plot_idle import plot_idle
+from controller.workshop.benchmark.device.idle import first_order_bits, idle_figures, plot_idle, ramp_samples, ramp_words
 from controller.workshop.benchmark.focus.focus_figures import figures as focus_figures
 from controller.workshop.gateware.model.pins import ramp_bits
 from controller.workshop.physics.audible import surface_energy

@@ -12,8 +12,7 @@ from tables import each_row
 from controller.cli import main
 from controller.errors import ConfigError
 from controller.workshop.benchmark.focus.focus_emission import emission_at
-from controller.workshop.physics.pictures.modal_frames import modal_frames
-from controller.workshop.physics.pictures.movie import MOST_FRAMES, Movie, PixelGrid
+from controller.workshop.physics.pictures.movie import MOST_FRAMES, Movie, PixelGrid, modal_frames
 from controller.workshop.physics.pictures.movie_file import HELD, check_movie, write_movie
 from controller.workshop.physics.responses.modal_history import modal_history
 from controller.workshop.physics.word_capture import volts_above_idle

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from limits_reference import NO_LIMITS, Inputs, limits_reference
 from tables import each_row
 
-from controller.workshop.gateware.model.edge_counts import part_ticks, turn
-from controller.workshop.gateware.model.limit_settings import (
+from controller.workshop.gateware.model.activity_limits import (
     CHANNEL_EDGES,
     DUTY,
     LONG_EMISSION,
@@ -18,6 +17,7 @@ from controller.workshop.gateware.model.limit_settings import (
     TOTAL_EDGES,
     LimitSettings,
 )
+from controller.workshop.gateware.model.edge_counts import part_ticks, turn
 from controller.workshop.gateware.model.limits import LATEST_TICKS, TOTAL_TICKS, TURN_TICKS, StageLimits
 
 WINDOW_TICKS = 60

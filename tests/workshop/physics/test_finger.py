@@ -9,8 +9,7 @@ from small_plate import WHOLE, small_board
 from tables import each_row
 
 from controller.device.bank.packing import channel_bits
-from controller.workshop.benchmark.focus.focus_emission import emission_at
-from controller.workshop.benchmark.focus.focus_fingers import finger_figures
+from controller.workshop.benchmark.focus.focus_emission import emission_at, finger_figures
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.modes.plate_modes import modes_of

@@ -1,7 +1,7 @@
-"""A focus on given points of the plate model, without a bank: its emission, and the figures of merit of it.
+"""A focus on given points of the plate model, without a bank: its emission, the figures of merit of it, what a finger leaves of it.
 
 `haptic-panel focus --at X Y` prints them. The waves of repeated emissions are summed exactly: all are alike, so what is left of
-those before is a geometric series of each pole.
+those before is a geometric series of each pole. The energy is summed over modes, and once more over a map.
 """
 
 from __future__ import annotations
@@ -9,28 +9,35 @@ from __future__ import annotations
 import copy
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
 
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
-from controller.device.board.relations.bending_waves import bending_wavelength_m
-from controller.workshop.benchmark.focus.focus_figures import emit
+from controller.device.board.panel import Plate
+from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
+from controller.workshop.benchmark.focus.focus_figures import Figures, emit, random_points, spread
 from controller.workshop.benchmark.stage.power import resistor_loss_j
-from controller.workshop.physics.field import Field, crossing
+from controller.workshop.physics.design.design import gate_attenuation
+from controller.workshop.physics.field import Field, crossing, map_axis
+from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.focusing import focus
-from controller.workshop.physics.mapped_energy import mapped_energy
 from controller.workshop.physics.memory import focus_bytes, require
 from controller.workshop.physics.plate_twin import PlateTwin
-from controller.workshop.physics.responses.modal_history import ModalMotion, modal_energy
+from controller.workshop.physics.responses.modal_history import Energy, ModalMotion, modal_energy
 from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
-Figures = dict[str, Any]
 
 PULSE: Floats = np.linspace(-0.6, 0.6, 81)  # times around T at which the pulse is looked at, in periods of the band's middle
+DEGREE = 5  # of the splines through a map of the energy, which are differentiated
+CELLS_A_WAVE = 12
+ELSEWHERE = 9  # places of a finger beside the foci
+FAR_WAVELENGTHS = 2.0  # of the band's middle: nearer to a focus it is on the spot's rim
+TIMES = 201  # within half a period of the band's middle before and after T
 
 
 class FocusEmission(NamedTuple):
@@ -148,3 +155,66 @@ def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
         "in_wavelengths": {"length": plate.length_m / middle_m, "width": plate.width_m / middle_m, "middle_mm": middle_m * 1e3},
         "channels": [{"channel": q, "edges": int(edges[q]), "energy_uj": float(heat_uj[q])} for q in used],
     }
+
+
+def mapped_energy(plate: Plate, field: Field, shortest_m: float) -> Energy:
+    """Kinetic and bending energy at T, (1,) arrays in J, from maps of displacement and velocity (appendix B, eq. (8)).
+
+    It takes no mode's frequency or mass, so it checks the sum over modes. Bending energy is Kirchhoff's, of the bare plate: with
+    another theory, with layers or with patches, modes hold some percent more or less.
+
+    A map has `CELLS_A_WAVE` points in the shortest wave there is (`shortest_m`), within 1e-4 of the whole energy.
+    """
+    step_m = min(shortest_m / CELLS_A_WAVE, plate.length_m / 16, plate.width_m / 16)
+    x_m, y_m = map_axis(plate.length_m, step_m), map_axis(plate.width_m, step_m)
+    cell_m2 = (x_m[1] - x_m[0]) * (y_m[1] - y_m[0])
+    u = field.modes.on_grid(field.modal, x_m, y_m)
+    velocity = field.modes.on_grid(field.modal_velocity, x_m, y_m)
+    along_x = make_interp_spline(x_m, u, DEGREE, axis=1)
+    xx = along_x(x_m, 2)
+    yy = make_interp_spline(y_m, u, DEGREE, axis=0)(y_m, 2)
+    xy = make_interp_spline(y_m, along_x(x_m, 1), DEGREE, axis=0)(y_m, 1)
+    bent = xx**2 + yy**2 + 2 * plate.poisson_ratio * xx * yy + 2 * (1 - plate.poisson_ratio) * xy**2
+    kinetic_j = plate.density_kg_m3 * plate.thickness_m / 2 * float((velocity**2).sum()) * cell_m2
+    potential_j = bending_stiffness(plate) / 2 * float(bent.sum()) * cell_m2
+    return Energy(np.array([kinetic_j]), np.array([potential_j]))
+
+
+def finger_figures(emission: FocusEmission, finger: Finger, seed: int) -> tuple[list[Figures], Figures]:
+    """Amplitudes with a finger on each focus, and shares kept with one elsewhere.
+
+    The first, with equal fingers on all foci: amplitude of each at T, and the largest within half a period of the band's middle,
+    with their shares of those of the free plate, and the share by the paper's eq. (7) with half a wavelength at the band's upper
+    edge as spot. The second: min, median and max of the share that a focus keeps of its amplitude at T with one finger at a random
+    place two wavelengths away or more.
+    """
+    board, modes = emission.twin.board, emission.twin.modes
+    waveform, plate = board.waveform, board.plate
+    middle_hz = (waveform.band_low_hz + waveform.band_high_hz) / 2
+    around_s = np.linspace(-0.5, 0.5, TIMES) / middle_hz
+    foci = np.array(emission.points_m)
+    margin_m = min(10e-3, plate.length_m / 4, plate.width_m / 4)
+    places = random_points(board, seed, 40 * ELSEWHERE, margin_m)
+    far_m = FAR_WAVELENGTHS * bending_wavelength_m(plate, middle_hz)
+    apart = np.hypot(*(places[:, None] - foci).transpose(2, 0, 1)).min(axis=1)
+    places = places[apart >= far_m][:ELSEWHERE]  # none on a plate that is all focus
+    motion = point_motion(board, modes, emission.words, np.concatenate([foci, places]), after_s=float(around_s[-1]))
+    on_foci = range(len(foci))
+    free = motion.displacement({}, around_s)[:, : len(foci)]
+    loaded = motion.displacement(dict.fromkeys(on_foci, finger), around_s)[:, : len(foci)]
+    now = TIMES // 2
+    sign = np.where(free[now] < 0, -1, 1)
+    spot_m = bending_wavelength_m(plate, waveform.band_high_hz) / 2
+    upright, free_upright = sign * loaded, sign * free
+    on_each = [
+        {
+            "amplitude_um": float(loaded[now, at]) * 1e6,
+            "kept": float(loaded[now, at] / free[now, at]),
+            "peak_um": float(upright[:, at].max()) * 1e6,
+            "peak_kept": float(upright[:, at].max() / free_upright[:, at].max()),
+            "peak_kept_by_eq_7": gate_attenuation(plate, finger.mass_kg, spot_m),
+        }
+        for at in on_foci
+    ]
+    kept = [motion.displacement({len(foci) + place: finger})[0, : len(foci)] / free[now] for place in range(len(places))]
+    return on_each, {"places": len(places), "kept": spread(np.concatenate(kept).tolist()) if kept else None}

@@ -20,9 +20,6 @@ from controller.workshop.benchmark.paper import (
     paper_finger,
     paper_focus,
     paper_losses,
-    paper_plates,
-    paper_several,
-    paper_skin,
 )
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
 from controller.workshop.benchmark.paper.paper_row import Row
@@ -45,8 +42,8 @@ class PaperEffort:
     foam: bool
 
 
-QUICK = PaperEffort(foci=10, over_time=3, repeated=2, thrown=2, loaded=4, plates=paper_plates.CLOSED_FORM, foam=False)
-FULL = PaperEffort(foci=100, over_time=20, repeated=20, thrown=20, loaded=20, plates=len(paper_plates.OTHERS), foam=True)
+QUICK = PaperEffort(foci=10, over_time=3, repeated=2, thrown=2, loaded=4, plates=paper_losses.CLOSED_FORM, foam=False)
+FULL = PaperEffort(foci=100, over_time=20, repeated=20, thrown=20, loaded=20, plates=len(paper_losses.OTHERS), foam=True)
 
 
 def paper_figures(board: Board, effort: PaperEffort, seed: int = 1, progress: Progress = lambda _done, _total: None) -> Figures:
@@ -64,7 +61,7 @@ def paper_figures(board: Board, effort: PaperEffort, seed: int = 1, progress: Pr
         for done, part in enumerate(parts, 1):
             rows += part()
             progress(done, len(parts))
-        curves["foci"] = paper_several.four_foci_maps(panel)
+        curves["foci"] = paper_focus.four_foci_maps(panel)
     return {
         "board": board.name,
         "seed": seed,
@@ -94,15 +91,15 @@ def _parts(panel: PaperPanel, effort: PaperEffort, curves: Figures) -> list[Call
         return paper_focus.duration_rows(curves["duration"])
 
     def repetition() -> list[Row]:
-        curves["repetition"] = paper_several.repetition_curve(panel, effort.repeated)
-        return paper_several.repetition_rows(panel, effort.repeated, curves["repetition"])
+        curves["repetition"] = paper_focus.repetition_curve(panel, effort.repeated)
+        return paper_focus.repetition_rows(panel, effort.repeated, curves["repetition"])
 
     def finger() -> list[Row]:
         found, curves["finger"] = paper_finger.finger_rows(panel, effort.loaded)
         return found
 
     def skin() -> list[Row]:
-        found, curves["skin"] = paper_skin.skin_rows(panel, effort.thrown)
+        found, curves["skin"] = paper_finger.skin_rows(panel, effort.thrown)
         return found
 
     return [
@@ -111,7 +108,7 @@ def _parts(panel: PaperPanel, effort: PaperEffort, curves: Figures) -> list[Call
         lambda: paper_focus.focus_rows(panel),
         durations,
         over_time,
-        lambda: paper_several.four_foci_rows(panel),
+        lambda: paper_focus.four_foci_rows(panel),
         repetition,
         finger,
         lambda: paper_losses.clock_rows(panel),
@@ -121,8 +118,8 @@ def _parts(panel: PaperPanel, effort: PaperEffort, curves: Figures) -> list[Call
         lambda: paper_losses.drift_rows(panel),
         lambda: paper_losses.slip_rows(panel),
         lambda: paper_losses.finger_motion_rows(panel),
-        lambda: paper_plates.shift_rows(panel),
-        lambda: paper_plates.wrong_plate_rows(panel, effort.plates),
-        *([lambda: paper_plates.foam_rows(panel)] if effort.foam else []),
+        lambda: paper_losses.shift_rows(panel),
+        lambda: paper_losses.wrong_plate_rows(panel, effort.plates),
+        *([lambda: paper_losses.foam_rows(panel)] if effort.foam else []),
         skin,
     ]

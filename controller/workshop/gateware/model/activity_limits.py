@@ -1,15 +1,16 @@
-"""Limits of activity in the gateware model: length of an emission, and duty by a leaky bucket.
+"""Limits of activity in the gateware model: settings of all limits, length of an emission, and duty by a leaky bucket.
 
 The bucket gains a full flow in every active tick (playing or ramping) and loses the allowed share in every tick.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
-from controller.workshop.gateware.model.limit_settings import DUTY, DUTY_FULL_FLOW, LONG_EMISSION, LimitSettings
+from dataclasses import dataclass
+from typing import Final, NamedTuple
 
 BUCKET_MAX = 2**48 - 1
+SHORT_PULSE, CHANNEL_EDGES, TOTAL_EDGES, LONG_EMISSION, DUTY = (1 << bit for bit in range(5))  # of `cause_o`
+DUTY_FULL_FLOW: Final = 1 << 16  # into the duty bucket in an active tick
 
 
 class _Emission(NamedTuple):
@@ -114,3 +115,15 @@ class ActivityLimits:
             if flow.active and (end is None or first < end):
                 intervals.append((first, end))
         return intervals
+
+
+@dataclass
+class LimitSettings:
+    """Values of the limit registers, written while nothing plays. After writing `duty_share`, call `StageLimits.activity`."""
+
+    pulse_ticks: int = 0
+    channel_edges: int = 2**32 - 1
+    total_edges: int = 2**32 - 1
+    emission_ticks: int = 2**32 - 1
+    duty_share: int = DUTY_FULL_FLOW
+    duty_ticks: int = 2**32 - 1

@@ -13,9 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.fpga.registers import CHANNELS
-from controller.workshop.gateware.model.activity_limits import ActivityLimits
+from controller.workshop.gateware.model.activity_limits import (
+    CHANNEL_EDGES,
+    SHORT_PULSE,
+    TOTAL_EDGES,
+    ActivityLimits,
+    LimitSettings,
+)
 from controller.workshop.gateware.model.edge_counts import ALL, COUNTED_TICKS, NO_EDGES, EdgeCounts, Ticks, part_ticks, turn
-from controller.workshop.gateware.model.limit_settings import CHANNEL_EDGES, SHORT_PULSE, TOTAL_EDGES, LimitSettings
 
 Words = NDArray[np.uint32]
 

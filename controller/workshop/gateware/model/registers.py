@@ -17,7 +17,7 @@ from controller.device.fpga.registers import (
     Register,
     Result,
 )
-from controller.workshop.gateware.model.limit_settings import LimitSettings
+from controller.workshop.gateware.model.activity_limits import LimitSettings
 
 _SETTINGS = (Kind.SETTING, Kind.MASK)
 
