@@ -42,7 +42,6 @@ FRAME: Final = 15.0  # or to this one, in which the name of a frame has room
 LEAD: Final = 4.0  # ticks shown before the first change and after the last
 INCH: Final = 0.17  # width of a tick
 LETTER: Final = 0.38  # width of a letter of 7.5 points, in ticks
-RISE: Final = 0.18  # of an edge, in ticks
 ROW: Final = 1.0
 HEIGHT: Final = 0.56
 COLOURS: Final = {"in": "#1f4e79", "out": "#7a1f1f", "bus": "#f3efe6", "grid": "0.82"}
@@ -143,55 +142,34 @@ def _stretches(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -
 
 
 def _level(plot: Any, axis: TimeAxis, base: float, edges: list[tuple[float, int]], colour: str) -> None:
-    x, y = [], []
-    for (place, level), (_, before) in zip(edges, [edges[0], *edges[:-1]], strict=True):
-        x += [place, place + RISE * (level != before)]
-        y += [base + HEIGHT * before, base + HEIGHT * level]
-    plot.plot([*x, axis.end], [*y, y[-1]], color=colour, lw=1.2, solid_joinstyle="miter")
+    places, levels = zip(*edges, (axis.end, edges[-1][1]), strict=True)
+    plot.step(places, [base + HEIGHT * level for level in levels], where="post", color=colour, lw=1.2)
 
 
 def _bus(plot: Any, axis: TimeAxis, base: float, stretches: list[tuple[float, float, str]], colour: str) -> None:
     middle = base + HEIGHT / 2
-    reached = 0.0
+    plot.plot([0, axis.end], [middle, middle], color=colour, lw=1.0, zorder=1)
     for begin, end, text in stretches:
-        if begin > reached:
-            plot.plot([reached, begin], [middle, middle], color=colour, lw=1.0)
-        left = begin + RISE if begin > 0 else begin
-        right = end - RISE if end < axis.end else end
-        corners = [(begin if begin > 0 else left, middle), (left, base + HEIGHT), (right, base + HEIGHT), (end, middle)]
-        corners += [(right, base), (left, base)]
-        if begin == 0:
-            corners[0] = (0.0, base + HEIGHT)
-        if end == axis.end:
-            corners[3] = (end, base)
-        plot.fill(*zip(*corners, strict=True), facecolor=COLOURS["bus"], edgecolor="none")
-        top = [(begin, middle if begin > 0 else base + HEIGHT), (left, base + HEIGHT), (right, base + HEIGHT)]
-        low = [(begin, middle if begin > 0 else base), (left, base), (right, base)]
-        for line, level in ((top, base + HEIGHT), (low, base)):
-            plot.plot(*zip(*line, (end, middle if end < axis.end else level), strict=True), color=colour, lw=1.0)
-        size = 7.5 * min(1.0, (end - begin - 4 * RISE) / (LETTER * len(text)))
+        left, right = begin or -1.0, end + (end == axis.end)  # what goes on beyond the picture has no end in it
+        plot.broken_barh([(left, right - left)], (base, HEIGHT), facecolor=COLOURS["bus"], edgecolor=colour, lw=1.0, zorder=2)
+        size = 7.5 * min(1.0, (end - begin - 0.7) / (LETTER * len(text)))
         box = {"facecolor": COLOURS["bus"], "edgecolor": "none", "pad": 0.3}
         plot.text((begin + end) / 2, middle, text, ha="center", va="center", size=size, zorder=6, bbox=box)
-        reached = end
-    if reached < axis.end:
-        plot.plot([reached, axis.end], [middle, middle], color=colour, lw=1.0)
 
 
 def _time(plot: Any, axis: TimeAxis, top: float) -> None:
     """Draw grid, tick labels and breaks; a label too close to the one before goes to a second line."""
+    plot.vlines([axis.at(tick) for tick in axis.labels], -0.12, top - 0.3, color=COLOURS["grid"], lw=0.6, zorder=0)
     line_of_label, last = 0, -10.0
     for tick in axis.labels:
         place = axis.at(tick)
-        plot.plot([place, place], [-0.12, top - 0.3], color=COLOURS["grid"], lw=0.6, zorder=0)
         line_of_label = 1 - line_of_label if place - last < 0.75 * len(str(tick)) + 0.6 else 0
         plot.text(place, -0.2 - 0.42 * line_of_label, str(tick), ha="center", va="top", size=7.5)
         last = place
     plot.text(-0.7, -0.2, "tick", ha="right", va="top", size=7.5, color="0.35")
     for place in axis.cuts:
-        for shift in (-0.25, 0.25):
-            plot.plot([place + shift - 0.3, place + shift + 0.3], [-0.15, top - 0.3], color="0.45", lw=0.8, zorder=5)
-        corners = [(place - 0.55, -0.15), (place + 0.05, -0.15), (place + 0.55, top - 0.3), (place - 0.05, top - 0.3)]
-        plot.fill(*zip(*corners, strict=True), facecolor="white", edgecolor="none", zorder=4)
+        plot.axvspan(place - 0.3, place + 0.3, color="white", zorder=4)
+        plot.vlines([place - 0.3, place + 0.3], -0.15, top - 0.3, color="0.45", lw=0.8, zorder=5)
 
 
 def diagrams(folder: Path) -> dict[Path, str]:
