@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from controller.clocks import MonotonicClock, VirtualClock
+from controller.commands.common.fpga_link import fpga_link
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import check_table
 from controller.commands.gateware import build as gateware_build
@@ -20,10 +20,8 @@ from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 from controller.device.fpga import configuration
-from controller.device.fpga.capture import Capture
-from controller.device.fpga.links.link import Link
 from controller.device.fpga.registers import IDENTITY_MAGIC, PROTOCOL_VERSION, Register
-from controller.device.service.drivers import gateware_hash, open_link, open_session
+from controller.device.service.drivers import gateware_hash, open_session
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -71,17 +69,9 @@ def gateware_check(options: argparse.Namespace) -> int:
         serial = msgspec.structs.replace(board.link, kind="serial", device=options.device, baud=options.baud)
         board = msgspec.structs.replace(board, link=serial)
     channels = _channels(options, board)
-    if board.link.kind == "simulated":
-        from controller.workshop.gateware.simulated_link import open_simulated
-
-        clock: MonotonicClock | VirtualClock = VirtualClock()
-        simulated = open_simulated(board, clock.now_s, gateware_factory(options)[0])
-        link: Link = simulated
-        take_capture: Callable[[], Capture] | None = simulated.take_capture
-    else:
-        clock = MonotonicClock()
-        link = open_link(board, clock.now_s, unhurried=True)
-        take_capture = None
+    simulated = board.link.kind == "simulated"
+    clock = VirtualClock() if simulated else MonotonicClock()
+    link, take_capture = fpga_link(board, clock.now_s, gateware_factory(options)[0] if simulated else None)
     session = open_session(link, board, clock.now_s)
     done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, progress_bar("bits"), take_capture)
     link.close()

@@ -55,7 +55,7 @@ def gateware_build(options: argparse.Namespace) -> int:
     _must_be_writable(out)
     design = FpgaDesign.of(board, top, part, device)
     with _work_folder(options.work) as work:
-        _tell(f"synthesising {design.top} with the limits of {board.name}")
+        tell(f"synthesising {design.top} with the limits of {board.name}")
         synthesise(design, work)
         fastest, tried = _fastest_placement(design, work, seeds)
         data = pack(design, fastest, work)
@@ -82,17 +82,17 @@ def _fastest_placement(design: FpgaDesign, work: Path, seeds: Sequence[int]) -> 
     failed: GatewareError | None = None
     tried: dict[str, float | None] = {}
     for seed in seeds:
-        _tell(f"placing and routing for {design.device}, seed {seed}; takes minutes")
+        tell(f"placing and routing for {design.device}, seed {seed}; takes minutes")
         try:
             found = place(design, seed, work)
         except GatewareError as error:
             if len(seeds) > 1:
-                _tell(str(error))
+                tell(str(error))
             tried[str(seed)], failed = None, error
             continue
         tried[str(seed)] = found.fmax_mhz
         if len(seeds) > 1:
-            _tell(f"seed {seed}: {found.fmax_mhz} MHz, {found.longest_path}")
+            tell(f"seed {seed}: {found.fmax_mhz} MHz, {found.longest_path}")
         if fastest is None or found.fmax_mhz > fastest.fmax_mhz:
             fastest = found
     if fastest is None:
@@ -124,10 +124,6 @@ def _write(path: Path, data: bytes) -> None:
     beside = path.with_name(f".{path.name}.new")
     beside.write_bytes(data)
     beside.replace(path)
-
-
-def _tell(text: str) -> None:
-    tell(text)
 
 
 def _table(built: dict[str, Any]) -> str:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,33 +61,32 @@ def scenes(board: Board, seed: int, each: int, random_scenes: int) -> list[Finge
     def null(points: Sequence[Place]) -> Place:
         return _null(random, points, size)
 
-    for fingers in FINGERS:
-        for _ in range(each):
-            points = drawn(fingers, inner_m)
-            made.append(still(f"{fingers} off grid", points, null(points)))
-    for fingers in (1, 4):
-        for _ in range(each):
-            points = [grid.place(grid.nearest(*point)[0]) for point in drawn(fingers, inner_m)]
-            made.append(still(f"{fingers} on grid", points, null(points)))
-    for _ in range(each):
-        points = [_near_edge(random, size)]
-        made.append(still("1 near an edge", points, null(points)))
-    for _ in range(each):
+    def add(family: str, points_of: Callable[[], Sequence[Place]], count: int = each, detuning: float = 1.0) -> None:
+        for _ in range(count):
+            points = points_of()
+            made.append(still(family, points, null(points), detuning))
+
+    def on_grid(fingers: int) -> list[Place]:
+        return [grid.place(grid.nearest(*point)[0]) for point in drawn(fingers, inner_m)]
+
+    def square() -> list[Place]:
         x_m, y_m = random.uniform(inner_m, size - inner_m).tolist()
         half = SQUARE_M / 2
-        corners = [(x_m - half, y_m - half), (x_m + half, y_m - half), (x_m + half, y_m + half), (x_m - half, y_m + half)]
-        made.append(still("four foci of the paper", corners, null(corners)))
+        return [(x_m - half, y_m - half), (x_m + half, y_m - half), (x_m + half, y_m + half), (x_m - half, y_m + half)]
+
+    for fingers in FINGERS:
+        add(f"{fingers} off grid", partial(drawn, fingers, inner_m))
+    for fingers in (1, 4):
+        add(f"{fingers} on grid", partial(on_grid, fingers))
+    add("1 near an edge", lambda: [_near_edge(random, size)])
+    add("four foci of the paper", square)
     for detuning in (1 - DRIFT, 1 + DRIFT):
-        for _ in range(each):
-            points = drawn(1, inner_m)
-            made.append(still(f"1 at {100 * (detuning - 1):+.1f} % drift", points, null(points), detuning))
+        add(f"1 at {100 * (detuning - 1):+.1f} % drift", partial(drawn, 1, inner_m), detuning=detuning)
     for speed_m_s in (0.05, 0.2):
         for _ in range(each):
             points = drawn(1, inner_m)
             made += _sliding(random, points[0], speed_m_s, null(points))
-    for _ in range(random_scenes):
-        points = drawn(int(random.integers(1, 11)), MARGIN_M)
-        made.append(still("random", points, null(points)))
+    add("random", lambda: drawn(int(random.integers(1, 11)), MARGIN_M), random_scenes)
     made.append(still("idle", (), (float(size[0]) / 2, float(size[1]) / 2)))
     return made
 
@@ -132,13 +132,9 @@ def _sliding(random: np.random.Generator, point: Place, speed_m_s: float, null: 
     arrived_s = (np.arange(REPORTS) - REPORTS + 1) * REPORT_PERIOD_S - waited_s - AHEAD_S  # before T
     places = np.array(point) + velocity * (arrived_s - LAG_S)[:, None] + random.normal(0, NOISE_M, (REPORTS, 2))
     places = np.rint(places / RESOLUTION_M) * RESOLUTION_M
-    motion: Motion | None = None
-    for (x_m, y_m), time_s in zip(places.tolist(), arrived_s.tolist(), strict=True):
-        if motion is None:
-            motion = Motion(x_m, y_m, time_s)
-        else:
-            motion.report(x_m, y_m, time_s)
-    assert motion is not None
+    motion = Motion(float(places[0, 0]), float(places[0, 1]), float(arrived_s[0]))
+    for (x_m, y_m), time_s in zip(places[1:].tolist(), arrived_s[1:].tolist(), strict=True):
+        motion.report(x_m, y_m, time_s)
     predicted = motion.predict(0.0, -AHEAD_S, LAG_S, REPORT_PERIOD_S)
     last = (float(places[-1, 0]), float(places[-1, 1]))
     family = f"1 sliding at {1e3 * speed_m_s:g} mm/s"
