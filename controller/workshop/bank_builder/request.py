@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,12 +11,21 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.scene.scene import FixedEmitter
 from controller.workshop.bank_builder.methods.descent import DescentAim
 from controller.workshop.bank_builder.optimised import ALONE, Workers
 from controller.workshop.physics.plate import mode_cut_hz
 from controller.workshop.physics.responses.response_source import ResponseSource
+
+
+def cells_around(grid: Grid, places_m: Iterable[tuple[float, float]]) -> NDArray[np.bool_]:
+    """The cells that are interpolated between at some places: (cells of the grid,)."""
+    cells = np.zeros(grid.cells, bool)
+    for x_m, y_m in places_m:
+        cells[list(grid.corners(x_m, y_m)[0])] = True
+    return cells
 
 
 @dataclass(frozen=True)

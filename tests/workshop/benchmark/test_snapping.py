@@ -14,7 +14,7 @@ from controller.device.kernel import unpack_loads
 from controller.device.waveforms.selection import LATTICE_M, Selection
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
-from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.bank_builder.request import BankRequest, cells_around
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 
@@ -49,10 +49,7 @@ def test_a_cell_that_is_played_for_a_finger_within_the_lattice_loses_nothing_and
     angles = np.arange(6)
     around = np.column_stack([np.cos(angles), np.sin(angles)])
     places_m = np.concatenate([centre_m + 0.24e-3 * around, centre_m + 0.98e-3 * around])
-    cells = np.zeros(grid.cells, bool)
-    for x_m, y_m in places_m.tolist():
-        cells[list(grid.corners(x_m, y_m)[0])] = True
-    build_bank(BankRequest(board, tmp_path / "bank", pitch_m, cells))
+    build_bank(BankRequest(board, tmp_path / "bank", pitch_m, cells_around(grid, places_m.tolist())))
     with Bank.open(tmp_path / "bank", board) as bank:
         none, quarter, one = (lost(board, bank, snap_mm, places_m) for snap_mm in (0.0, 0.25, 1.0))
     near, far = slice(0, 6), slice(6, 12)

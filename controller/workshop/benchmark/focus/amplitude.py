@@ -24,7 +24,7 @@ from controller.device.waveforms.selection import REUSE_RADIUS_M
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.methods.design import DesignMethod
 from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
-from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.bank_builder.request import BankRequest, cells_around
 from controller.workshop.benchmark.focus.focus_figures import emit, random_points, spread
 from controller.workshop.physics.pictures.figure_file import save_figure
 from controller.workshop.physics.plate import wave_scale
@@ -59,7 +59,7 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
     with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "bank"
         pitch_m = board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m
-        build_bank(BankRequest(board, path, pitch_m, _cells(board, places, pitch_m)))
+        build_bank(BankRequest(board, path, pitch_m, cells_around(Grid.of(board.plate, pitch_m), places.tolist())))
         with Bank.open(path, board) as bank:
             composer, twin = DeviceComposition(board, bank), PlateTwin(board)
             return {
@@ -83,15 +83,6 @@ def _scene(board: Board, random: np.random.Generator, fingers: int) -> list[tupl
         between_m = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.eye(fingers)
         if between_m.min() >= apart_m:
             return [(float(x_m), float(y_m), float(random.uniform(MIN_AMPLITUDE, 1))) for x_m, y_m in places]
-
-
-def _cells(board: Board, places: Floats, pitch_m: float) -> NDArray[np.bool_]:
-    """(cell,) mask of the cells needed to interpolate at the places."""
-    grid = Grid.of(board.plate, pitch_m)
-    cells = np.zeros(grid.cells, bool)
-    for x_m, y_m in places.tolist():
-        cells[list(grid.corners(x_m, y_m)[0])] = True
-    return cells
 
 
 def _words(composer: DesignMethod, scene: list[tuple[float, float, float]]) -> Words:

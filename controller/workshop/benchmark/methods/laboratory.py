@@ -13,7 +13,7 @@ from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.workshop.bank_builder.build import build_bank
-from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.bank_builder.request import BankRequest, cells_around
 from controller.workshop.benchmark.methods.interpolation import Interpolation
 from controller.workshop.benchmark.methods.response_table import ResponseTable, fill
 from controller.workshop.physics.responses.impulse_response import ResponseModel
@@ -35,10 +35,7 @@ class Laboratory:
     def bank(self, pitch_m: float) -> Bank:
         """An open bank with the cells around all places; built when it is first asked for."""
         if pitch_m not in self._banks:
-            grid = Grid.of(self.board.plate, pitch_m)
-            cells = np.zeros(grid.cells, bool)
-            for x_m, y_m in self._places:
-                cells[list(grid.corners(x_m, y_m)[0])] = True
+            cells = cells_around(Grid.of(self.board.plate, pitch_m), self._places)
             path = self._folder / f"{1e3 * pitch_m:g} mm"
             build_bank(BankRequest(self.board, path, pitch_m, cells))
             self._banks[pitch_m] = Bank.open(path, self.board)

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
-from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
 from controller.workshop.bank_builder.build import build_bank
-from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
+from controller.workshop.bank_builder.request import BankRequest, cells_around
 from controller.workshop.benchmark.focus.focus_emission import field_of_pulse, pulse_s
 from controller.workshop.benchmark.focus.focus_figures import SETTLED, SQUARE_M, emit, idling_low
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
@@ -124,10 +124,8 @@ def four_foci_rows(panel: PaperPanel) -> list[Row]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "bank"
         pitch_m = panel.board.bank.pitch_mm * 1e-3
-        grid = Grid.of(panel.board.plate, pitch_m)
-        cells = np.zeros(grid.cells, bool)
-        for x_m, y_m in np.concatenate([corners_m(centre) for centre in centres]).tolist():
-            cells[list(grid.corners(x_m, y_m)[0])] = True
+        places_m = np.concatenate([corners_m(centre) for centre in centres]).tolist()
+        cells = cells_around(Grid.of(panel.board.plate, pitch_m), places_m)
         build_bank(BankRequest(panel.board, path, pitch_m, cells))
         with Bank.open(path, panel.board) as bank:
             composer = DeviceComposition(panel.board, bank)

@@ -32,19 +32,11 @@ DEAD_TIME_S: Final = 2e-6  # both legs are watched for so long behind an edge
 
 LEGS: Final = ("i(v.xs.vhigh)", "i(v.xs.vlow)")
 STAGE_VECTORS: Final = (
-    *(
-        "v(drive)",
-        "v(v60)",
-        "v(xs.out)",
-        "v(patch)",
-        "v(xs.filter)",
-        "v(xs.low_gate)",
-        "v(xs.high_gate)",
-        "v(xs.level)",
-        "v(xs.sink)",
-    ),
-    *("v(xs.high_leg)", "v(xs.low_leg)", *LEGS),
+    *("v(drive)", "v(v60)", "v(xs.out)", "v(patch)", "v(xs.filter)", "v(xs.low_gate)", "v(xs.high_gate)"),
+    *("v(xs.level)", "v(xs.sink)", "v(xs.high_leg)", "v(xs.low_leg)", *LEGS),
 )
+SOURCES: Final = ("Vhv v60_in 0 {high_v}", "Vlogic v5 0 {logic_v}")  # both supplies, there from the start
+SUPPLY: Final = "Xsupply enable alive v60_in v5 v60 supply"
 
 
 def levels(changes: Sequence[tuple[float, int]]) -> str:

@@ -14,7 +14,17 @@ import numpy as np
 from matplotlib.figure import Figure as Picture
 
 from controller.workshop.benchmark.stage.stage_benches import FAULT_PULSE_S
-from controller.workshop.benchmark.stage.stage_circuit import ALIVE_HZ, CORNERS, digest, levels, netlist, stage, through_both
+from controller.workshop.benchmark.stage.stage_circuit import (
+    ALIVE_HZ,
+    CORNERS,
+    SOURCES,
+    SUPPLY,
+    digest,
+    levels,
+    netlist,
+    stage,
+    through_both,
+)
 from controller.workshop.simulation.ngspice import Floats, Traces, transient
 
 COLOURS: Final = ("#1f4e79", "#7a1f1f", "#2e7d32", "#b45309")
@@ -64,13 +74,7 @@ def _plot_currents(plot: Any, fault: Traces, fault_s: float, no_delay: Traces) -
 def _supply_traces(corner: Any) -> Traces:
     half_s = 0.5 / ALIVE_HZ
     beats = [(half_s * n, n % 2) for n in range(1, int(3e-3 / half_s))]
-    lines = (
-        "Vhv v60_in 0 {high_v}",
-        "Vlogic v5 0 {logic_v}",
-        f"Venable enable 0 {levels([(1e-9, 1)])}",
-        f"Valive alive 0 {levels(beats)}",
-        "Xsupply enable alive v60_in v5 v60 supply",
-    )
+    lines = (*SOURCES, f"Venable enable 0 {levels([(1e-9, 1)])}", f"Valive alive 0 {levels(beats)}", SUPPLY)
     return transient(netlist(corner, {}, *lines), ("v(enable)", "v(v60)", "v(xsupply.store)"), 2e-6, 8e-3)
 
 

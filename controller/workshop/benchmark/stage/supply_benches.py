@@ -12,7 +12,9 @@ from controller.workshop.benchmark.stage.stage_circuit import (
     DEAD_TIME_S,
     LEGS,
     PIN_V,
+    SOURCES,
     STAGES,
+    SUPPLY,
     Measured,
     Parts,
     alive,
@@ -30,19 +32,8 @@ def all_off(_board: Board, parts: Parts) -> Measured:
     """All channels and the supply go low in the same clock, with every channel high before and 200 nH to the stages."""
     off_s = 60e-6
     drive = levels([(5e-6, 1), (off_s, 0)])
-    lines = [
-        "Vhv v60_in 0 {high_v}",
-        "Vlogic v5 0 {logic_v}",
-        f"Vdrive drive 0 {drive}",
-        f"Venable enable 0 {levels([(0, 1), (off_s, 0)])}",
-    ]
-    lines += [
-        alive(0.0, off_s),
-        "Xsupply enable alive v60_in v5 v60 supply",
-        ".ic v(v60)={high_v} v(xsupply.store)=4",
-        "Lwire v60 rail 200n",
-        "Crail rail 0 100n",
-    ]
+    lines = [*SOURCES, f"Vdrive drive 0 {drive}", f"Venable enable 0 {levels([(0, 1), (off_s, 0)])}"]
+    lines += [alive(0.0, off_s), SUPPLY, ".ic v(v60)={high_v} v(xsupply.store)=4", "Lwire v60 rail 200n", "Crail rail 0 100n"]
     lines += [f"X{'s' if n == 0 else n} drive rail v5 {'patch' if n == 0 else f'patch{n}'} stage" for n in range(STAGES)]
     vectors = ("v(v60)", "v(rail)", "v(patch)", "v(xs.out)", *LEGS)
     rows = [transient(netlist(CORNERS[name], parts, *lines), vectors, 10e-9, 130e-6) for name in ("both early", "both late")]
@@ -65,11 +56,7 @@ def start_up(_board: Board, parts: Parts) -> Measured:
                 f"Vlogic v5 0 PWL(0 0 {logic_s:g} 0 {logic_s + 1e-3:g} {{logic_v}})",
             ]
             # one stage behind the supply as it is, one on 60 V for good: both protections hold alone
-            parts_of = [
-                "Xsupply enable alive v60_in v5 v60 supply",
-                "Xs drive v60 v5 patch stage",
-                "Xdirect drive v60_in v5 patch_direct stage",
-            ]
+            parts_of = [SUPPLY, "Xs drive v60 v5 patch stage", "Xdirect drive v60_in v5 patch_direct stage"]
             vectors = ("v(v60)", "v(xs.out)", "v(xdirect.out)", "v(drive)", "v(enable)")
             traces = transient(netlist(corner, parts, *sources, *pulls, *parts_of), vectors, 2e-6, 5e-3)
             rails.append(traces["v(v60)"].max())
@@ -92,8 +79,7 @@ def supply_gone(_board: Board, parts: Parts) -> Measured:
             high = f"PWL(0 {{high_v}} {falls.format('{high_v}')})" if name == "60" else "{high_v}"
             logic = f"PWL(0 {{logic_v}} {falls.format('{logic_v}')})" if name == "5" else "{logic_v}"
             lines = [f"Vhv v60_in 0 {high}", f"Vlogic v5 0 {logic}", f"Vdrive drive 0 {levels([(1e-3, 1)])}"]
-            lines += [f"Venable enable 0 {levels([(0, 1)])}", alive(0.0, end_s), "Xsupply enable alive v60_in v5 v60 supply"]
-            lines += ["Xs drive v60 v5 patch stage"]
+            lines += [f"Venable enable 0 {levels([(0, 1)])}", alive(0.0, end_s), SUPPLY, "Xs drive v60 v5 patch stage"]
             traces = transient(netlist(corner, parts, *lines), ("v(patch)", "v(v60)"), 1e-6, end_s)
             high_before = traces.at("v(patch)", gone_s) > 0.9 * corner["high_v"]
             values.append(abs(traces.at("v(patch)", gone_s + 10e-3)) if high_before else math.nan)
@@ -107,24 +93,9 @@ def supply(_board: Board, parts: Parts) -> Measured:
     settled, opened, energies = [], [], []
     for corner in CORNERS.values():
         for level in (0, 1):  # at which hv_alive stops, with hv_enable high for ever
-            lines = [
-                "Vhv v60_in 0 {high_v}",
-                "Vlogic v5 0 {logic_v}",
-                f"Venable enable 0 {levels([(begin_s, 1)])}",
-                alive(begin_s + half_s, stop_s, level),
-            ]
-            lines += ["Xsupply enable alive v60_in v5 v60 supply"]
-            vectors = (
-                "v(v60)",
-                "v(v60_in)",
-                "v(xsupply.pulled)",
-                "v(xsupply.switch_gate)",
-                "v(xsupply.store)",
-                "v(enable)",
-                "v(alive)",
-                "i(vhv)",
-            )
-            traces = transient(netlist(corner, parts, *lines), vectors, 1e-6, end_s)
+            enable = f"Venable enable 0 {levels([(begin_s, 1)])}"
+            lines = [*SOURCES, enable, alive(begin_s + half_s, stop_s, level), SUPPLY]
+            traces = transient(netlist(corner, parts, *lines), ("v(v60)", "v(v60_in)", "i(vhv)"), 1e-6, end_s)
             settled.append(traces.crossing_s("v(v60)", 0.98 * corner["high_v"], rising=True, after_s=begin_s) - begin_s)
             opened.append(traces.crossing_s("v(v60)", 0.95 * corner["high_v"], rising=False, after_s=stop_s) - stop_s)
             up = traces.between(begin_s, begin_s + 2e-3)
