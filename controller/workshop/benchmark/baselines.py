@@ -47,15 +47,16 @@ class Baselines:
         # Additions and multiplications of float32 for a second of processor time, at best, on one thread
         self.sgemm_rate = best_sgemm_rate()
 
-    @property
-    def wire_us(self) -> float | None:
-        """Time of an upload on the wire; None for a board without SPI clock."""
+    def rates(self, modes: int) -> dict[str, float | None]:
+        """What the machine does at best, and what one response of every channel as a sum over `modes` needs of it."""
         sck_hz = getattr(self._board.link, "sck_hz", None)
-        return 8e6 * wire_bytes(self._board.waveform.samples) / sck_hz if sck_hz else None
-
-    def sgemm_us(self, modes: int) -> float:
-        """Time of one response of every channel as a sum over modes, at the best rate of matrix multiplication."""
-        return 1e6 * 2 * self._board.waveform.samples * CHANNELS * modes / self.sgemm_rate
+        multiplications = self._board.waveform.samples * CHANNELS * modes
+        return {
+            "sgemm_gflops": self.sgemm_rate * 1e-9,
+            "wire_us": 8e6 * wire_bytes(self._board.waveform.samples) / sck_hz if sck_hz else None,
+            "sgemm_response_us": 1e6 * 2 * multiplications / self.sgemm_rate,
+            "multiplications_of_a_response": multiplications,
+        }
 
     def jobs(self, scenes: Sequence[Sequence[Point]]) -> list[Baseline]:
         """Jobs of the same size as composing each of `scenes`."""

@@ -6,6 +6,7 @@ those that no other one beats in both. `haptic-panel benchmark` runs it; `work_p
 
 from __future__ import annotations
 
+import itertools
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
@@ -15,7 +16,6 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from controller.device.bank.packing import CHANNELS
 from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.workshop.benchmark.baselines import Baselines
@@ -71,12 +71,16 @@ def work_precision(
             methods = [method for method in candidates(laboratory) if effort.slow_methods or not method.slow]
             judge = Judge(board, {scene.detuning for scene in drawn})
             off_grid = _off_grid(drawn)
-            bar = _Bar(progress, len(drawn) + (len(off_grid) * effort.turns if timing else 0))
-            found = _errors(laboratory, judge, methods, drawn, bar)
+            done, total = itertools.count(1), len(drawn) + (len(off_grid) * effort.turns if timing else 0)
+
+            def step() -> None:
+                progress(next(done), total)
+
+            found = _errors(laboratory, judge, methods, drawn, step)
             times: dict[int, dict[int, CallTiming]] = {}
             measured: Figures = {"baselines": [], "left_out": [], "machine": {}, "building": []}
             if timing:
-                times, measured = _timings(laboratory, Path(folder), judge, methods, off_grid, effort, bar)
+                times, measured = _timings(laboratory, Path(folder), judge, methods, off_grid, effort, step)
         finally:
             laboratory.close()
     settings = [_setting(method, index, found[index], times, measured["baselines"]) for index, method in enumerate(methods)]
@@ -103,7 +107,7 @@ def _timings(
     methods: Sequence[Candidate],
     off_grid: dict[int, list[FingerScene]],
     effort: Effort,
-    bar: _Bar,
+    step: Callable[[], None],
 ) -> tuple[dict[int, dict[int, CallTiming]], Figures]:
     """Times of methods, by number of fingers and by their index; and of all else that is timed, as `work_precision` returns it."""
     board = laboratory.board
@@ -111,12 +115,12 @@ def _timings(
     times: dict[int, dict[int, CallTiming]] = {}
     baselines: list[Figures] = []
     for count, some in off_grid.items():
-        times[count], besides = _times(laboratory, machine, methods, count, some, effort, bar)
+        times[count], besides = _times(laboratory, machine, methods, count, some, effort, step)
         baselines += besides
     return times, {
         "baselines": baselines,
         "left_out": machine.left_out,
-        "machine": _rates(board, machine, judge.modes),
+        "machine": machine.rates(judge.modes),
         "building": building_figures(board, judge, off_grid.get(1, [])),
     }
 
@@ -132,33 +136,12 @@ def _fronts(settings: Sequence[Figures], families: Iterable[str]) -> dict[str, l
     return {f"{axis}, {family}": front(settings, axis, family) for axis in AXES for family in families if family != "idle"}
 
 
-def _rates(board: Board, machine: Baselines, modes: int) -> Figures:
-    """What the machine does at best, and what a response needs of it."""
-    return {
-        "sgemm_gflops": machine.sgemm_rate * 1e-9,
-        "wire_us": machine.wire_us,
-        "sgemm_response_us": machine.sgemm_us(modes),
-        "multiplications_of_a_response": board.waveform.samples * CHANNELS * modes,
-    }
-
-
-class _Bar:
-    """Counts what is done."""
-
-    def __init__(self, progress: Progress, total: int) -> None:
-        self._progress, self._done, self._total = progress, 0, total
-
-    def step(self) -> None:
-        self._done += 1
-        self._progress(self._done, self._total)
-
-
 def _full(scene: FingerScene) -> list[Point]:
     return [(x_m, y_m, 1.0) for x_m, y_m in scene.expected]
 
 
 def _errors(
-    laboratory: Laboratory, judge: Judge, methods: Sequence[Candidate], drawn: Sequence[FingerScene], bar: _Bar
+    laboratory: Laboratory, judge: Judge, methods: Sequence[Candidate], drawn: Sequence[FingerScene], step: Callable[[], None]
 ) -> list[dict[str, list[Errors]]]:
     """Errors of each method by family."""
     found: list[dict[str, list[Errors]]] = [{} for _ in methods]
@@ -174,7 +157,7 @@ def _errors(
             evaluated = judge.errors(scene, words, [methods[index].free_polarity and len(scene.points) > 1 for index in able])
             for index, errors in zip(able, evaluated, strict=True):
                 found[index].setdefault(scene.family, []).append(errors)
-            bar.step()
+            step()
     return found
 
 
@@ -185,7 +168,7 @@ def _times(
     fingers: int,
     timed: Sequence[FingerScene],
     effort: Effort,
-    bar: _Bar,
+    step: Callable[[], None],
 ) -> tuple[dict[int, CallTiming], list[Figures]]:
     """Times of methods, by their index, and of the baselines, all taking turns."""
     timed = timed[: effort.timed_scenes]
@@ -193,7 +176,7 @@ def _times(
     able = [index for index, method in enumerate(methods) if fingers <= method.most_fingers]
     jobs: list[list[Callable[[], object]]] = [[_call(methods[index], scene) for scene in timed] for index in able]
     besides = machine.jobs([_full(scene) for scene in timed])
-    timings = interleaved([*jobs, *(job.calls for job in besides)], effort.turns, effort.longest_s, bar.step)
+    timings = interleaved([*jobs, *(job.calls for job in besides)], effort.turns, effort.longest_s, step)
     rows = [
         {"name": job.name, "fingers": fingers, **asdict(timing)} for job, timing in zip(besides, timings[len(able) :], strict=True)
     ]

@@ -131,10 +131,7 @@ class Repository:
 
     def signers(self, role: str) -> dict[str, Key]:
         """Keys that count for a role of the draft, by their identifiers; for a new root those of the old one too."""
-        roots = [self.root]
-        if role == "root" and (old := self.published("root")):
-            roots.append(old.signed)
-        return {key_id: root.get_key(key_id) for root in roots for key_id in root.roles[role].keyids}
+        return {key_id: root.get_key(key_id) for root in self._roots(role) for key_id in root.roles[role].keyids}
 
     def sign(self, signer: CryptoSigner) -> list[str]:
         """Sign every role of the draft that this key counts for; returns the roles.
@@ -182,10 +179,7 @@ class Repository:
         reported = []
         for role in self._draft_roles():
             metadata = _read(self.draft / f"{role}.json")
-            roots = [self.root]
-            if role == "root" and (old := self.published("root")):
-                roots.append(old.signed)
-            for root in roots:
+            for root in self._roots(role):
                 result = root.get_verification_result(role, metadata.signed_bytes, metadata.signatures)
                 if not result:
                     reported.append(f"{role} lacks {result.missing} of {', '.join(sorted(map(owner, result.unsigned.values())))}")
@@ -220,6 +214,11 @@ class Repository:
             sync_folder(self.folder)
             shutil.rmtree(done, ignore_errors=True)
         return True
+
+    def _roots(self, role: str) -> list[Root]:
+        """Those whose keys sign a role of the draft: a new root is signed by the keys of the old one too."""
+        old = self.published("root") if role == "root" else None
+        return [self.root, old.signed] if old else [self.root]
 
     def _draft_roles(self) -> list[str]:
         roles = [role for role in ROLES if (self.draft / f"{role}.json").exists()]

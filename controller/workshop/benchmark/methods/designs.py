@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import Any
 
 from controller.device.board.board import Board
 from controller.device.kernel import Point
@@ -17,23 +17,11 @@ from controller.workshop.benchmark.methods.candidate import Candidate, Place, Wo
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
-
-@dataclass(frozen=True)
-class BenchmarkedMethod:
-    """How a method is made, and how it is evaluated."""
-
-    make: Callable[[Board, ResponseModel], DesignMethod]
-    free_polarity: bool = False
-    keeps_nulls: bool = False
-    slow: bool = False
-    most_fingers: int = 10
-
-
-DESIGNS = {
-    "full field, float64": BenchmarkedMethod(SignOfSum),
-    "exact composition": BenchmarkedMethod(ExactComposition, free_polarity=True),
-    "exact composition, nulls": BenchmarkedMethod(ExactNulls, free_polarity=True, keeps_nulls=True, slow=True),
-    **{f"descent, {aim.name}": BenchmarkedMethod(partial(Descent, aim=aim), slow=True, most_fingers=1) for aim in AIMS.values()},
+DESIGNS: dict[str, tuple[Callable[[Board, ResponseModel], DesignMethod], dict[str, Any]]] = {  # and fields of `Candidate`
+    "full field, float64": (SignOfSum, {}),
+    "exact composition": (ExactComposition, {"free_polarity": True}),
+    "exact composition, nulls": (ExactNulls, {"free_polarity": True, "keeps_nulls": True, "slow": True}),
+    **{f"descent, {aim.name}": (partial(Descent, aim=aim), {"slow": True, "most_fingers": 1}) for aim in AIMS.values()},
 }
 
 
@@ -41,18 +29,9 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
     """All of them."""
     model, board = laboratory.model, laboratory.board
     memory = model.modal_band.nbytes + model.forces.nbytes
-    for name, design in DESIGNS.items():
-        yield Candidate(
-            name,
-            f"{model.modes} modes",
-            Designed(partial(design.make, board, model)),
-            memory,
-            wire_bytes(board.waveform.samples),
-            free_polarity=design.free_polarity,
-            most_fingers=design.most_fingers,
-            keeps_nulls=design.keeps_nulls,
-            slow=design.slow,
-        )
+    for name, (make, how) in DESIGNS.items():
+        designed = Designed(partial(make, board, model))
+        yield Candidate(name, f"{model.modes} modes", designed, memory, wire_bytes(board.waveform.samples), **how)
 
 
 class Designed:

@@ -5,7 +5,6 @@ It is read without colour: what is ours is solid with filled marks, what is the 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -144,8 +143,14 @@ def touches(ax: Axes, figures: Figures) -> None:
 def losses(ax: Axes, figures: Figures) -> None:
     """What approximations keep, beside the earlier trial."""
     rows = [row for row in figures["rows"] if row["quantity"].startswith("kept: ")]
-    _dots(ax, rows, lambda row: row["paper"], "earlier trial")
-    ax.set_yticks(range(len(rows)), [row["quantity"].removeprefix("kept: ") for row in rows], fontsize=7)
+    places = range(len(rows))
+    ax.hlines(places, [row["here"]["p5"] for row in rows], [row["here"]["p95"] for row in rows], color="black", lw=1)
+    ax.plot([row["paper"] for row in rows], places, **PAPER_MARK, label="earlier trial")
+    ax.plot([row["here"]["median"] for row in rows], places, "k.", ms=7, zorder=4, label="here, 5–95 %")
+    ax.grid(axis="x", color="0.85", lw=0.6)
+    ax.invert_yaxis()
+    ax.legend(fontsize=8, loc="center left")
+    ax.set_yticks(places, [row["quantity"].removeprefix("kept: ") for row in rows], fontsize=7)
     ax.set(xlabel="amplitude kept", title="What approximations cost", xlim=(-0.08, 1.05))
 
 
@@ -153,8 +158,8 @@ def ratios(ax: Axes, figures: Figures) -> None:
     """Ratio of ours to the paper's."""
     rows = [row for row in figures["rows"] if row["paper"] and not row["trial"]]
     ax.plot([row["ratio"] for row in rows], range(len(rows)), "ko", ms=5)
-    for place, row in enumerate(rows):
-        ax.plot([row["here"][end] / row["paper"] for end in ("p5", "p95")], [place, place], color="black", lw=1)
+    low, high = ([row["here"][end] / row["paper"] for row in rows] for end in ("p5", "p95"))
+    ax.hlines(range(len(rows)), low, high, color="black", lw=1)
     ax.axvline(1, **THEIRS)
     ax.set_yticks(range(len(rows)), [row["quantity"] for row in rows], fontsize=7)
     ax.invert_yaxis()
@@ -162,17 +167,6 @@ def ratios(ax: Axes, figures: Figures) -> None:
     ax.set_xticks([0.25, 0.5, 1, 2], ["1/4", "1/2", "1", "2"])
     ax.minorticks_off()
     ax.grid(axis="x", color="0.85", lw=0.6)
-
-
-def _dots(ax: Axes, rows: list[Figures], of: Callable[[Figures], float], name: str) -> None:
-    places = range(len(rows))
-    for place, row in zip(places, rows, strict=True):
-        ax.plot([row["here"]["p5"], row["here"]["p95"]], [place, place], color="black", lw=1)
-    ax.plot([of(row) for row in rows], places, **PAPER_MARK, label=name)
-    ax.plot([row["here"]["median"] for row in rows], places, "k.", ms=7, zorder=4, label="here, 5–95 %")
-    ax.grid(axis="x", color="0.85", lw=0.6)
-    ax.invert_yaxis()
-    ax.legend(fontsize=8, loc="center left")
 
 
 def _row(figures: Figures, key: str) -> Figures:
