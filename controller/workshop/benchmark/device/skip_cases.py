@@ -9,10 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from controller.device.board.board import Board
-from controller.device.touch import event_codes as ev
-from controller.device.touch.event_reader import AxisInfo, DeviceDescription, Event
 from controller.device.touch.recordings.recording import Recording
-from controller.device.touch_calibration.event_capture import recording_text
 
 REPORT_S = 8e-3
 UNITS_PER_MM = 100
@@ -78,25 +75,16 @@ CASES = (
 
 def recording(board: Board, case: SkipCase) -> Recording:
     """Recording of a case's fingers, a report every `REPORT_S` while one is down."""
-    events: list[Event] = []
-    for slot, contact in enumerate(case.contacts):
-        number = slot % 10
-        times_s = np.arange(contact.start_s, contact.end_s, REPORT_S).tolist()
-        for index, at_s in enumerate(times_s):
-            events.append((ev.EV_ABS, ev.ABS_MT_SLOT, number, at_s))
-            if index == 0:
-                events.append((ev.EV_ABS, ev.ABS_MT_TRACKING_ID, slot + 1, at_s))
-            place = contact.path(at_s - contact.start_s)
-            events += [(ev.EV_ABS, code, round(UNITS_PER_MM * mm), at_s) for code, mm in zip(ev.POSITIONS, place, strict=True)]
-        events += [(ev.EV_ABS, ev.ABS_MT_SLOT, number, contact.end_s), (ev.EV_ABS, ev.ABS_MT_TRACKING_ID, -1, contact.end_s)]
-    events.sort(key=lambda event: event[3])
-    reports: list[Event] = []
-    for event in events:
-        if reports and event[3] > reports[-1][3]:
-            reports.append((ev.EV_SYN, ev.SYN_REPORT, 0, reports[-1][3]))
-        reports.append(event)
-    reports.append((ev.EV_SYN, ev.SYN_REPORT, 0, reports[-1][3]))
-    sides = zip(ev.POSITIONS, (board.plate.length_mm, board.plate.width_mm), strict=True)
-    axes = {code: AxisInfo(0, round(UNITS_PER_MM * side_mm)) for code, side_mm in sides}
-    axes |= {ev.ABS_MT_SLOT: AxisInfo(0, 9), ev.ABS_MT_TRACKING_ID: AxisInfo(0, 65535)}
-    return Recording(recording_text(DeviceDescription(case.name, axes=axes), reports), case.name)
+    reports: dict[float, list[str]] = {}  # what is reported at each time
+    for number, contact in enumerate(case.contacts, start=1):
+        slot = f"002f {(number - 1) % 10}"
+        for at_s in np.arange(contact.start_s, contact.end_s, REPORT_S).tolist():
+            began = [f"0039 {number}"] if at_s == contact.start_s else []
+            x, y = (round(UNITS_PER_MM * mm) for mm in contact.path(at_s - contact.start_s))
+            reports.setdefault(at_s, []).extend([slot, *began, f"0035 {x}", f"0036 {y}"])
+        reports.setdefault(contact.end_s, []).extend([slot, "0039 -1"])
+    sides = (round(UNITS_PER_MM * side_mm) for side_mm in (board.plate.length_mm, board.plate.width_mm))
+    lines = ["A: 2f 0 9 0 0 0\nA: 35 0 {} 0 0 0\nA: 36 0 {} 0 0 0\nA: 39 0 65535 0 0 0\n".format(*sides)]
+    for at_s, events in sorted(reports.items()):
+        lines += [*(f"E: {at_s:.6f} 0003 {event}\n" for event in events), f"E: {at_s:.6f} 0000 0000 0000\n"]
+    return Recording("".join(lines), case.name)
