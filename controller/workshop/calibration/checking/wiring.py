@@ -39,11 +39,6 @@ class Wiring:
     points: int = 0  # measured
     points_needed: int = 0  # for a verdict on every channel, foreseen from the errors; `points` if there is one
 
-    @property
-    def decided(self) -> bool:
-        """Whether every channel has a verdict."""
-        return not self.undecided
-
 
 def wiring_of(waves: DirectWaves | None, channels: Sequence[int], alive: Sequence[int], points: int) -> Wiring:
     """Verdict on the channels that are `alive` among all that have an actuator; `points` were measured."""
