@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from controller.clocks import MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import fpga_link, touch_panel_of
+from controller.commands.common.fpga_link import announced_chirps, fpga_link, touch_panel_of
 from controller.commands.common.output import progress_bar, show
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board, own_board
@@ -38,7 +38,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     doctor.add_argument("--link", action="store_true", help="examine the link to the FPGA and what is behind it")
     doctor.add_argument("--bits", type=float, default=BITS, metavar="N", help="random bits to send at least (default: 1e6)")
-    doctor.add_argument("--no-chirps", action="store_true", help="leave the outputs off")
+    how = doctor.add_mutually_exclusive_group()
+    how.add_argument("--no-chirps", action="store_true", help="leave the outputs off")
+    how.add_argument("--pause-s", type=float, default=0.0, metavar="S", help="silence after each channel's chirps, to listen")
     doctor.set_defaults(command=examine, board=None)
 
 
@@ -51,6 +53,7 @@ def examine(options: argparse.Namespace) -> int:
     if options.link:
         clock = VirtualClock() if board.link.kind == "simulated" else real
         channels = [] if options.no_chirps else sorted(actuator.channel for actuator in board.actuators)
+        chirps = announced_chirps(board, channels, options.pause_s)
         try:
             link, take_capture = fpga_link(board, clock.now_s)
         except ControllerError as error:
@@ -59,7 +62,7 @@ def examine(options: argparse.Namespace) -> int:
             progress = progress_bar("link") if not options.json else lambda *_: None
             try:
                 opened = partial(open_session, link, board, clock.now_s)
-                examined = examine_link(board, link, opened, clock, options.bits, channels, progress, take_capture)
+                examined = examine_link(board, link, opened, clock, options.bits, chirps, progress, take_capture)
             finally:
                 link.close()
         findings += examined.findings

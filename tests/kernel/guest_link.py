@@ -19,6 +19,7 @@ from gpio_lines import GpioLines
 from controller.device.board.board import load_board
 from controller.device.board.devices import LinkSettings, Temperature
 from controller.device.board.lookup import data_folder, find_board
+from controller.device.doctor.bring_up import Chirps
 from controller.device.doctor.doctor import look
 from controller.device.doctor.link_examination import examine_link
 from controller.device.fpga.build_hash import build_hash
@@ -417,7 +418,7 @@ def test_the_doctor_finds_the_devices_and_examines_the_link():
         assert {finding.about: finding for finding in look(board, CLOCK.now_s)}["GPIO lines"].good, "our own lines are no fault"
 
         def examine(channels):
-            return examine_link(board, link, lambda: session_on(link, board), CLOCK, 3e4, channels)
+            return examine_link(board, link, lambda: session_on(link, board), CLOCK, 3e4, Chirps(channels))
 
         found = examine([5])
         but_for_sck = [finding for finding in found.findings if finding.about != "SCK measured"]  # this far end computes

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from controller.console import tell
 from controller.device.board.board import Board
+from controller.device.doctor.bring_up import CHIRP_REPETITIONS, Chirps, chirp_in_words, chirp_period_s
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.links.link import Link
 from controller.device.service.drivers import OpenLink, open_link, open_panel
@@ -46,3 +48,15 @@ def fpga_link(
 
     link = open_simulated(board, now_s, gateware) if gateware else open_simulated(board, now_s)
     return link, link.take_capture
+
+
+def announced_chirps(board: Board, channels: Sequence[int], pause_s: float) -> Chirps:
+    """Chirps on some channels of `board`; what there is to hear is said as each begins."""
+
+    def announce(channel: int) -> None:
+        if channel == channels[0]:
+            lasts_s = CHIRP_REPETITIONS * chirp_period_s(board)
+            tell(f"each channel purrs for {lasts_s:.2g} s at its patch; silence: stage, wire or patch; elsewhere: swapped wires")
+        tell(chirp_in_words(board, channel))
+
+    return Chirps(channels, pause_s, announce)

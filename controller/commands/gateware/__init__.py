@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from controller.clocks import MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import fpga_link
+from controller.commands.common.fpga_link import announced_chirps, fpga_link
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import check_table
 from controller.commands.gateware import build as gateware_build
@@ -73,7 +73,8 @@ def gateware_check(options: argparse.Namespace) -> int:
     clock = VirtualClock() if simulated else MonotonicClock()
     link, take_capture = fpga_link(board, clock.now_s, gateware_factory(options)[0] if simulated else None)
     session = open_session(link, board, clock.now_s)
-    done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, progress_bar("bits"), take_capture)
+    chirps = announced_chirps(board, channels, options.pause_s)
+    done = bring_up.check(session, board, clock, options.bits, chirps, progress_bar("bits"), take_capture)
     link.close()
     expected = _expected(board)
     complaints = [

@@ -9,12 +9,14 @@ import selectors
 import zlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from controller.clocks import Clock
 from controller.device.board.board import Board
+from controller.device.board.patches import discs
 from controller.device.doctor.bit_errors import BitErrors, bit_errors
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.frames import ALL_CHANNELS, Play
@@ -31,6 +33,14 @@ SEED = 1
 CHIRP_LOW_HZ, CHIRP_HIGH_HZ = 1e3, 20e3  # audible, and 1 to 2 edges where an emission has 10
 CHIRP_REPETITIONS = 20
 CHIRP_DUTY = 0.1
+
+
+class Chirps(NamedTuple):
+    """What a listener hears: which channels, one after the other."""
+
+    channels: Sequence[int]
+    pause_s: float = 0.0  # silence after the chirps of each
+    announce: Callable[[int], None] = lambda _channel: None  # called with the channel that is to chirp
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +61,7 @@ def check(
     board: Board,
     clock: Clock,
     bits: float,  # least number of random bits to send
-    channels: Sequence[int],  # channels to chirp on
-    pause_s: float = 0.0,  # silence after the chirps of each channel, for a listener
+    chirps: Chirps,  # outputs are on for them
     progress: Callable[[int, int], None] = lambda *_: None,  # called with the number of messages of random bits sent, and of all
     take_capture: Callable[[], Capture] | None = None,  # returns what the pins did since its last call, if they can be observed
 ) -> BringUpReport:
@@ -71,17 +80,17 @@ def check(
         complaints.append(f"{damaged} of {board.link.slots} slots do not keep what they are given: check the FPGA's supply")
     chirped: list[int] = []
     moved: list[list[int]] = []
-    for channel in channel_self_test(session, board, clock, channels, pause_s, lambda: take_capture and take_capture()):
+    for channel in channel_self_test(session, board, clock, chirps, lambda: take_capture and take_capture()):
         chirped.append(channel)
         if take_capture:
-            moved.append(_moved(take_capture()))
+            moved.append(channels_moved(take_capture()))
     wrong = [channel for channel, pins in zip(chirped, moved, strict=False) if pins != [channel]]
     if wrong:
         complaints.append(f"channels {wrong} moved other pins than their own, or none: check the pin constraints")
     return BringUpReport(registers, errors, board.link.slots, damaged, chirped, moved if take_capture else None, complaints)
 
 
-def _moved(capture: Capture) -> list[int]:
+def channels_moved(capture: Capture) -> list[int]:
     """Channels whose pins changed."""
     changed = int(np.bitwise_or.reduce(capture.words[1:] ^ capture.words[:-1], initial=0))
     return [channel for channel in range(CHANNELS) if changed >> channel & 1]
@@ -121,12 +130,25 @@ def chirp_words(board: Board) -> NDArray[np.uint32]:
     return np.where(cycles % 1 < 0.5, np.uint32(0), np.uint32(ALL_CHANNELS))
 
 
+def chirp_period_s(board: Board) -> float:
+    """From the beginning of one chirp to the next."""
+    return board.waveform.duration_s / min(CHIRP_DUTY, board.limits.max_duty)
+
+
+def chirp_in_words(board: Board, channel: int) -> str:
+    """Where a channel should be heard, of those of a board."""
+    own = next(actuator for actuator in board.actuators if actuator.channel == channel)
+    disc = next(group for group in discs(board.actuators) if own in group)
+    *most, last = sorted(one.channel for one in disc)
+    of = f", disc of channels {', '.join(map(str, most))} and {last}" if most else ""
+    return f"channel {channel} chirps: patch at x = {own.x_mm:g}, y = {own.y_mm:g} mm{of}"
+
+
 def channel_self_test(
     session: Session,
     board: Board,
     clock: Clock,
-    channels: Sequence[int],
-    pause_s: float = 0.0,  # silence after the chirps of each channel
+    chirps: Chirps,
     armed: Callable[[], object] = lambda: None,  # called once the outputs are armed
 ) -> Iterator[int]:
     """Play chirps on one channel after another, all others idle, so that a listener finds dead and swapped wires.
@@ -135,9 +157,9 @@ def channel_self_test(
 
     Yields each channel after its chirps. Raises LinkError if a channel does not play all its chirps.
     """
-    if not channels:
+    if not chirps.channels:
         return
-    period_s = board.waveform.duration_s / min(CHIRP_DUTY, board.limits.max_duty)
+    period_s = chirp_period_s(board)
     with selectors.DefaultSelector() as selector:
 
         def rest(until_s: float) -> None:
@@ -151,12 +173,13 @@ def channel_self_test(
             rest(session.arm())
             session.require_armed()
             armed()
-            for channel in channels:
+            for channel in chirps.channels:
+                chirps.announce(channel)
                 before = session.heartbeat().emissions
                 period_ticks = session.timing.period_ticks(period_s)
                 play = Play(0, emissions=CHIRP_REPETITIONS, start=Start.NOW, period_ticks=period_ticks, mask=1 << channel)
                 session.play(play, stop=False)
-                rest(session.earliest_trigger_s() + CHIRP_REPETITIONS * period_s + pause_s)
+                rest(session.earliest_trigger_s() + CHIRP_REPETITIONS * period_s + chirps.pause_s)
                 done = session.heartbeat().emissions - before & ALL_CHANNELS
                 if done < CHIRP_REPETITIONS:  # a message that was sent again may have played one more
                     raise LinkError(f"channel {channel}: {done} of {CHIRP_REPETITIONS} chirps ran to their end")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -46,7 +46,7 @@ def examine_link(
     open_session: Callable[[], Session],  # brings up the FPGA at the other end
     clock: Clock,
     bits: float,  # least number of random bits to send
-    channels: Sequence[int],  # channels to chirp on, with outputs on; empty: they stay off
+    chirps: bring_up.Chirps,  # outputs are on for them; without channels they stay off
     progress: Callable[[int, int], None] = lambda *_: None,
     take_capture: Callable[[], Capture] | None = None,  # what the pins of a simulated FPGA did since the last call
 ) -> LinkExamined:
@@ -61,7 +61,7 @@ def examine_link(
             findings.append(_swept(board, session, clocked, max(bits * SWEEP_SHARE, 1), figures, progress))
             if not findings[-1].good:
                 return LinkExamined(findings, figures)
-        done = bring_up.check(session, board, clock, bits, channels, progress=progress, take_capture=take_capture)
+        done = bring_up.check(session, board, clock, bits, chirps, progress=progress, take_capture=take_capture)
     except ControllerError as error:
         return LinkExamined([*findings, Finding("link", False, str(error))], figures)
     sent, errors = bit_error_count(done.bit_errors)
@@ -76,7 +76,7 @@ def examine_link(
     findings += [Finding("board", False, complaint) for complaint in done.complaints]
     if not done.complaints:
         seen = "" if take_capture is None else ", each moved its own pin"
-        chirped = f"{len(done.channels)} channels chirped{seen}" if channels else "no channel was asked for"
+        chirped = f"{len(done.channels)} channels chirped{seen}" if chirps.channels else "no channel was asked for"
         findings.append(Finding("board", True, f"{done.slots} slots keep what they are given; {chirped}"))
     return LinkExamined(findings, figures)
 

@@ -10,6 +10,7 @@ from tables import each_row
 
 from controller.cli import main
 from controller.clocks import VirtualClock
+from controller.commands.common.fpga_link import announced_chirps
 from controller.device.board.lookup import data_folder
 from controller.device.doctor import bring_up
 from controller.device.fpga import frames
@@ -58,7 +59,7 @@ def opened(board, **wires):
 
 def checked(board, **wires):
     clock, link, session = opened(board, **wires)
-    return bring_up.check(session, board, clock, BITS, range(32), take_capture=link.take_capture)
+    return bring_up.check(session, board, clock, BITS, bring_up.Chirps(range(32)), take_capture=link.take_capture)
 
 
 def test_a_good_board_has_no_complaints(board):
@@ -120,11 +121,29 @@ def test_a_slot_that_loses_its_words_is_reported(board):
         session.exchange.read_address(bring_up.READ_MEMORY + 1024 * 2 + 1000)
 
 
+def test_a_listener_is_told_which_channel_chirps_and_where_before_it_does(board, capsys):
+    clock, link, session = opened(board)
+    chirps = announced_chirps(board, [7, 30], 0.1)
+    moved = []
+
+    def announce(channel):
+        moved.append(bring_up.channels_moved(link.take_capture()))
+        chirps.announce(channel)
+
+    done = bring_up.check(session, board, clock, BITS, chirps._replace(announce=announce), take_capture=link.take_capture)
+    assert (done.channels, moved[0]) == ([7, 30], [])
+    assert 30 not in moved[1]
+    lines = capsys.readouterr().err.splitlines()
+    assert "each channel purrs for 0.4 s at its patch" in lines[0]
+    assert lines[1].endswith("channel 7 chirps: patch at x = 95.5, y = 17.5 mm, disc of channels 4, 5, 6 and 7")
+    assert lines[2].endswith("channel 30 chirps: patch at x = 12.5, y = 81.5 mm, disc of channels 28, 29, 30 and 31")
+
+
 def test_an_fpga_without_its_permit_does_not_chirp(board):
     clock, link, session = opened(board)
     link.gateware.permit(link.gateware.now + 100, level=False, which=Permit.TEMPERATURE)
     with pytest.raises(LinkError, match="run permit is not given"):
-        list(bring_up.channel_self_test(session, board, clock, range(32)))
+        list(bring_up.channel_self_test(session, board, clock, bring_up.Chirps(range(32))))
 
 
 def armed(session, board, clock):

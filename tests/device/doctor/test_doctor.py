@@ -20,6 +20,7 @@ from controller.device.board.devices import LinkSettings, Realtime, Temperature
 from controller.device.board.lookup import find_board
 from controller.device.board.paths import bank_path
 from controller.device.doctor import doctor, process_limits
+from controller.device.doctor.bring_up import Chirps
 from controller.device.doctor.doctor import look
 from controller.device.doctor.link_examination import arriving_sck_hz, evaluated_sck, examine_link
 from controller.device.fpga.build_parameters import BuildParameters
@@ -259,7 +260,7 @@ def test_a_measured_bank_is_reported_with_its_files_date_temperature_and_expecte
 def examined(board, model, channels=range(32)):
     clock = VirtualClock()
     link = SimulatedLink(board.link, clock.now_s, model)
-    return link, examine_link(board, link, lambda: Session(link, board, 5, clock.now_s), clock, 3e4, channels)
+    return link, examine_link(board, link, lambda: Session(link, board, 5, clock.now_s), clock, 3e4, Chirps(channels))
 
 
 def model_of(board, build=5):
@@ -285,9 +286,9 @@ def test_foreign_gateware_and_a_missing_permit_are_found(board):
     def session():
         return Session(link, board, 5, clock.now_s)
 
-    found = examine_link(board, link, session, clock, 1e4, [3])
+    found = examine_link(board, link, session, clock, 1e4, Chirps([3]))
     assert "run permit" in said(found.findings, "link")[1]
-    found = examine_link(board, link, session, clock, 1e4, [])
+    found = examine_link(board, link, session, clock, 1e4, Chirps([]))
     link.close()
     assert all(finding.good for finding in found.findings)
     assert not link.take_capture().hv.any(), "without chirps nothing is armed"

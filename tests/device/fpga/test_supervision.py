@@ -205,7 +205,7 @@ def examine(link, clock):
     words = np.random.default_rng(7).bytes(4 * BOARD.waveform.samples)
     session.upload(0, memoryview(words))
     kept = bring_up.read_slot(session, 0, 16)
-    list(bring_up.channel_self_test(session, BOARD, clock, [3]))
+    list(bring_up.channel_self_test(session, BOARD, clock, bring_up.Chirps([3])))
     return registers["identity"], kept == words[:64]
 
 
