@@ -21,6 +21,7 @@ def felt(figures: dict[str, Any]) -> str:
     lines = [f"{touches} of {recording['file']} {found}"]
     if figures["spoiled"]:
         lines.append(f"what was felt at worst is left out: {figures['spoiled']}")
+    lines += figures["unfelt"]
     if total["count"]:
         median_ms, worst_ms = total["p50"] * 1e-3, total["worst"] * 1e-3
         lines.append(f"from the report of a touch to its trigger: {median_ms:.2f} ms at the median, {worst_ms:.2f} ms at worst")
@@ -35,6 +36,7 @@ def served(figures: dict[str, Any]) -> str:
         f"board {figures['board']}: {_count(figures['foci'], 'pulse')} played; outputs were off for {off_s:.4g} s ({stalls})",
         f"at the end: {figures['state']}" + (f" ({figures['cause']})" if figures["cause"] else ""),
         *(f"warning: {warning}" for warning in figures["warnings"]),
+        *figures["unfelt"],
         MORE,
     ]
     return "\n".join(lines)

@@ -13,6 +13,7 @@ from controller.console import say
 from controller.device.board.panel_state import PLAYS, PanelState
 from controller.device.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
 from controller.device.service.installation import is_installed
+from controller.device.service.unfelt import unfelt
 from controller.device.touch.reports import describe_warnings
 from controller.errors import LinkError
 
@@ -79,6 +80,8 @@ def _in_words(status: PanelStatus, old: str, updates: UpdateState | None) -> str
     ]
     if status.touch_points:
         lines.append(f"positions of the touch panel {status.touch_points:,}, not a finger's {status.touch_points_refused:,}")
+    if status.serves:
+        lines += unfelt(status.touch_points, status.touch_points_refused, status.foci, status.left_out)
     for name, latency in (("an upload", status.upload), ("a resident play", status.resident)):
         if latency.count:
             p50_ms, p99_ms, worst_ms = (1e-3 * us for us in (latency.p50_us, latency.p99_us, latency.worst_us))

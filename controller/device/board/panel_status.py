@@ -75,6 +75,7 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
     # (`device/touch/plausibility.py`)
     touch_points: Count = 0
     touch_points_refused: Count = 0
+    left_out: dict[str, Count] = {}  # touches outside of regions, emissions not played, by cause (`service/unfelt.py`)
     outage_causes: dict[str, Count] = {}  # how often the FPGA named each fault; LINK: it was lost or reset
     stall_pauses: Count = 0
     touch_warnings: dict[str, Count] = {}  # anomalies of the touch panel since the start, by kind

@@ -38,6 +38,7 @@ from controller.device.service.scenes.scene_reload import SceneChanger
 from controller.device.service.status_file import StatusFile
 from controller.device.service.systemd import Notifier, Watchdog
 from controller.device.service.tracing.trace_file import TraceFile
+from controller.device.service.unfelt import left_out, unfelt
 from controller.device.touch.drivers.awaited_reader import AwaitedReader
 from controller.device.touch.drivers.panel_process import PanelProcess
 from controller.device.touch.live_source import LiveSource
@@ -172,5 +173,6 @@ def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, sourc
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),
         "positions": {"reported": counts.points, "off_plate": counts.off_plate},
+        "unfelt": unfelt(counts.points, counts.refused, assembly.counters.foci, left_out(assembly.counters.skipped)),
     }
     return said | assembly.counters.export() | {"schedule": assembly.timing.figures()}

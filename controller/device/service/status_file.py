@@ -15,6 +15,7 @@ from controller.device.board.lookup import running_release
 from controller.device.board.panel_state import Condition
 from controller.device.board.panel_status import FOLDER, NAME, LatencyStatus, PanelStatus, boot_id
 from controller.device.loop.context import SpareTime
+from controller.device.service.unfelt import left_out
 from controller.device.touch.source import Counts
 from controller.log import LOG, Priority, log
 from controller.metrics import Counters, LatencyHistogram
@@ -155,7 +156,8 @@ class StatusFile(SpareTime):
             skipped=counters.skipped.emissions,
             waiting=self._waiting(),
             touch_points=touches.points,
-            touch_points_refused=touches.points - touches.believed - touches.confirmed,
+            touch_points_refused=touches.refused,
+            left_out=left_out(counters.skipped),
             log_lines_lost=LOG.lost,
             statuses_lost=self._lost,
             upload=_latency(counters.upload_latency.host),

@@ -51,6 +51,11 @@ class Counts:
     devices: int = 0  # devices opened: one more after each reconnection
     off_plate: int = 0  # those that the board's map puts off the plate, by more than `axes.OFF_M`; they were moved to its edge
 
+    @property
+    def refused(self) -> int:
+        """Positions that were no finger's."""
+        return self.points - self.believed - self.confirmed
+
 
 @dataclass(slots=True)
 class Silence:

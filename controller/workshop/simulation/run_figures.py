@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from controller.device.service.unfelt import left_out, unfelt
 from controller.device.touch.reports import describe_warnings, off_plate_warning
 from controller.metrics import STAGES, Counters
 from controller.workshop.simulation.focus_evaluation import Focus
@@ -66,6 +67,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "skipped": asdict(counters.skipped),
         "touch": run.touch,
         "positions": {"reported": counts.points, "off_plate": counts.off_plate},
+        "unfelt": unfelt(counts.points, counts.refused, counters.foci, left_out(counters.skipped)),
         "response_section_mapped": run.response_mapped,
         "latency_us": latency,
         "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},
