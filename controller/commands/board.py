@@ -6,6 +6,7 @@ import argparse
 import json
 from typing import TYPE_CHECKING, Any
 
+from controller.commands import bom
 from controller.commands.common.output import show
 from controller.console import is_unicode, say
 from controller.device.board.board import board_file, load_board
@@ -45,6 +46,15 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     check.add_argument("name", nargs="?", metavar="BOARD", help="as for --board")
     check.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
     check.set_defaults(command=board_check)
+    bom.declare(
+        actions.add_parser(
+            "bom",
+            parents=[common],
+            help="bill of materials: what to buy for the panel, with quantities and specifications",
+            description="Bill of materials of a panel, from its board.toml and the reference stage (boards/stage): glass, discs, "
+            "the parts of all stages, supplies, wires. No prices and few makers: most parts have many sources.",
+        )
+    )
     describe = actions.add_parser("reference", help="print every key of board.toml and scene.toml, as Markdown")
     describe.set_defaults(command=board_reference)
     schemas = actions.add_parser("schema", help="print the JSON schema of board.toml, for editors")
