@@ -31,9 +31,10 @@ def felt(figures: dict[str, Any]) -> str:
 def served(figures: dict[str, Any]) -> str:
     """Report of a run of the service."""
     stalls = f"{_count(figures['host_silent'], 'stall')} of this host, {_count(figures['outages'], 'other outage')}"
-    off_s = figures["outputs_off_s"] or 0
+    off_s = figures["outputs_off_s"]  # until they were on: 0 only if they never were
+    off = f"were off for {off_s:.4g} s" if off_s else "were never on"
     lines = [
-        f"board {figures['board']}: {_count(figures['foci'], 'pulse')} played; outputs were off for {off_s:.4g} s ({stalls})",
+        f"board {figures['board']}: {_count(figures['foci'], 'pulse')} played; outputs {off} ({stalls})",
         f"at the end: {figures['state']}" + (f" ({figures['cause']})" if figures["cause"] else ""),
         *(f"warning: {warning}" for warning in figures["warnings"]),
         *figures["unfelt"],

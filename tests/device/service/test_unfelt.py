@@ -5,6 +5,7 @@ import pytest
 
 from controller.cli import main
 from controller.commands import status as status_command
+from controller.commands.run_report import served
 from controller.device.board.panel_state import PanelState
 from controller.device.board.panel_status import LatencyStatus, PanelStatus
 from controller.device.service.unfelt import NOT_PLAYED, left_out, unfelt
@@ -53,6 +54,12 @@ def test_the_status_says_it_while_the_panel_serves(tmp_path, capsys, monkeypatch
         file.write_bytes(msgspec.json.encode(msgspec.structs.replace(status, state=state)))
         main(["status", "--file", str(file)])
         assert ("40 of 40 positions lay outside all regions" in capsys.readouterr().out) is said
+
+
+@pytest.mark.parametrize(("off_s", "said"), [(0.0, "outputs were never on"), (1.25, "outputs were off for 1.25 s")])
+def test_outputs_that_were_never_on_are_no_outputs_that_were_off_for_no_time(off_s, said):
+    figures = {"board": "panel", "foci": 0, "host_silent": 0, "outages": 0, "outputs_off_s": off_s, "warnings": [], "unfelt": []}
+    assert said in served(figures | {"state": "waiting for FPGA", "cause": "there is no /dev/spidev0.0"})
 
 
 def test_a_run_whose_touches_are_beside_the_regions_says_so(capsys):
