@@ -144,7 +144,7 @@ def _bus(board: Board) -> str:
     touch = board.touch
     if isinstance(touch, I2cTouch):
         lines = ["SDA", "SCL", *(["interrupt"] if touch.interrupt_line else []), *(["reset"] if touch.reset_line else [])]
-        return f" on {touch.bus}: {', '.join(lines)}, 3.3 V, ground; 2.2 to 4.7 kOhm pull-ups on SDA and SCL"
+        return f" on {touch.bus}: {', '.join(lines)}, 3.3 V, ground; a pull-up each on SDA and SCL, which a Raspberry Pi has"
     return f" on {touch.device}" if isinstance(touch, SerialTouch) else ""
 
 

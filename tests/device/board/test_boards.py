@@ -240,3 +240,23 @@ def test_the_picture_of_the_wires_shows_those_of_the_table():
         reported |= set(zip(gpios, map(int, re.findall(r"\d+", pins)), places, strict=False))
     assert drawn == reported
     assert len(drawn) == 7
+
+
+def test_the_picture_shows_the_lines_of_a_touch_panel_on_i2c():
+    """At the same height: a pin of the Pi, and what it is of the panel; lines as in the example of the touch room."""
+    text = (BOARDS / "ulx3s" / "raspberry_pi.svg").read_text()
+    wires = {}
+    for y, said in re.findall(r'<text x="(?:218|572)" y="(\d+)"[^>]*>([^<]+)<', text):
+        wires.setdefault(y, []).append(said)
+    example = (data_folder("boards").parent / "controller" / "device" / "touch" / "README.md").read_text()
+    lines = dict(re.findall(r'^(interrupt_line|reset_line) = "(GPIO\d+)"', example, re.MULTILINE))
+    assert [tuple(pair) for pair in wires.values()] == [
+        ("pin 1", "3.3 V"),
+        ("pin 3, GPIO2", "SDA"),
+        ("pin 5, GPIO3", "SCL"),
+        ("pin 9", "ground"),
+        (f"pin 11, {lines['interrupt_line']}", "interrupt (INT)"),
+        (f"pin 13, {lines['reset_line']}", "reset (RST)"),
+    ]
+    link = load_board(BOARDS / "ulx3s").link
+    assert not set(lines.values()) & {link.trigger_line, link.configured_line, link.permit_line}
