@@ -174,3 +174,13 @@ def test_the_command_from_the_first_points_to_a_verdict(tmp_path, capsys):
     assert "channel 20 looks inverted" in out
     assert "channel 14 is dead" in out
     assert "undecided" not in out
+
+
+@pytest.mark.parametrize(("off_m", "decided"), [(1e-3, True), (2e-3, False)])
+def test_points_that_lie_elsewhere_hide_the_wires_and_accuse_nobody(off_m, decided):
+    points_m, measured = transfers("free", 8, 5, 0.03)
+    waves = direct_waves(BOARD, BINS, points_m + np.array([off_m, 0]), measured, np.ones(measured.shape[:2], bool), 60e-6)
+    found = wiring_of(waves, CHANNELS, CHANNELS, 8)
+    assert (not found.undecided) is decided
+    assert not found.swapped
+    assert not found.inverted
