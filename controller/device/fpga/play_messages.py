@@ -6,7 +6,6 @@ all of them numbered and sealed by one call.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 from controller.device.board.board import Board
@@ -27,15 +26,17 @@ from controller.device.kernel import pack_loads, renumber_loads, seal_short_fram
 CHECK_TICKS: Final = 8  # beyond one for each word, until the FPGA has checked what it stored
 
 
-@dataclass(slots=True, eq=False)
 class Pattern:
     """Short frames of a message, the LOADs before them, and where what differs from message to message belongs."""
 
-    part: slice  # where they lie in the send buffer
-    blank: bytes  # the frames, without those fields, numbers and CRCs
-    number: int  # how many they are
-    play_at: int  # where the fields of the PLAY begin in the send buffer; 0: there is none
-    lengths: tuple[int, ...]  # bytes of each frame of the message
+    __slots__ = ("blank", "lengths", "number", "part", "play_at")
+
+    def __init__(self, part: slice, blank: bytes, number: int, play_at: int, lengths: tuple[int, ...]) -> None:
+        self.part: Final = part  # where they lie in the send buffer
+        self.blank: Final = blank  # the frames, without those fields, numbers and CRCs
+        self.number: Final = number  # how many they are
+        self.play_at: Final = play_at  # where the fields of the PLAY begin in the send buffer; 0: there is none
+        self.lengths: Final = lengths  # bytes of each frame of the message
 
 
 class PlayMessages:
