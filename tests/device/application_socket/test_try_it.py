@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from controller.device.application_socket.protocol.conformance import CONVERSATION, steps_of
+from controller.workshop.simulation.conformance import CONVERSATION, steps_of
 
 README = Path(__file__).parents[3] / "controller" / "device" / "application_socket" / "README.md"
 

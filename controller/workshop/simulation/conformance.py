@@ -1,6 +1,6 @@
 """A recorded conversation, held with a running panel: what a client in any language has to be able to say and to read.
 
-`python -m controller.device.application_socket.protocol.conformance --socket S` holds `conversation.json` with a panel of
+`python -m controller.workshop.simulation.conformance --socket S` holds `conversation.json` with a panel of
 `haptic-panel serve`. A client's own tests hold the same file with the same panel: each step's `say` (or `line`, as it is) is sent,
 its answer has to have what is in `answer`, and before the next step a message comes that has what is in `await`. `…` is any value;
 `call` gives names to values of that message, for later steps.
@@ -18,10 +18,11 @@ from typing import Any, Final
 import msgspec
 
 from controller.console import program, say
+from controller.device.application_socket import protocol
 from controller.errors import ControllerError, LinkError
 from controller.regular_file import read_regular
 
-CONVERSATION: Final = Path(__file__).with_name("conversation.json")
+CONVERSATION: Final = Path(protocol.__file__).with_name("conversation.json")
 ANYTHING: Final = "…"
 TIMEOUT_S: Final = 30.0
 BYTES_MAX: Final = 1 << 20
@@ -31,7 +32,7 @@ BYTES_MAX: Final = 1 << 20
 def main(arguments: list[str] | None = None) -> int:
     """Command line: a line for each step, 0 if all were as recorded, 1 at the first that was not."""
     parser = argparse.ArgumentParser(
-        prog="python -m controller.device.application_socket.protocol.conformance",
+        prog="python -m controller.workshop.simulation.conformance",
         description="Hold a recorded conversation with a running panel (`haptic-panel serve --background SOCKET`).",
     )
     parser.add_argument("--socket", required=True, metavar="S", help="the panel's socket")

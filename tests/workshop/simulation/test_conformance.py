@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.application_socket.protocol.conformance import CONVERSATION, has, main, named, steps_of
 from controller.device.application_socket.protocol.schema import protocol_schema
+from controller.workshop.simulation.conformance import CONVERSATION, has, main, named, steps_of
 
 JSON = st.recursive(
     st.none() | st.booleans() | st.integers(-9, 9) | st.text(max_size=3),
