@@ -10,7 +10,6 @@ from controller.commands import bom
 from controller.commands.common.output import show
 from controller.console import is_unicode, say
 from controller.device.board.board import board_file, load_board
-from controller.device.board.fpga_part import FILE, check_top, find_part
 from controller.device.board.lookup import find_board
 from controller.device.board.reference import reference, relations_reference, schema
 from controller.device.board.relations.checked import RELATIONS, judge
@@ -18,6 +17,7 @@ from controller.device.board.touch_panels import touch_records
 from controller.device.scene.effects import EffectTable
 from controller.device.scene.scene_file import find_scene, read_scene
 from controller.device.scene.scene_tables import SceneTable
+from controller.device.service.installation import is_installed
 from controller.device.touch.recordings.recording import Recording
 from controller.errors import ConfigError
 
@@ -69,8 +69,11 @@ def board_check(options: argparse.Namespace) -> int:
     """
     folder = find_board(options.name or options.board)
     board = load_board(folder)
-    if (folder / FILE).is_file():
-        check_top(board, find_part(folder, None)[0])
+    if is_installed("workshop"):  # where bitstreams are built
+        from controller.workshop.gateware.fpga_part import FILE, check_top, find_part
+
+        if (folder / FILE).is_file():
+            check_top(board, find_part(folder, None)[0])
     scene_file = find_scene(board, options.scene)
     scene = read_scene(scene_file, board)
     recording = None

@@ -15,13 +15,13 @@ from routed_netlist import Netlist, function, verilog
 from tables import each_row
 from test_board_top import ULX3S, WORDS, arm, channels_of, opened, session_on, signal_pins
 
-from controller.device.board.fpga_part import load_part
 from controller.device.fpga.exchange import Refused
 from controller.device.fpga.frames import Play, pack_nop
 from controller.device.fpga.registers import Register
 from controller.errors import FaultError
 from controller.workshop.gateware import rtl_build
 from controller.workshop.gateware.bitstream_build import FpgaDesign, place, synthesise
+from controller.workshop.gateware.fpga_part import load_part
 
 
 def session(folder, monkeypatch, library):

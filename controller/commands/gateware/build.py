@@ -16,10 +16,10 @@ import msgspec
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import show
 from controller.console import tell
-from controller.device.board.fpga_part import check_top, find_part
 from controller.device.board.lookup import find_board
 from controller.device.fpga.bitstream import Figures, figures_path
 from controller.errors import ConfigError, GatewareError, UsageError
+from controller.workshop.gateware.fpga_part import check_top, find_part
 
 if TYPE_CHECKING:
     from controller.workshop.gateware.bitstream_build import FpgaDesign, PlacedDesign

@@ -21,13 +21,13 @@ from pathlib import Path
 from typing import Any
 
 from controller.device.board.board import Board
-from controller.device.board.fpga_part import TOP, FpgaPart
 from controller.device.board.lookup import data_folder
 from controller.device.fpga.bitstream import Identity, sealed
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.errors import ConfigError, GatewareError
 from controller.programs import ProgramError, run_program
+from controller.workshop.gateware.fpga_part import TOP, FpgaPart
 
 SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
 TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself

@@ -8,9 +8,9 @@ from tables import each_row
 
 from controller.cli import main
 from controller.device.board.board import load_board
-from controller.device.board.fpga_part import BAUD, PLL, find_part, load_part
 from controller.device.board.lookup import data_folder, find_board
 from controller.errors import ConfigError
+from controller.workshop.gateware.fpga_part import BAUD, PLL, find_part, load_part
 
 BOARDS = data_folder("boards")
 
