@@ -1,4 +1,4 @@
-"""The data of one turn, in the order in which it arises; no record is changed once it is made.
+"""The data of one turn, in the order in which it arises; each record is frozen.
 
 Touch samples and time give emissions (`scene`), emissions that are due give a `Batch`, a batch a `Plan`; the FPGA accepts it
 (`Accepted`) or not (`Outcome`), and once it starts it is `Played`.
@@ -18,62 +18,82 @@ from controller.device.waveforms.selection import Key
 ENDLESS: Final = 0  # repetitions: until they are replaced
 
 
-@dataclass(slots=True, eq=False)
 class Turn:
     """One turn of the loop."""
 
-    started_ns: int  # when it began (perf_counter_ns)
-    now_s: float  # host time
-    fpga_s: FpgaTime  # the same moment
-    # From the kernel's timestamp of the touch report read in this turn to its read; -1 without a report
-    report_ns: int
-    finger: int | None  # which finger moved, in that report
+    __slots__ = ("finger", "fpga_s", "now_s", "report_ns", "started_ns")
+
+    def __init__(self, started_ns: int, now_s: float, fpga_s: FpgaTime, report_ns: int, finger: int | None) -> None:
+        self.started_ns: Final = started_ns  # when it began (perf_counter_ns)
+        self.now_s: Final = now_s  # host time
+        self.fpga_s: Final = fpga_s  # the same moment
+        # From the kernel's timestamp of the touch report read in this turn to its read; -1 without a report
+        self.report_ns: Final = report_ns
+        self.finger: Final = finger  # which finger moved, in that report
 
 
-@dataclass(slots=True, eq=False)
 class Batch:
     """Emissions that are played as one waveform."""
 
-    emissions: Sequence[Emission]  # one for each focus
-    repetitions: int = 1  # repetitions, period_s: by the FPGA, from start to start; repetitions may be ENDLESS
-    period_s: float = 0.0
-    # When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it as soon as the
-    # plate is free
-    at_s: FpgaTime | None = None
-    # `at_s` is a pulse of a train that has begun: it is kept, or missed and the pulse played on arrival. Otherwise it
-    # is put off until what is sent now has arrived for certain
-    has_begun: bool = False
+    __slots__ = ("at_s", "emissions", "has_begun", "period_s", "repetitions")
+
+    def __init__(
+        self,
+        emissions: Sequence[Emission],
+        repetitions: int = 1,
+        period_s: float = 0.0,
+        at_s: FpgaTime | None = None,
+        *,
+        has_begun: bool = False,
+    ) -> None:
+        self.emissions: Final = emissions  # one for each focus
+        self.repetitions: Final = repetitions  # repetitions, period_s: by the FPGA, from start to start; repetitions may be ENDLESS
+        self.period_s: Final = period_s
+        # When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it as soon as the
+        # plate is free
+        self.at_s: Final = at_s
+        # `at_s` is a pulse of a train that has begun: it is kept, or missed and the pulse played on arrival. Otherwise it
+        # is put off until what is sent now has arrived for certain
+        self.has_begun: Final = has_begun
 
     def on_arrival(self) -> Batch:
         """The same, played as soon as the plate is free: its time has passed."""
         return Batch(self.emissions, self.repetitions, self.period_s, has_begun=self.has_begun)
 
 
-@dataclass(slots=True, eq=False)
 class Plan:
     """How a batch is played."""
 
-    batch: Batch
-    points: list[Point]  # where each emission meets its finger, and its amplitude
-    key: Key  # waveform for these points
-    resident: Key | None  # waveform in a slot of the FPGA that serves for it; None: it has to be uploaded
-    start_s: FpgaTime  # earliest start
-    # Tick of the FPGA's clock at which it starts the batch by itself; None: the trigger pin does, also for a pulse that
-    # cannot arrive in time any more
-    start_ticks: int | None
+    __slots__ = ("batch", "key", "points", "resident", "start_s", "start_ticks")
+
+    def __init__(
+        self, batch: Batch, points: list[Point], key: Key, resident: Key | None, start_s: FpgaTime, start_ticks: int | None
+    ) -> None:
+        self.batch: Final = batch
+        self.points: Final = points  # where each emission meets its finger, and its amplitude
+        self.key: Final = key  # waveform for these points
+        self.resident: Final = resident  # waveform in a slot of the FPGA that serves for it; None: it has to be uploaded
+        self.start_s: Final = start_s  # earliest start
+        # Tick of the FPGA's clock at which it starts the batch by itself; None: the trigger pin does, also for a pulse that
+        # cannot arrive in time any more
+        self.start_ticks: Final = start_ticks
 
 
-@dataclass(slots=True, eq=False)
 class Accepted:
     """A plan whose play command the FPGA has accepted, and what that took."""
 
-    plan: Plan
-    ready_s: float  # host time at which the command had arrived
-    start_s: float  # host time at which it starts, as expected
-    fpga_s: FpgaTime  # the same moment, to the clock if the FPGA starts it
-    decide_ns: int
-    frame_ns: int
-    wire_ns: int
+    __slots__ = ("decide_ns", "fpga_s", "frame_ns", "plan", "ready_s", "start_s", "wire_ns")
+
+    def __init__(
+        self, plan: Plan, ready_s: float, start_s: float, fpga_s: FpgaTime, decide_ns: int, frame_ns: int, wire_ns: int
+    ) -> None:
+        self.plan: Final = plan
+        self.ready_s: Final = ready_s  # host time at which the command had arrived
+        self.start_s: Final = start_s  # host time at which it starts, as expected
+        self.fpga_s: Final = fpga_s  # the same moment, to the clock if the FPGA starts it
+        self.decide_ns: Final = decide_ns
+        self.frame_ns: Final = frame_ns
+        self.wire_ns: Final = wire_ns
 
 
 @dataclass(frozen=True, slots=True)
