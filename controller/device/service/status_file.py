@@ -25,6 +25,10 @@ APART_S: Final = 0.1  # between two statuses, however often the state changes
 SPARE_S: Final = 2e-3  # to the next turn: a status takes 0.04 ms on a PC, a few tenths of a millisecond on the slowest board
 PATIENCE_S: Final = 1.0  # for which such a gap is waited for
 FRACTIONS: Final = (0.5, 0.99)
+COUNTED: Final = (  # fields of `Counters` that a status has too
+    *("heartbeats", "due", "foci", "emissions", "uploads", "late", "idled"),
+    *("host_silent", "stall_pauses", "outages", "outage_causes"),
+)
 FLAGS: Final = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC | os.O_NOFOLLOW
 
 
@@ -140,17 +144,7 @@ class StatusFile(SpareTime):
             outputs_on=condition.outputs_on and not ended,
             panel_present=condition.panel_present,
             temperature_c=condition.temperature_c,
-            heartbeats=counters.heartbeats,
-            due=counters.due,
-            foci=counters.foci,
-            emissions=counters.emissions,
-            uploads=counters.uploads,
-            late=counters.late,
-            idled=counters.idled,
-            host_silent=counters.host_silent,
-            stall_pauses=counters.stall_pauses,
-            outages=counters.outages,
-            outage_causes=counters.outage_causes,
+            **{name: getattr(counters, name) for name in COUNTED},
             touch_warnings={kind: count for kind, count in warnings.items() if count},
             touch_remark=remark,
             skipped=counters.skipped.emissions,

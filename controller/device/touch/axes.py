@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from controller.device.board.touch_panels import TouchPanel
 from controller.device.touch.source import TouchedPlate
+
+if TYPE_CHECKING:
+    from controller.device.board.board import Board
 
 OFF_M: Final = 2e-3  # beyond the plate's edge: the map of a calibrated panel is not better than that
 
@@ -32,7 +35,7 @@ class PanelAxes:
 
     __slots__ = ("from_axes", "plate_m", "settings", "size_m_per_unit", "unit_m", "x", "y")
 
-    def __init__(self, board: TouchedPlate, x: AxisRange, y: AxisRange) -> None:
+    def __init__(self, board: Board | TouchedPlate, x: AxisRange, y: AxisRange) -> None:
         self.x = x
         self.y = y
         self.settings: TouchPanel = board.touch  # the board's [touch]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from math import inf
+from typing import TYPE_CHECKING
 
 from controller.device.touch import event_codes as ev
 from controller.device.touch.axes import AxisRange, PanelAxes
@@ -13,6 +14,9 @@ from controller.device.touch.event_reader import EventReader
 from controller.device.touch.reports import ReportClock
 from controller.device.touch.source import Counts, Silence, TouchedPlate, TouchSample
 
+if TYPE_CHECKING:
+    from controller.device.board.board import Board
+
 
 class LiveSource:
     """Driver and decoder of a panel; a `TouchSource`.
@@ -20,7 +24,7 @@ class LiveSource:
     When the panel is lost its fingers are released. After a reconnection its axes are read again and new fingers begin.
     """
 
-    def __init__(self, reader: EventReader, board: TouchedPlate) -> None:
+    def __init__(self, reader: EventReader, board: Board | TouchedPlate) -> None:
         self.silence = Silence()  # to be set before a read by whoever waits for `fileno`
         self.touched = False  # see `TouchSource.touched`
         self._reader = reader

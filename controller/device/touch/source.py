@@ -65,28 +65,20 @@ class Silence:
     known: bool = False
 
 
-class Sides(Protocol):
-    """The sides of a plate."""
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """The sides of a plate, along x and y."""
 
-    @property
-    def length_m(self) -> float:
-        """Along x."""
-
-    @property
-    def width_m(self) -> float:
-        """Along y."""
+    length_m: float
+    width_m: float
 
 
-class TouchedPlate(Protocol):
-    """What touch has to know of a board: the panel, and the plate that its axes map to."""
+@dataclass(frozen=True, slots=True)
+class TouchedPlate:
+    """What touch has to know of a board, where that is not at hand: the table [touch], and the plate that its axes map to."""
 
-    @property
-    def touch(self) -> TouchPanel:
-        """The table [touch]."""
-
-    @property
-    def plate(self) -> Sides:
-        """The plate."""
+    touch: TouchPanel
+    plate: Sides
 
 
 class TouchSource(Protocol):

@@ -19,8 +19,10 @@ EXPLAINED: Final = 5  # pulses, the latest
 SMALL_US: Final = 50.0  # a part of a delay that is not worth a word
 
 
-class _Args(msgspec.Struct):
-    due: int = 0
+class EmissionStart(msgspec.Struct):
+    """One start of an emission, in us from the trace's beginning; for its fields see `trace_ring.StartRecord`."""
+
+    start_us: float = 0.0
     due_us: float = 0.0
     late_us: float = 0.0
     ready_us: float = 0.0
@@ -30,6 +32,20 @@ class _Args(msgspec.Struct):
     foci: int = 0
     pulse: bool = False
     resident: bool = False
+
+    @property
+    def host_us(self) -> float:
+        """The host's own work for it."""
+        return self.decide_us + self.frame_us
+
+    @property
+    def begun_us(self) -> float:
+        """When the turn began that it was decided in."""
+        return self.ready_us - self.wire_us - self.host_us
+
+
+class _TurnArgs(msgspec.Struct):
+    due: int = 0
 
 
 class _Event(msgspec.Struct):
@@ -59,25 +75,6 @@ class Span(msgspec.Struct, frozen=True):
     due: int
 
 
-class EmissionStart(msgspec.Struct, frozen=True):
-    """One start of an emission, in us from the trace's beginning; for the rest see `trace_ring.StartRecord`."""
-
-    start_us: float
-    due_us: float
-    late_us: float
-    ready_us: float
-    host_us: float
-    wire_us: float
-    foci: int
-    pulse: bool
-    resident: bool
-
-    @property
-    def begun_us(self) -> float:
-        """When the turn began that it was decided in."""
-        return self.ready_us - self.wire_us - self.host_us
-
-
 class Trace(msgspec.Struct, frozen=True):
     """A trace that was read."""
 
@@ -97,23 +94,11 @@ def read_trace(file: Path) -> Trace:
             if event.ph != "X":
                 continue
             if event.name == "turn":
-                turns.append(Span(event.ts, event.ts + event.dur, msgspec.json.decode(event.args, type=_Args).due))
+                turns.append(Span(event.ts, event.ts + event.dur, msgspec.json.decode(event.args, type=_TurnArgs).due))
             elif event.name in {"pulse", "emission"}:
-                args = msgspec.json.decode(event.args, type=_Args)
-                host_us = args.decide_us + args.frame_us
-                starts.append(
-                    EmissionStart(
-                        event.ts,
-                        args.due_us,
-                        args.late_us,
-                        args.ready_us,
-                        host_us,
-                        args.wire_us,
-                        args.foci,
-                        args.pulse,
-                        args.resident,
-                    )
-                )
+                start = msgspec.json.decode(event.args, type=EmissionStart)
+                start.start_us = event.ts
+                starts.append(start)
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
     except (*NO_JSON, ValueError) as error:

@@ -10,8 +10,7 @@ from __future__ import annotations
 import dataclasses
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Final
 
 from controller.device.board.touch_panels import TouchPanel
 from controller.device.touch.drivers.awaited_reader import NO_DEVICE
@@ -19,22 +18,10 @@ from controller.device.touch.drivers.contact_events import MAX_CONTACTS, Contact
 from controller.device.touch.drivers.screen import UNITS_PER_MM, KernelScreen
 from controller.device.touch.event_reader import DeviceDescription, Event
 from controller.device.touch.live_source import LiveSource
-from controller.device.touch.source import TouchSample
+from controller.device.touch.source import Sides, TouchedPlate, TouchSample
 from controller.errors import TouchError
 
 UNITS_PER_M: Final = UNITS_PER_MM * 1e3
-
-
-@dataclass(frozen=True, slots=True)
-class _Sides:
-    length_m: float
-    width_m: float
-
-
-@dataclass(frozen=True, slots=True)
-class _TouchedPlate:
-    touch: TouchPanel
-    plate: _Sides
 
 
 class _Fed:
@@ -61,16 +48,6 @@ class _Fed:
         """Nothing."""
 
 
-class TouchScreen(Protocol):
-    """What `KernelScreen` does."""
-
-    def report(self, events: Sequence[Event]) -> None:
-        """Send the events of a report; OSError if that fails."""
-
-    def close(self) -> None:
-        """Take the screen away."""
-
-
 class SharedPanel:
     """Hands the contacts of one panel on. `open_screen` makes the touch screen, by name and sides in mm, or raises TouchError."""
 
@@ -79,14 +56,14 @@ class SharedPanel:
         touch: TouchPanel,
         length_m: float,
         width_m: float,
-        open_screen: Callable[[str, float, float], TouchScreen] = KernelScreen,
+        open_screen: Callable[[str, float, float], KernelScreen] = KernelScreen,
     ) -> None:
         self.warnings: Counter[str] = Counter()  # counts `share_lost`
         self._sides_mm = (length_m * 1e3, width_m * 1e3)
         self._open_screen = open_screen
-        self._screen: TouchScreen | None = None
+        self._screen: KernelScreen | None = None
         self._fed = _Fed()
-        self._source = LiveSource(self._fed, _TouchedPlate(touch, _Sides(length_m, width_m)))
+        self._source = LiveSource(self._fed, TouchedPlate(touch, Sides(length_m, width_m)))
         self._contacts = ContactEvents(sized=False)
         self._down: dict[int, ReportedContact] = {}  # by finger; its number is the slot
 
@@ -127,7 +104,7 @@ class SharedPanel:
         self._contacts = ContactEvents(sized=False)
         self._down.clear()
 
-    def _show(self, screen: TouchScreen, samples: Sequence[TouchSample], now_s: float) -> None:
+    def _show(self, screen: KernelScreen, samples: Sequence[TouchSample], now_s: float) -> None:
         """Report the released first, so that a slot is empty before another finger has it."""
         for released in (True, False):
             for sample in samples:
