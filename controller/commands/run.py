@@ -29,7 +29,7 @@ from controller.log import Priority
 
 if TYPE_CHECKING:
     from controller.commands.common.output import Declare
-    from controller.device.service.run import OperatorCommands
+    from controller.device.application_socket.command_socket import CommandSocket
     from controller.workshop.simulation.drift import Drift
     from controller.workshop.simulation.focus_evaluation import Evaluated
 
@@ -129,7 +129,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     return 0
 
 
-def _application_socket(board: Board) -> Callable[[], OperatorCommands] | None:
+def _application_socket(board: Board) -> Callable[[], CommandSocket] | None:
     """What opens the board's application socket; None if it has none, or this installation cannot serve it."""
     if board.application_socket is None:
         return None

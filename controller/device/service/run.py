@@ -8,13 +8,12 @@ from collections import Counter
 from collections.abc import Callable
 from contextlib import ExitStack, closing
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from controller.clocks import MonotonicClock
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.panel_state import Condition
-from controller.device.loop.commands import CommandSource
 from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.event_loop import EventLoop
 from controller.device.loop.wiring import Assembly, assemble
@@ -49,17 +48,10 @@ from controller.errors import ControllerError
 from controller.log import LOG, Event, log
 
 if TYPE_CHECKING:
+    from controller.device.application_socket.command_socket import CommandSocket
     from controller.device.touch.recordings.recording import Recording
 
 REPLAY_AFTER_S = 0.3  # from the end of the ramp to the start of a recording
-
-
-class OperatorCommands(CommandSource, Protocol):
-    """Commands of operators too, who may have left the panel disarmed."""
-
-    @property
-    def disarmed_by(self) -> str:
-        """Who left the panel disarmed, as which it is to begin; empty: nobody."""
 
 
 def serve(
@@ -69,7 +61,7 @@ def serve(
     bank: Bank,  # open; it has all cells that the scene can need
     replay: Recording | None = None,  # touches from a recording instead of the board's panel; the service ends with it
     open_fpga: OpenLink = open_link,  # opens the link to the FPGA, if that is a simulated one
-    open_commands: Callable[[], OperatorCommands] | None = None,  # opens what others command the panel by
+    open_commands: Callable[[], CommandSocket] | None = None,  # opens what others command the panel by
 ) -> dict[str, Any]:
     """Run a panel.
 
