@@ -80,20 +80,6 @@ class TouchPanel(Record, frozen=True, kw_only=True):
         """Rectangles where nothing is a finger, each as smallest x and y, largest x and y, in m."""
         return tuple([(x * 1e-3, y * 1e-3, (x + length) * 1e-3, (y + width) * 1e-3) for x, y, length, width in self.no_finger_mm])
 
-    def check_no_finger(self, length_mm: float, width_mm: float) -> None:
-        """Check that each rectangle without fingers lies on a plate of these sides, and leaves some of it.
-
-        Raises ValueError, naming the rectangle.
-        """
-        for index, (x_mm, y_mm, along_mm, across_mm) in enumerate(self.no_finger_mm):
-            where = f"touch.no_finger_mm[{index}] = {[x_mm, y_mm, along_mm, across_mm]}"
-            if along_mm <= 0 or across_mm <= 0:
-                raise ValueError(f"{where}: its length and width, the last two, must be above 0 mm")
-            if x_mm > length_mm or y_mm > width_mm or x_mm + along_mm < 0 or y_mm + across_mm < 0:
-                raise ValueError(f"{where} lies beside the plate (0 to {length_mm:g}, 0 to {width_mm:g} mm): nothing is left out")
-            if x_mm <= 0 and y_mm <= 0 and x_mm + along_mm >= length_mm and y_mm + across_mm >= width_mm:
-                raise ValueError(f"{where} covers the plate: no finger would be left")
-
 
 class DrivenPanel(TouchPanel, frozen=True, kw_only=True):
     """A touch panel that has no kernel driver here: other programs get its touches only if they are handed on.

@@ -88,17 +88,12 @@ def _lock_memory() -> str:
     hard = resource.getrlimit(resource.RLIMIT_MEMLOCK)[1]
     if hard == resource.RLIM_INFINITY:
         resource.setrlimit(resource.RLIMIT_MEMLOCK, (hard, hard))
-    elif not _may_lock():
+    elif not _has(CAP_IPC_LOCK):
         return f"memory is not locked (ulimit -l is {hard // 1024} KiB; LimitMEMLOCK=infinity in the unit)"
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT):
         return f"memory is not locked: {os.strerror(ctypes.get_errno())}"
     return ""
-
-
-def _may_lock() -> bool:
-    """Whether this process may exceed RLIMIT_MEMLOCK."""
-    return _has(CAP_IPC_LOCK)
 
 
 def _has(capability: int) -> bool:

@@ -99,10 +99,15 @@ def _axes_in_part(board: Board) -> Iterator[str]:
 @refuses("`touch.no_finger_mm`, `plate.length_mm`, `width_mm`")
 def _no_finger(board: Board) -> Iterator[str]:
     """Places without fingers lie on the plate, and leave some of it."""
-    try:
-        board.touch.check_no_finger(board.plate.length_mm, board.plate.width_mm)
-    except ValueError as error:
-        yield str(error)
+    length_mm, width_mm = board.plate.length_mm, board.plate.width_mm
+    for index, (x_mm, y_mm, along_mm, across_mm) in enumerate(board.touch.no_finger_mm):
+        where = f"touch.no_finger_mm[{index}] = {[x_mm, y_mm, along_mm, across_mm]}"
+        if along_mm <= 0 or across_mm <= 0:
+            yield f"{where}: its length and width, the last two, must be above 0 mm"
+        elif x_mm > length_mm or y_mm > width_mm or x_mm + along_mm < 0 or y_mm + across_mm < 0:
+            yield f"{where} lies beside the plate (0 to {length_mm:g}, 0 to {width_mm:g} mm): nothing is left out"
+        elif x_mm <= 0 and y_mm <= 0 and x_mm + along_mm >= length_mm and y_mm + across_mm >= width_mm:
+            yield f"{where} covers the plate: no finger would be left"
 
 
 @refuses("`link` and `touch`: `*_line`, `gpio_chip`, `interrupt_chip`")

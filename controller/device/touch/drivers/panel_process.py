@@ -12,7 +12,7 @@ import socket
 import struct
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
@@ -62,14 +62,6 @@ def events_of(body: memoryview) -> list[Event]:
 def presence_message(cause: str | None) -> bytes:
     """Message that the panel is connected (`cause` None), or why it is not."""
     return bytes([PRESENT]) if cause is None else bytes([ABSENT]) + cause.encode(errors="replace")[:MAX_CAUSE_BYTES]
-
-
-def _description_message(description: DeviceDescription) -> bytes:
-    return bytes([DESCRIPTION]) + msgspec.json.encode(description)
-
-
-def _warnings_message(warnings: Mapping[str, int]) -> bytes:
-    return bytes([WARNINGS]) + msgspec.json.encode(dict(warnings))
 
 
 class PanelProcess:
@@ -145,7 +137,8 @@ def _serve(open_reader: Callable[[], EventReader], loop: socket.socket, shared: 
         events = reader.read(time.monotonic())
         if reader.present and reader.description is not description:
             description = reader.description
-            loop.send(_description_message(description if shared is None else shared.follow(description)))
+            told = description if shared is None else shared.follow(description)
+            loop.send(bytes([DESCRIPTION]) + msgspec.json.encode(told))
         if events:
             loop.send(events_message(events))
         if reader.present is not present:
@@ -156,7 +149,7 @@ def _serve(open_reader: Callable[[], EventReader], loop: socket.socket, shared: 
         found = reader.warnings if shared is None else reader.warnings + shared.warnings
         if found != warnings:
             warnings = found.copy()
-            loop.send(_warnings_message(warnings))
+            loop.send(bytes([WARNINGS]) + msgspec.json.encode(warnings))
         file = reader.fileno()
         if file != watched:
             if watched is not None:
