@@ -23,9 +23,14 @@ def run(code, kernel=""):
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
 
 
-def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(tmp_path):
-    done, wheel = build(tmp_path)
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    done, wheel = build(tmp_path_factory.mktemp("built"))
     assert wheel, done.stderr
+    return wheel
+
+
+def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(wheel):
     assert "-cp311-abi3-linux_" in wheel.name
     names = zipfile.ZipFile(wheel).namelist()
     data = f"{wheel.name.split('-cp311')[0]}.data/data/share/haptic-panel"
@@ -48,9 +53,8 @@ def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(tmp_pat
     assert f"{data}/boards/raspberry_pi.sh" in names
 
 
-def test_a_wheel_is_the_same_to_the_byte_when_built_again(tmp_path):
-    wheels = [build(tmp_path / name)[1].read_bytes() for name in ("first", "again")]
-    assert wheels[0] == wheels[1]
+def test_a_wheel_is_the_same_to_the_byte_when_built_again(wheel, tmp_path):
+    assert build(tmp_path)[1].read_bytes() == wheel.read_bytes()
 
 
 def test_without_a_compiler_the_package_is_built_for_numpy_and_says_so(tmp_path):

@@ -1,16 +1,13 @@
 """What the record of each register says holds for every back-end: access, value after reset, bits, what it counts."""
 
-from pin_script import MODEL, Script
-from random_script import MOVING, SEEDS, random_script
+from pin_script import Script
 from tables import each_row
 
 from controller.device.fpga import frames
-from controller.device.fpga.frames import FRAME_BYTES
-from controller.device.fpga.registers import CONSTANTS, FrameType, Kind, Register, Result
+from controller.device.fpga.registers import CONSTANTS, Kind, Register, Result
 from controller.device.fpga.status import parse_status
 
 ASIDE = {Register.CONTROL}  # a command, whose words are no values
-LONG = {register for register in Register if register.kind is Kind.TIME_HIGH}  # they move after 2**32 ticks
 
 
 def answers_to(back_end, *asked):
@@ -51,29 +48,3 @@ def test_bits_and_values_after_reset_are_the_tables(back_end):
         reset = CONSTANTS.get(register.reset, register.reset)
         if register.kind is not Kind.BUILT_IN and isinstance(reset, int):
             assert status.data == reset, register.name
-
-
-def values_read(script, answers):
-    """{register: values} of every READ of a register by SPI that was answered with its value."""
-    values = {register: set() for register in Register}
-    sent = [arguments[2] for method, arguments in script.steps if method == "exchange"]
-    for frame, answer in zip(sent, answers[1:], strict=False):
-        if len(frame) == FRAME_BYTES <= len(answer) and frame[2] == FrameType.READ:
-            status, address = parse_status(answer), int.from_bytes(frame[6:8], "little")
-            if status.result is Result.OK and address < len(Register):
-                values[Register(address)].add(status.data)
-    return values
-
-
-def test_the_random_scripts_move_every_register_that_can_move():
-    """What nothing moves, test_random.py compares at its value after reset only: give `random_script` what moves it."""
-    values = {register: set() for register in Register}
-    for seed in SEEDS:
-        script = random_script(seed)
-        for register, read in values_read(script, script.perform(MODEL)[0]).items():
-            values[register] |= read
-    assert all(values.values()), "each is read"
-    still = [
-        register.name for register in Register if register.kind in MOVING and register not in LONG and len(values[register]) < 2
-    ]
-    assert not still
