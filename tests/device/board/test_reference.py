@@ -6,7 +6,6 @@ import tomllib
 from pathlib import Path
 from typing import Annotated
 
-import jsonschema
 import pytest
 from msgspec import Meta
 from tables import each_row
@@ -48,10 +47,16 @@ def test_the_committed_schemas_are_those_of_the_records(name, kind, named):
     assert json.loads((BOARDS / f"{name}.schema.json").read_text()) == schema(kind, named)
 
 
+def validator_of(what):
+    import jsonschema  # a second of each process that imports it
+
+    return jsonschema.Draft202012Validator(what)
+
+
 @each_row("file", [*BOARD_FILES, *SCENE_FILES], ids=lambda file: f"{file.parent.name}/{file.name}")
 def test_shipped_files_hold_the_schema_and_a_misspelt_key_does_not(file):
     board = file.name == "board.toml"
-    validator = jsonschema.Draft202012Validator(schema(BOARD_FILE) if board else schema(SceneTable, NAMED))
+    validator = validator_of(schema(BOARD_FILE) if board else schema(SceneTable, NAMED))
     tables = json.loads(json.dumps(tomllib.loads(file.read_text())))
     validator.validate(tables)
     wrong = copy.deepcopy(tables)
@@ -61,7 +66,7 @@ def test_shipped_files_hold_the_schema_and_a_misspelt_key_does_not(file):
 
 
 def test_an_effect_of_a_scene_is_checked_by_the_schema():
-    validator = jsonschema.Draft202012Validator(schema(SceneTable, NAMED))
+    validator = validator_of(schema(SceneTable, NAMED))
     scene = {
         "regions": [{"shape": "plate", "name": "all", "effects": []}],
         "effects": {"soft": {"when": "press", "amplitude": 0.5}},

@@ -5,7 +5,6 @@ from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
-import jsonschema
 import msgspec
 import pytest
 
@@ -60,6 +59,8 @@ def figures(coarse):
 
 
 def test_figures_are_as_the_schema_says(figures):
+    import jsonschema  # a second of each process that imports it
+
     jsonschema.validate(json.loads(json.dumps(figures, allow_nan=False)), SCHEMA)
     broken = {**figures, "settings": [{**figures["settings"][0], "time_us": 3}]}
     with pytest.raises(jsonschema.ValidationError):
