@@ -308,6 +308,16 @@ def test_a_serial_link_has_the_times_of_its_baud_rate():
     assert "at link.baud = 40000" in said
 
 
+def test_a_drive_word_may_be_as_short_as_the_shortest_pulse_when_the_plate_is_warm():
+    clock_hz = BOARD.link.clock_hz
+    scales = [COLD.scale(COLD.lowest_c), COLD.scale(COLD.highest_c)]
+    shortest = min(int(clock_hz / BOARD.waveform.bit_clock_hz / scale) for scale in scales)
+    longer = changed(BOARD, temperature=COLD, limits__longest_emission_ms=2.1)
+    for ticks, refused in ((shortest, 0), (shortest + 1, 1)):
+        limited = changed(longer, limits__min_pulse_us=ticks / (clock_hz * 1e-6))
+        assert len(list(NAMED["_temperatures"].broken(limited))) == refused
+
+
 def test_the_slowest_bit_clock_has_to_be_whole_clocks():
     """The FPGA's bound is a whole number of clocks; 100 kHz of 62.512345 MHz is a little more, and bring-up would refuse it."""
     slow = {"waveform__bit_clock_hz": 100e3, "waveform__band_high_hz": 45e3}

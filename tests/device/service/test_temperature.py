@@ -91,6 +91,13 @@ def test_a_jump_is_believed_when_it_is_said_twice():
     assert (thermometer.temperature_c, thermometer.cause) == (61.0, "")
 
 
+def test_a_jump_is_said_twice_by_readings_no_further_apart_than_that():
+    thermometer = Thermometer(SETTINGS, Given(20.0, 50.0, 50.0 + JUMP_C))
+    for time_s in (0.0, 2.0, 4.0):
+        thermometer.scale(time_s)
+    assert (thermometer.temperature_c, thermometer.refused) == (55.0, 1)
+
+
 def test_the_first_reading_is_no_jump_and_one_just_small_enough_is_none():
     thermometer = Thermometer(SETTINGS, Given(60.0, 60.0 + JUMP_C))
     thermometer.scale(0.0)
