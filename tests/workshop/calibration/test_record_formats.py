@@ -1,10 +1,14 @@
 """UFF files as analysers write them: a time for each sample, lines filled up; what is damaged is refused in words."""
 
+import struct
+import warnings
+import wave
+
 import pytest
 from tables import each_row
 
 from controller.errors import CalibrationError
-from controller.workshop.calibration.records.record_formats import load_uff
+from controller.workshop.calibration.records.record_formats import load_uff, load_wav
 
 SAMPLES = [1e-3 * number for number in range(1, 11)]
 TIMES_S = [1e-6 * number for number in range(10)]
@@ -67,3 +71,33 @@ def test_the_samples_are_read_as_many_as_are_stated(load, text):
 def test_what_cannot_be_meant_is_refused_in_words(load, text, said):
     with pytest.raises(CalibrationError, match=rf"one\.uff.*({said})"):
         load(text)
+
+
+@pytest.fixture
+def recorded(tmp_path):
+    """A file of two tracks of 16 bits, at 200 kHz."""
+    file = tmp_path / "heard.wav"
+    with wave.open(str(file), "wb") as heard:
+        heard.setnchannels(2)
+        heard.setsampwidth(2)
+        heard.setframerate(200_000)
+        heard.writeframes(struct.pack("<6h", 1, -1, 2, -2, 3, -3))
+    return file
+
+
+@pytest.mark.parametrize("filters", ["ignore", "default", "error"])
+def test_a_file_that_is_cut_short_is_refused_whatever_python_does_with_warnings(recorded, filters):
+    whole = recorded.read_bytes()
+    recorded.write_bytes(whole[:4] + struct.pack("<I", len(whole) + 100) + whole[8:])  # a part behind the samples is missing
+    with warnings.catch_warnings():
+        warnings.simplefilter(filters)
+        with pytest.raises(CalibrationError, match=r"heard.wav: .*cut short.*copy it again"):
+            load_wav(recorded, 1, 200e3)
+        recorded.write_bytes(whole)
+        assert [load_wav(recorded, track, 200e3).tolist() for track in (1, 2)] == [[1, 2, 3], [-1, -2, -3]]
+
+
+@each_row(("track", "rate_hz", "said"), [(0, 200e3, "track = 0"), (3, 200e3, "track = 3, and the file has 2"), (1, 201e3, "201")])
+def test_another_track_or_rate_is_refused(recorded, track, rate_hz, said):
+    with pytest.raises(CalibrationError, match=said):
+        load_wav(recorded, track, rate_hz)
