@@ -4,7 +4,7 @@ usage: python -m tests.mutants [--count N] [--seed N] [--under FOLDER ...] [--re
 
 A mutant is one small change of a function: a comparison, an operator, a constant, a negated condition, a call left out. What may
 kill it is what reaches its statement in one run of README's line: the quick tests first, then the others, each form for at most
-`BUDGET_S` as that run took them, of each test file its first ones. --reached keeps that run in a file, --only takes mutants again
+`BUDGET_S` of processor time as that run took them, of each test file its first ones. --reached keeps that run in a file, --only takes mutants again
 that a list of verdicts has as alive. A process of tests has a limit of processor time, so that one that loops for ever is killed
 too. Mutants are made in a copy of the checkout; a test that fails without them decides nothing.
 """
@@ -32,7 +32,7 @@ from tests.patience import processor_s
 ROOT = Path(__file__).parent.parent
 PURE = ["physics", "bank_builder", "calibration", "clips"]
 UNDER = ["controller/device", *(f"controller/workshop/{room}" for room in PURE)]
-CPU_S, BUDGET_S, HANGS_S = 180, 15, 100
+CPU_S, BUDGET_S, HANGS_S = 180, 5, 100
 IMPORTED = ["pytest", "hypothesis", "numpy.testing", "scipy.linalg", "matplotlib.figure", "jsonschema", "msgspec"]  # once, for all
 SWAPPED = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Is: ast.IsNot,
