@@ -4,9 +4,9 @@ usage: python -m tests.mutants [--count N] [--seed N] [--under FOLDER ...] [--re
 
 A mutant is one small change of a function: a comparison, an operator, a constant, a negated condition, a call left out. What may
 kill it is what reaches its statement in one run of README's line: the quick tests first, then the others, each form for at most
-`BUDGET_S` of processor time as that run took them, of each test file its first ones. --reached keeps that run in a file, --only takes mutants again
-that a list of verdicts has as alive. A process of tests has a limit of processor time, so that one that loops for ever is killed
-too. Mutants are made in a copy of the checkout; a test that fails without them decides nothing.
+`BUDGET_S` of processor time as that run took them, of each test file its first ones. --reached keeps that run in a file, --only
+takes mutants again that a list of verdicts has as alive. A process of tests has a limit of processor time, so that one that loops
+for ever is killed too. Mutants are made in a copy of the checkout; a test that fails without them decides nothing.
 """
 
 import argparse
