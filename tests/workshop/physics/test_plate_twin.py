@@ -11,7 +11,7 @@ from controller.device.board.lookup import find_board
 from controller.device.fpga.capture import Capture
 from controller.workshop.benchmark.device.idle import ramp_words
 from controller.workshop.gateware.model.pins import ramp_bits
-from controller.workshop.physics.audible import surface_energy
+from controller.workshop.physics.audible import surface_energy, surface_spectrum
 from controller.workshop.physics.field import AROUND_S, LINE_M, half_width
 from controller.workshop.physics.focusing import balanced_weights, focus
 from controller.workshop.physics.modes.plate_modes import modes_of
@@ -244,3 +244,13 @@ def test_audible_energy_adds_up_to_the_energy_over_time(words, before):
     low = surface_energy(board, words, IDLE, before_word=before)
     assert 0 < low < over_time
     assert low + surface_energy(board, words, IDLE, 16e3, 1e6, before_word=before) == pytest.approx(over_time, rel=3e-3)
+
+
+def test_a_spectrum_lies_between_its_limits_and_two_parts_of_it_have_its_energy():
+    board = msgspec.structs.replace(BOARD, plate=msgspec.structs.replace(BOARD.plate, thickness_mm=40.0))
+    words = random_words(8, 5)
+    frequency, density, step_hz = surface_spectrum(board, words, IDLE, 2e3, 9e3)
+    assert frequency[[0, -1]] == pytest.approx([2e3 + step_hz / 2, 9e3 - step_hz / 2], rel=1e-12)
+    assert density.min() > 0
+    parts = surface_energy(board, words, IDLE, 2e3, 5e3) + surface_energy(board, words, IDLE, 5e3, 9e3)
+    assert parts == pytest.approx(surface_energy(board, words, IDLE, 2e3, 9e3), rel=1e-3)
