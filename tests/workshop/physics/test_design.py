@@ -133,6 +133,17 @@ def test_resistors_burn_what_is_computed_for_random_bits_of_that_spectrum(stage)
     assert estimate_w < driver.supply_v**2 / (4 * driver.resistance_ohm)
 
 
+@each_row("changes", [{}, {"decay_time_ms": 0.3}, {"duration_ms": 0.8, "channels": 12}])
+def test_contrast_background_energy_and_power_are_of_one_field(changes):
+    found = design_figures(BOARD, changes)
+    kinetic = found["kinetic_share"]
+    background = 2 * kinetic / (1 - 2 * kinetic)  # over the spot's own part
+    same(found["contrast"] ** 2 * (1 + background), found["modes_in_band"], 1e-9, "modes in the band")
+    same(found["energy_of_band_uj"] * (1 + background), found["energy_with_background_uj"], 1e-9, "energy in uJ")
+    duration_ms = changes.get("duration_ms", BOARD.waveform.duration_ms)
+    same(found["energy_with_background_uj"] / duration_ms, found["mechanical_power_mw"], 1e-9, "power in mW")
+
+
 def test_the_glass_that_a_finger_feels_most_is_neither_thin_nor_thick():
     """The moment grows with the glass, the deflection falls, and thin glass is stopped by the finger."""
     felt = {mm: design_figures(BOARD, {"thickness_mm": mm})["amplitude_under_finger_um"] for mm in (0.3, 0.5, 0.8, 1.1, 2.0)}
