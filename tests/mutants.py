@@ -32,7 +32,7 @@ from tests.patience import processor_s
 ROOT = Path(__file__).parent.parent
 PURE = ["physics", "bank_builder", "calibration", "clips"]
 UNDER = ["controller/device", *(f"controller/workshop/{room}" for room in PURE)]
-CPU_S, BUDGET_S, HANGS_S = 180, 5, 100
+CPU_S, BUDGET_S, HANGS_S = 60, 5, 100
 IMPORTED = ["pytest", "hypothesis", "numpy.testing", "scipy.linalg", "matplotlib.figure", "jsonschema", "msgspec"]  # once, for all
 SWAPPED = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Is: ast.IsNot,
