@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from kernel.serial_finger import LARGEST, SerialPanel
 from patience import wait_for
+from tables import each_row
 
 from controller.device.application_socket import messages
 from controller.device.application_socket.client import PanelClient
@@ -140,7 +141,7 @@ def test_a_touch_at_the_edge_of_the_plate_says_nothing_of_where_it_was(touched):
         axes_values(about, (210.0, 70.0))
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("words", "code", "said"),
     [
         (["--at", "300", "20", "--at", "10", "20", "--at", "10", "100"], 78, "target (300, 20) mm is not on the plate"),
