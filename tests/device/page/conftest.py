@@ -103,7 +103,7 @@ def asks():
     return ask
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def folder():
     """With a short name: a socket's path has at most 107 bytes."""
     path = Path(tempfile.mkdtemp(prefix="hp"))
@@ -111,8 +111,9 @@ def folder():
     shutil.rmtree(path, ignore_errors=True)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def served(folder):
+    """It takes a tenth of a processor, and ends with the tests that need it."""
     panel = Served(folder)
     panel.begin()
     yield panel
