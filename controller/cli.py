@@ -25,6 +25,7 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
     "client": "ask a running panel to play, switch it off or on, load a scene, or show its state",
     "doctor": "check every device, file and permission of a panel, and name the remedies",
     "setup": "make the board folder of a new panel, from a few questions or options",
+    "rehearse": "go the whole way of a new panel with a simulated one that is wrong as real ones are",
     "board": "check a board and its scene; describe the keys of both files",
     "gateware": "build, describe and load bitstreams; bring up an FPGA",
     "bank": "build, describe and verify banks of precomputed waveforms",

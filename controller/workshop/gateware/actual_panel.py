@@ -38,7 +38,7 @@ class ActualPatch(Record, frozen=True, kw_only=True):
     size_mm: float
 
 
-class Frame(Record, frozen=True, kw_only=True):
+class SensorFrame(Record, frozen=True, kw_only=True):
     """Where a sensor is that was sent to the plate's corner, and by how much it then turns."""
 
     x_mm: float = 0.0
@@ -70,7 +70,7 @@ class ActualPanel(Record, frozen=True, kw_only=True):
     plate: dict[str, Any] = msgspec.field(default_factory=dict)
     driver: dict[str, Any] = msgspec.field(default_factory=dict)
     actuators: tuple[ActualPatch, ...] | None = None  # those that move; None: as board.toml says
-    frame: Frame = Frame()
+    frame: SensorFrame = SensorFrame()
     touch: Touch = Touch()
     fpga: Fpga | None = None  # None: it has the board's gateware
 
