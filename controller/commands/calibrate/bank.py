@@ -66,6 +66,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.decay_fit import fit_decays
     from controller.workshop.calibration.drift_fit import fit_drift
     from controller.workshop.calibration.interpolate import interpolate
+    from controller.workshop.calibration.stage_fit import stage_notes
     from controller.workshop.physics.modes.plate_modes import modes_of
 
     picture = picture_path(options)
@@ -88,7 +89,8 @@ def calibrate_bank(options: argparse.Namespace) -> int:
 
             plot_leave_out(picture, board, source, waves, decays)
         path, cells, report = _build(board, source, options)
-    notes = [*findings, *_notes(board, learned, waves, decays, drift), *_notes_of_bank(options, source, cells, report)]
+    notes = [*findings, *stage_notes(board, learned), *_notes(board, learned, waves, decays, drift)]
+    notes += _of_bank(options, source, cells, report)
     for note in notes:
         tell(note)
     figures = _figures(board, learned, source, waves, decays, drift) | {"frame": found.frame and found.frame.in_words()}
@@ -118,9 +120,7 @@ def _build(board: Board, source: InterpolatedResponses, options: argparse.Namesp
     return path, cells, wanted.build(path, cells, memory_mb=options.memory_mb, source=source)
 
 
-def _notes_of_bank(
-    options: argparse.Namespace, source: InterpolatedResponses, cells: NDArray[np.bool_], report: BuildReport
-) -> list[str]:
+def _of_bank(options: argparse.Namespace, source: InterpolatedResponses, cells: NDArray[np.bool_], built: BuildReport) -> list[str]:
     """What of the bank is less than was asked for."""
     from controller.workshop.bank_builder.interpolation_error import interpolation_warning
 
@@ -131,7 +131,7 @@ def _notes_of_bank(
         )
     if not cells.all():
         notes.append(f"{int((~cells).sum()):,} of {cells.size:,} cells are too far from the measured points, and not in the bank")
-    if warning := interpolation_warning(report.interpolation_error):
+    if warning := interpolation_warning(built.interpolation_error):
         notes.append(warning)
     return notes
 

@@ -26,7 +26,9 @@ from controller.workshop.simulation.wrong_panel import WrongPanel
 
 MOST_TRIES: Final = 4  # of a command, each after what was mended
 GOOD_PERCENT: Final = 97  # of what the plate that is there can do, at the median of the fingers
-TELLING: Final = re.compile(r"^(PASS|ok +(?:identity|bits)|points left out|bank: )|felt \d+ pulses|: loaded$|is written, and checked")
+TELLING: Final = re.compile(
+    r"^(PASS|ok +(?:identity|bits)|points left out|bank: )|felt \d+ pulses|: loaded$|is written, and checked"
+)
 SETUP: Final = (
     *("--length-mm", "110", "--width-mm", "80", "--thickness-mm", "1.1", "--held", "free", "--discs", "5", "--fpga", "simulated"),
     *("--touch", "gt911", "--touch-key", "bus=/dev/i2c-1", "--touch-key", "interrupt_chip=pinctrl-bcm2711"),
@@ -101,6 +103,14 @@ def _left_out(bench: Bench, lines: list[re.Match[str]]) -> str:
     return f"no wire was loose: actuators {', '.join(map(str, sorted(channels)))} taken out of board.toml"
 
 
+def _measured(bench: Bench, _: list[re.Match[str]]) -> str:
+    driver, wrong = bench.first.driver, bench.wrong
+    keys = {"resistance_ohm": driver.resistance_ohm * wrong.resistance, "capacitance_f": driver.capacitance_f * wrong.capacitance}
+    there = "".join(f"{key} = {value:.4g}\n" for key, value in keys.items())
+    bench.edit(lambda text: re.sub(r"^\[driver\]\n", f"[driver]\n{there}", text, flags=re.MULTILINE))
+    return f"measured with an LCR meter, and written to [driver]: {there.replace(chr(10), ' ').strip()}"
+
+
 def _soldered(bench: Bench, _: list[re.Match[str]]) -> str:
     bench.solder(dead_interrupt=False)
     return "its interrupt line soldered"
@@ -113,6 +123,7 @@ REMEDIES: Final = (
     Remedy("dead patches", r"(channels? [\d, and]+) dead: ", _left_out),
     Remedy("a dead interrupt line", "touch panel: .* interrupt line no edge", _soldered),
     Remedy("another bitstream", "built with the limits of another board", lambda *_: "built and loaded again"),
+    Remedy("other stages", "the stages' R C is .* off board.toml's", _measured),
     Remedy("a frame that is off", "points lie elsewhere than stated, corrected: (.*)", lambda *_: ""),
     Remedy("another plate", "its edges are not the plate's|frequencies are (.*) off", lambda *_: ""),
 )
@@ -128,6 +139,7 @@ def faults_of(wrong: WrongPanel) -> set[str]:
             "swapped wires": wrong.swapped,
             "dead patches": wrong.dead,
             "a dead interrupt line": wrong.dead_interrupt,
+            "other stages": (wrong.resistance, wrong.capacitance) != (1.0, 1.0),
             "a frame that is off": wrong.frame != type(wrong.frame)(),
             "another plate": wrong.longer_mm or wrong.wider_mm or wrong.plate,
         }.items()
