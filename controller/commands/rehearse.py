@@ -36,7 +36,8 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
 def rehearse(options: argparse.Namespace) -> int:
     """Run each command, and print what came of it."""
     from controller.device.board.records import load_toml
-    from controller.workshop.simulation.rehearsal import Bench, rehearse
+    from controller.workshop.simulation.rehearsal import rehearse
+    from controller.workshop.simulation.remedies import Bench
     from controller.workshop.simulation.wrong_panel import SHIPPED, WrongPanel
 
     began_s = time.monotonic()

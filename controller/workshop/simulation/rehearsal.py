@@ -10,19 +10,15 @@ import re
 import shlex
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any, Final, NamedTuple
+from collections.abc import Generator, Iterator
+from typing import Final, NamedTuple
 
-import msgspec
-
-from controller.device.board.board import Board, load_board
+from controller.device.board.board import Board
 from controller.device.fpga.bitstream import Identity, sealed
 from controller.device.fpga.build_parameters import top_parameters
 from controller.device.service.drivers import gateware_hash
 from controller.errors import ControllerError
-from controller.workshop.simulation.wrong_panel import WrongPanel
+from controller.workshop.simulation.remedies import BUILT, REMEDIES, Bench, Remedy, faults_of
 
 MOST_TRIES: Final = 4  # of a command, each after what was mended
 GOOD_PERCENT: Final = 97  # of what the plate that is there can do, at the median of the fingers
@@ -34,6 +30,8 @@ SETUP: Final = (
     *("--touch", "gt911", "--touch-key", "bus=/dev/i2c-1", "--touch-key", "interrupt_chip=pinctrl-bcm2711"),
     *("--touch-key", "interrupt_line=GPIO4"),
 )
+SENSOR: Final = "--repetitions", "1", "--noise", "1e-4", "--yes"  # noise in m/s: 40 dB
+UNDECIDED: Final = 75  # exit code of `calibrate wiring`: more points are needed
 TAPS: Final = tuple((0.2 + 0.1 * number, 0.25 + 0.08 * (number * 4 % 7)) for number in range(7))  # shares of length and width
 TAP_S: Final = 0.1
 TAPS_APART_S: Final = 0.3
@@ -50,101 +48,6 @@ class Done(NamedTuple):
     code: int
     said: list[str]  # lines that matter
     mended: list[str]  # what was then done
-
-
-@dataclass
-class Bench:
-    """The simulated panel on the bench."""
-
-    folder: Path  # of its board
-    wrong: WrongPanel  # what still is
-    tools: bool  # whether bitstreams are built: minutes; else they are nothing but their headers
-    first: Board = field(init=False)  # as setup wrote it
-    found: set[str] = field(default_factory=set)  # what was found wrong so far
-
-    @property
-    def board(self) -> Board:
-        """The board as its board.toml says now."""
-        return load_board(self.folder)
-
-    def solder(self, **changes: Any) -> None:
-        """Change what is there."""
-        self.wrong = msgspec.structs.replace(self.wrong, **changes)
-        (self.folder / self.first.link.device).write_text(self.wrong.text(self.first), encoding="utf-8")
-
-    def edit(self, change: Callable[[str], str]) -> None:
-        """Change board.toml."""
-        file = self.folder / "board.toml"
-        file.write_text(change(file.read_text(encoding="utf-8")), encoding="utf-8")
-
-    def without_channels(self, channels: set[int]) -> None:
-        """Take actuators out of board.toml."""
-        there = "|".join(map(str, sorted(channels)))
-        self.edit(lambda text: re.sub(rf"^ *\{{ channel = ({there}),.*\n", "", text, flags=re.MULTILINE))
-
-
-class Remedy(NamedTuple):
-    """What somebody does who reads a line like this."""
-
-    fault: str  # what is then found
-    line: str  # regular expression
-    does: Callable[[Bench, list[re.Match[str]]], str]  # given all such lines; what was done, in words
-
-
-def _wires_exchanged(bench: Bench, lines: list[re.Match[str]]) -> str:
-    pairs = {frozenset((int(line[1]), int(line[2]))) for line in lines}
-    bench.solder(swapped=tuple(pair for pair in bench.wrong.swapped if frozenset(pair) not in pairs))
-    return "wires exchanged: " + ", ".join(" and ".join(map(str, sorted(pair))) for pair in pairs)
-
-
-def _left_out(bench: Bench, lines: list[re.Match[str]]) -> str:
-    channels = {int(number) for line in lines for number in re.findall(r"\d+", line[1])}
-    bench.without_channels(channels)
-    return f"no wire was loose: actuators {', '.join(map(str, sorted(channels)))} taken out of board.toml"
-
-
-def _measured(bench: Bench, _: list[re.Match[str]]) -> str:
-    driver, wrong = bench.first.driver, bench.wrong
-    keys = {"resistance_ohm": driver.resistance_ohm * wrong.resistance, "capacitance_f": driver.capacitance_f * wrong.capacitance}
-    there = "".join(f"{key} = {value:.4g}\n" for key, value in keys.items())
-    bench.edit(lambda text: re.sub(r"^\[driver\]\n", f"[driver]\n{there}", text, flags=re.MULTILINE))
-    return f"measured with an LCR meter, and written to [driver]: {there.replace(chr(10), ' ').strip()}"
-
-
-def _soldered(bench: Bench, _: list[re.Match[str]]) -> str:
-    bench.solder(dead_interrupt=False)
-    return "its interrupt line soldered"
-
-
-REMEDIES: Final = (
-    Remedy("an empty FPGA", "only ones came back", lambda *_: "its bitstream is built and loaded"),
-    Remedy("swapped wires", r"channels (\d+) and (\d+) (?:are|look) swapped", _wires_exchanged),
-    Remedy("dead patches", r"(channel \d+): nothing was felt", _left_out),
-    Remedy("dead patches", r"(channels? [\d, and]+) dead: ", _left_out),
-    Remedy("a dead interrupt line", "touch panel: .* interrupt line no edge", _soldered),
-    Remedy("another bitstream", "built with the limits of another board", lambda *_: "built and loaded again"),
-    Remedy("other stages", "the stages' R C is .* off board.toml's", _measured),
-    Remedy("a frame that is off", "points lie elsewhere than stated, corrected: (.*)", lambda *_: ""),
-    Remedy("another plate", "its edges are not the plate's|frequencies are (.*) off", lambda *_: ""),
-)
-BUILT: Final = {"an empty FPGA", "another bitstream"}  # after these the bitstream is built and loaded
-
-
-def faults_of(wrong: WrongPanel) -> set[str]:
-    """What has to be found."""
-    return {
-        name
-        for name, there in {
-            "an empty FPGA": wrong.empty_fpga,
-            "swapped wires": wrong.swapped,
-            "dead patches": wrong.dead,
-            "a dead interrupt line": wrong.dead_interrupt,
-            "other stages": (wrong.resistance, wrong.capacitance) != (1.0, 1.0),
-            "a frame that is off": wrong.frame != type(wrong.frame)(),
-            "another plate": wrong.longer_mm or wrong.wider_mm or wrong.plate,
-        }.items()
-        if there
-    }
 
 
 def rehearse(bench: Bench) -> Iterator[Done]:
@@ -164,9 +67,9 @@ def rehearse(bench: Bench) -> Iterator[Done]:
     yield from _step(bench, "doctor", "--link", *board)
     yield from _step(bench, "calibrate", "channels", *board)
     yield from _step(bench, "bank", "build", *board)
+    yield from _wiring(bench)
     yield from _step(bench, "calibrate", "plan", *board, "--out", points)
-    measure = ("--points", points, "--repetitions", "1", "--noise", "1e-4", "--yes")
-    yield from _step(bench, "calibrate", "measure", records, *board, *measure)
+    yield from _step(bench, "calibrate", "measure", records, *board, "--points", points, *SENSOR)
     yield from _step(bench, "calibrate", "check", records, *board)
     yield from _step(bench, "calibrate", "bank", records, *board, "--model")
     (bench.folder / "taps.evemu").write_text(taps_on(bench.board), encoding="utf-8")
@@ -179,23 +82,47 @@ def rehearse(bench: Bench) -> Iterator[Done]:
         raise RehearsalError(f"nothing has named {', '.join(sorted(missed))}")
 
 
+def _wiring(bench: Bench) -> Iterator[Done]:
+    """A few points, as many as the verdict needs; others once wires were mended."""
+    board = "--board", str(bench.folder)
+    for number in range(MOST_TRIES):
+        records, points = str(bench.folder / f"wires{number}"), str(bench.folder / f"wires{number}.csv")
+        done = yield from _called_and_mended(bench, "calibrate", "wiring", records, *board, "--points", points)
+        for _ in range(MOST_TRIES):
+            if done.code == UNDECIDED:
+                yield from _step(bench, "calibrate", "measure", records, *board, "--points", points, *SENSOR)
+                done = yield from _called_and_mended(bench, "calibrate", "wiring", records, *board, "--points", points)
+        if not done.code:
+            return
+        if not done.mended:
+            break
+    raise RehearsalError(f"{done.command}: exit code {done.code}: {done.said[-1]}")
+
+
 def _step(bench: Bench, *arguments: str) -> Iterator[Done]:
     """Run a command, mend what it says, and run it again until it says nothing more."""
     for _ in range(MOST_TRIES):
-        done = _called(*arguments)
-        matched = {remedy: [found for line in done.said if (found := re.search(remedy.line, line))] for remedy in REMEDIES}
-        matched = {remedy: lines for remedy, lines in matched.items() if lines}
-        mended = [did for remedy, lines in matched.items() if (did := remedy.does(bench, lines))]
-        bench.found |= {remedy.fault for remedy in matched}
-        yield done._replace(said=_telling(done, matched), mended=mended)
-        if BUILT & {remedy.fault for remedy in matched}:
-            yield from _built(bench)
-            if "doctor" in arguments:
-                return  # it is called again once the bank is there
-        if not mended:
+        done = yield from _called_and_mended(bench, *arguments)
+        if "doctor" in arguments and done.mended:
+            return  # it is called again once the bank is there
+        if not done.mended:
             break
     if done.code:
         raise RehearsalError(f"{done.command}: exit code {done.code}: {done.said[-1]}")
+
+
+def _called_and_mended(bench: Bench, *arguments: str) -> Generator[Done, None, Done]:
+    """Run a command, and mend what it says."""
+    done = _called(*arguments)
+    matched = {remedy: [found for line in done.said if (found := re.search(remedy.line, line))] for remedy in REMEDIES}
+    matched = {remedy: lines for remedy, lines in matched.items() if lines}
+    mended = [did for remedy, lines in matched.items() if (did := remedy.does(bench, lines))]
+    bench.found |= {remedy.fault for remedy in matched}
+    done = done._replace(said=_telling(done, matched), mended=mended)
+    yield done
+    if BUILT & {remedy.fault for remedy in matched}:
+        yield from _built(bench)
+    return done
 
 
 def _telling(done: Done, matched: dict[Remedy, list[re.Match[str]]]) -> list[str]:

@@ -34,7 +34,7 @@ def test_it_is_said_where_it_surely_differs_and_not_otherwise():
     assert "R C is +24 ± 8 % off board.toml's" in note
 
 
-@each_row(("plate",), [({"length_mm": 73.0},), ({"young_modulus_pa": 72e9},), ({"length_mm": 73.0, "young_modulus_pa": 72e9},)])
+@each_row("plate", [{"length_mm": 73.0}, {"young_modulus_pa": 72e9}, {"length_mm": 73.0, "young_modulus_pa": 72e9}])
 def test_a_plate_that_is_not_quite_the_boards_is_not_taken_for_other_stages(plate):
     assert not stage_notes(BOARD, learned(**plate))
 

@@ -11,7 +11,8 @@ from controller.device.service.drivers import open_session
 from controller.errors import ConfigError, GatewareError, LinkError
 from controller.workshop.gateware.actual_panel import SensorFrame, actual_panel, load_flash
 from controller.workshop.gateware.simulated_link import open_simulated
-from controller.workshop.simulation.rehearsal import SETUP, Bench, faults_of, header_alone, taps_on
+from controller.workshop.simulation.rehearsal import SETUP, header_alone, taps_on
+from controller.workshop.simulation.remedies import Bench, faults_of
 from controller.workshop.simulation.wrong_panel import SHIPPED, WrongPanel
 
 WRONG = load_toml(SHIPPED, WrongPanel)
