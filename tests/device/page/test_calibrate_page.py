@@ -61,13 +61,17 @@ def contacts(socket, ended):
     return found
 
 
+def mouse(page, **event):
+    """An event of the page's mouse; nobody waits until it was dealt with."""
+    page._socket.send(json.dumps({"id": 10**9, "method": "Input.dispatchMouseEvent", "params": event}))
+
+
 def move(page, till):
     """Move the page's mouse as the finger until something is true."""
     began_s, number = time.monotonic(), 0
     while True:
         x, y = strokes(time.monotonic())
-        event = {"type": "mouseMoved", "x": 640 + 400 * x, "y": 450 + 400 * y, "timestamp": time.time()}
-        page._socket.send(json.dumps({"id": 10**9, "method": "Input.dispatchMouseEvent", "params": event}))
+        mouse(page, type="mouseMoved", x=640 + 400 * x, y=450 + 400 * y, timestamp=time.time())
         number += 1
         if number % 50 == 0 and page.value(till):
             return
@@ -150,4 +154,26 @@ def test_the_lag_is_measured_by_a_mouse_of_the_page(bridge_with, touched, tmp_pa
         assert within_ms < 8
         assert found_ms == pytest.approx(finger.lag_ms(heard_s), abs=within_ms + 1.0)
         page.picture((Path(PICTURES) if PICTURES else tmp_path) / "calibrate_lag_done.png")
+        assert page.said == []
+
+
+def test_a_mouse_that_the_page_holds_reaches_stop_by_any_button(bridge_with, touched):  # noqa: F811
+    bridge = bridge_with(OPERATES, socket=str(touched[1]))
+    with browser() as page:
+        page.size(1280, 1400)
+        page.open(f"{bridge.address}live/calibrate.html")
+        page.until("!document.getElementById('lag').disabled")
+        x, y = page.value(
+            "(({x, y, width, height}) => [x + width / 2, y + height / 2])(document.getElementById('lag').getBoundingClientRect())"
+        )
+        left = {"x": x, "y": y, "button": "left", "clickCount": 1}
+        for kind in ("mousePressed", "mouseReleased"):
+            mouse(page, type=kind, **left)
+        page.until("Boolean(document.pointerLockElement)")
+        page.until("document.getElementById('say').textContent.startsWith('hold the mouse to the finger')")
+        mouse(page, type="mousePressed", **left)
+        page.until("document.getElementById('say').textContent.startsWith('STOP was accepted')")
+        page.until("!document.pointerLockElement")
+        press(page, "cancel")
+        page.until("document.getElementById('say').textContent === 'Not calibrated: it was cancelled'")
         assert page.said == []

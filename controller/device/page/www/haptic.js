@@ -4,12 +4,12 @@
   if (window.HapticPanel) return;
   const RETRY_MS = 1000, SEND_MS = 40;
   const SETTLE_MS = 100;
-  const LOOK_MS = 500; // for what no event announces
+  const LOOK_MS = 500;
   const panel = new EventTarget(), roots = new Set(), names = new WeakMap();
   const waiting = new Map(), scrolling = new Map(), pointers = new Map();
   const address = document.currentScript?.src || location;
-  let socket, stopper, greeting, plate, lastPoint, known, shown, sentAt = 0, frame = 0, last = 0;
-  let root = window; // the page that describes its frames, too
+  let socket, stopper, greeting, plate, lastPoint, known, shown, sentAt = 0, frame = 0, last = 0, changed, order = [];
+  let root = window; // describes its frames, too
   try { while (root.parent !== root && root.parent.document) root = root.parent; } catch {}
 
   // ---- the connection
@@ -114,7 +114,7 @@
     return new DOMMatrix([plate.length_mm / width, 0, 0, -plate.width_mm / height, 0, plate.width_mm]).translate(-left, -top);
   }
 
-  // ---- the layer, the uppermost first
+  // ---- the layer
   const named = (word) => !panel.plate.effects.includes(word) && panel.names[word] || [word, 1];
   const amplified = (x) => Math.max(0.1, Math.min(panel.plate.max_amplitude, x));
   const shows = (element) => element.checkVisibility({ opacityProperty: true, visibilityProperty: true });
@@ -139,7 +139,7 @@
       if (tree && (tree.host || tree.defaultView.HapticPanel) && shows(element)) yield* everything(tree);
     }
   }
-  function layer(m) {
+  function ordered() {
     const found = new Map(), result = [];
     const put = (element, one) => found.set(element, { part: element, over: new Set(), ...one, element }).get(element);
     const felt = (node) => nearest(node, (one) => found.has(one));
@@ -161,7 +161,7 @@
             over.forEach((other) => one.over.add(other));
           }
           if (around(hit)) break;
-          if (clipped([p], visible(hit)).length) over.push(hit); // hit tests round
+          if (clipped([p], visible(hit)).length) over.push(hit);
         }
       }
     }
@@ -170,17 +170,17 @@
       if (!one.touched) return;
       one.touched = false;
       one.over.forEach(append);
-      result.push(region(one, m));
+      result.push(one);
     };
     [...found.keys()].reverse().forEach(append);
-    return result.filter((one) => one).slice(0, 250);
+    return result;
   }
-  function region({ element, part, effects, points }, m) {
+  function region({ element, part, effects }, m) {
     if (!names.has(element)) names.set(element, `${(part.id || part.localName).slice(0, 40)} ${++last}`);
     const name = names.get(element), round = (x) => Math.round(x * 100) / 100;
-    const corners_mm = points.map((p) => place(m, p).map(round)).filter((p, i, all) => String(p) !== String(all.at(i - 1)));
+    const corners_mm = visible(element).map((p) => place(m, p).map(round)).filter((p, i, all) => String(p) !== String(all.at(i - 1)));
     const [[l, r, ...xs], [b, t, ...ys]] = [0, 1].map((axis) => [...new Set(corners_mm.map((p) => p[axis]))].sort((p, q) => p - q));
-    if (corners_mm.length < 3) return null;
+    if (corners_mm.length < 3) return [];
     if (corners_mm.length > 4 || xs.length || ys.length) return { name, shape: "polygon", corners_mm, effects };
     return { name, shape: "rectangle", x_mm: l, y_mm: b, width_mm: round(r - l), height_mm: round(t - b), effects };
   }
@@ -189,9 +189,10 @@
   function look() {
     if (!plate || !panel.rights.includes("regions")) return false;
     const now = performance.now(), m = !document.hidden && mapping();
-    for (const [box, at] of scrolling) if (now > at + SETTLE_MS) scrolling.delete(box);
+    for (const [box, at] of scrolling) if (now > at + SETTLE_MS) changed = scrolling.delete(box);
     known = new Map();
-    const regions = m ? layer(m) : [], text = JSON.stringify(regions);
+    if (m && changed) changed = !(order = ordered());
+    const regions = m ? order.flatMap((one) => region(one, m)).slice(0, 250) : [], text = JSON.stringify(regions);
     if (text === shown) return moving() || scrolling.size;
     if (document.hidden || now > sentAt + SEND_MS) {
       shown = text;
@@ -205,10 +206,14 @@
   }
   const moving = () => [...roots].some((root) => root.getAnimations().some((one) => one.playState === "running"));
   function soon() {
+    changed = true;
+    again();
+  }
+  function again() {
     if (root !== window) root.HapticPanel?.look();
     else frame ||= requestAnimationFrame(() => {
       frame = 0;
-      if (look()) soon();
+      if (look()) again();
     });
   }
   function happened({ type, target }) {
@@ -228,11 +233,11 @@
     for (const type of ["resize", "scroll"]) visualViewport.addEventListener(type, soon);
     addEventListener("pagehide", () => socket.close());
     setInterval(soon, LOOK_MS);
-    setInterval(() => moving() && soon(), LOOK_MS / 5);
+    setInterval(() => moving() && again(), LOOK_MS / 5);
     connect();
   }
 
-  // ---- what a page calls
+  // ---- calls
   function toPlate(x, y) {
     known = new Map();
     const p = place(viewport(document), [x, y]), m = mapping();

@@ -115,6 +115,11 @@
     }
   });
   at("stop").addEventListener("pointerdown", stop);
+  addEventListener("pointerdown", () => { // of a mouse that reaches no button
+    if (!document.pointerLockElement) return;
+    document.exitPointerLock();
+    stop();
+  });
   at("stop").addEventListener("click", ({ detail }) => detail === 0 && stop());
   function stop() {
     panel.stop().then((answer) => say(answer.outcome === "done" ? "STOP was accepted: outputs ramp down." : `STOP failed: ${answer.reason}. Use the switch of the supply.`));
