@@ -6,7 +6,7 @@
 
 Pages are clients of the library `websockets` in a process of their own, which subscribe to touches and emissions and ask for the
 panel's state. What the loop notices: a client of the socket plays; how long it waits for each outcome is measured in turns with
-seven pages and without any (a panel has eight places), each for some seconds.
+seven pages and without any, each for some seconds.
 """
 
 from __future__ import annotations

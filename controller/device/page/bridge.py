@@ -5,9 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hmac
-import logging
 import signal
-import ssl
 from collections.abc import Callable
 from http import HTTPStatus
 from http.cookies import CookieError, SimpleCookie
@@ -20,7 +18,9 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from controller.device.board.paths import state_folder
+from controller.device.page.credentials import read_token, tls_context
 from controller.device.page.files import Served, served
+from controller.device.page.library_log import library_log
 from controller.device.page.permissions import Permissions, Refusal
 from controller.device.page.relay import relay
 from controller.device.page.requests import FRAME_BYTES
@@ -29,7 +29,6 @@ from controller.device.page.settings import PageSettings
 from controller.device.page.stops import StopLine, page_name, stop_page, why
 from controller.errors import ConfigError, ControllerError
 from controller.log import Priority, log
-from controller.regular_file import read_regular
 
 SOCKET_PATH: Final = "/panel"
 STOP_PATH: Final = "/stop"
@@ -37,7 +36,6 @@ COOKIE: Final = "haptic-panel-token"
 OTHER_CONNECTIONS: Final = 64  # besides the pages: files that are fetched, and what is half open
 HANDSHAKE_S: Final = 10.0
 PING_S: Final = 20.0
-TOKEN_BYTES: Final = (16, 4096)  # least and most
 REFUSALS_SHOWN: Final = 100  # in the log, each once
 
 
@@ -74,8 +72,8 @@ class Bridge:
         if self._field is not None and not self._field.is_file():
             raise ConfigError(f"field = {settings.field!r}: there is no such file; `haptic-panel focus --field-out FILE` makes one")
         self._screen = Screen(settings, state_folder() / "screen.json")
-        self._token = _token(Path(settings.token_file)) if settings.token_file else ""
-        self._tls = _tls(settings)
+        self._token = read_token(Path(settings.token_file)) if settings.token_file else ""
+        self._tls = tls_context(settings)
         self._connections = 0
         self._open = {SOCKET_PATH: 0, STOP_PATH: 0}  # at most `max_pages` of each
         self._stop_line = StopLine(settings.socket)
@@ -136,7 +134,7 @@ class Bridge:
             close_timeout=1.0,
             server_header=None,
             ssl=self._tls,
-            logger=_logger(),
+            logger=library_log(),
         )
 
     def _address(self, server: Server) -> str:
@@ -250,40 +248,3 @@ def _response(answer: Served, settings: PageSettings) -> Response:
     if answer.location:
         headers["Location"] = answer.location
     return Response(answer.status.value, answer.status.phrase, headers, answer.body)
-
-
-def _token(file: Path) -> str:
-    try:
-        token = read_regular(file, TOKEN_BYTES[1]).decode("ascii").strip()
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"token_file = {str(file)!r}: cannot be read ({error})") from error
-    if len(token) < TOKEN_BYTES[0] or not all(c.isalnum() or c in "-_" for c in token):
-        raise ConfigError(f"token_file = {str(file)!r}: needs {TOKEN_BYTES[0]} or more letters, digits, - and _")
-    return token
-
-
-def _tls(settings: PageSettings) -> ssl.SSLContext | None:
-    if not settings.tls_certificate:
-        return None
-    context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
-    try:
-        context.load_cert_chain(settings.tls_certificate, settings.tls_key)
-    except OSError as error:  # SSLError among them
-        raise ConfigError(f"tls_certificate = {settings.tls_certificate!r}, tls_key: cannot be used ({error})") from error
-    return context
-
-
-def _logger() -> logging.Logger:
-    """What the library reports, as lines of our log without tracebacks; its mere events are left out."""
-    logger = logging.getLogger("haptic-panel.page")
-    if not logger.handlers:
-        handler = logging.Handler(logging.ERROR)
-        handler.emit = _to_log  # type: ignore[method-assign]
-        logger.addHandler(handler)
-        logger.propagate = False
-    return logger
-
-
-def _to_log(record: logging.LogRecord) -> None:
-    error = record.exc_info[1] if record.exc_info else None
-    log(f"{record.getMessage()}{f': {type(error).__name__}: {error}' if error else ''}", Priority.ERROR)
