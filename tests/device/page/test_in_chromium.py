@@ -150,7 +150,7 @@ def test_a_stop_has_a_way_of_its_own_and_without_it_takes_that_of_all_messages(e
     script = elements.call("Page.addScriptToEvaluateOnNewDocument", source=WAYS % ("stop" if way == "stop" else "none"))
     try:
         elements.call("Page.reload")
-        elements.until("window.layers?.length")
+        elements.until("typeof layers !== 'undefined' && layers.length")
         outcome, took_ms, *taken = elements.value(FLOODS)
     finally:
         elements.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
@@ -398,7 +398,7 @@ def test_a_frame_has_its_pages_connection_and_its_own_coordinates(framed):
     assert page.value(f"{inner}.HapticPanel.play('click', {{x: 20, y: 20}})")["outcome"] == "played"
     assert page.value(f"{inner}.HapticPanel.play('tick', {inner}.document.querySelector('button'))")["outcome"] == "played"
     clients = page.value("HapticPanel.send({kind: 'describe'})")["clients"]
-    assert clients["connected"] == 1, "the four frames have no connection of their own"
+    assert clients["connected"] == 2, "the page's, and one for stops: the four frames have none of their own"
     page.value("document.getElementById('turned').remove(); 0")
     page.value("new Promise((done) => setTimeout(done, 700))")
     names = page.value("layers.at(-1).regions.map((one) => one.name)")
@@ -510,18 +510,18 @@ def test_a_bridge_that_is_killed_and_comes_back_has_the_layer_again_once(page, s
     page.value("events = []; for (const type of ['open', 'close']) HapticPanel.addEventListener(type, () => events.push(type)); 0")
     before = page.value("layers.at(-1).regions")
     with PanelClient(served.socket, timeout_s=60) as client:
-        connected = client.describe().clients.connected
+        wait_for("the page, its stops and this client", lambda: client.describe().clients.connected == 3)
         for times in (1, 2):
             bridge.process.kill()
             bridge.process.wait()
             page.until(f"events.length === {2 * times - 1}")
             assert page.value("HapticPanel.send({kind: 'state'})")["reason"] == "no panel"
-            wait_for("the layer's end", lambda: client.describe().clients.connected == connected - 1)
+            wait_for("the layer's end", lambda: client.describe().clients.connected == 1)
             page.value("layers.length = 0; 0")
             bridge = bridge_at(tmp_path / "www", port=bridge.port)
             page.until("layers.length && layers.at(-1).answer.kind === 'layer'")
             assert page.value("layers.at(-1).regions") == before
-            assert client.describe().clients.connected == connected
+            wait_for("both connections", lambda: client.describe().clients.connected == 3)
             assert page.value("events") == ["close", "open"] * times
     right(page)
     page.leave()
