@@ -514,7 +514,7 @@ def test_a_bridge_that_is_killed_and_comes_back_has_the_layer_again_once(page, s
         for times in (1, 2):
             bridge.process.kill()
             bridge.process.wait()
-            page.until(f"events.length === {2 * times - 1}")
+            page.until("events.at(-1) === 'close'")
             assert page.value("HapticPanel.send({kind: 'state'})")["reason"] == "no panel"
             wait_for("the layer's end", lambda: client.describe().clients.connected == 1)
             page.value("layers.length = 0; 0")
@@ -522,6 +522,7 @@ def test_a_bridge_that_is_killed_and_comes_back_has_the_layer_again_once(page, s
             page.until("layers.length && layers.at(-1).answer.kind === 'layer'")
             assert page.value("layers.at(-1).regions") == before
             wait_for("both connections", lambda: client.describe().clients.connected == 3)
-            assert page.value("events") == ["close", "open"] * times
+            tried = page.value("events")  # the bridge may not have been there yet when the page tried again
+            assert [kind for kind, _ in itertools.groupby(tried)] == ["close", "open"] * times
     right(page)
     page.leave()

@@ -31,10 +31,10 @@ PLAYS = ("armed", "playing")
 
 
 @contextlib.contextmanager
-def calibration(socket, *words):
+def calibration(socket, *words, stdin=subprocess.DEVNULL):
     """`haptic-panel calibrate-touch --socket`."""
     command = [sys.executable, "-m", "controller", "calibrate-touch", "--socket", str(socket), "--json", *words]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(command, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
             yield process
         finally:
@@ -148,6 +148,8 @@ def test_a_touch_at_the_edge_of_the_plate_says_nothing_of_where_it_was(touched):
         (["--at", "10", "20"], 78, "give 3 to 5 targets, not 1"),
         (["--ghosts"], 78, "nothing can be played: waiting for FPGA"),
         (["--lag"], 2, "--lag is of no use with --socket: stop the service"),
+        (["--lag", "--reference", "/dev/input/event0"], 2, "--lag is of no use with --socket: stop the service"),
+        (["--reference", "-"], 2, "--reference is of no use here: it goes with --lag"),
         (["--write"], 2, "--write is of no use with --socket"),
         (["--ghosts", "--at", "10", "20"], 2, "--at is of no use here"),
     ],
@@ -156,6 +158,22 @@ def test_what_cannot_be_is_one_line(touched, words, code, said):
     with calibration(touched[1], *words) as process:
         out, err = process.communicate()
     assert (process.returncode, out) == (code, "")
+    assert said in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("", "nothing is said of the mouse any more: the page is gone"),
+        ("steps\n", "standard input: JSON is malformed"),
+        ('{"sent_ms": 1, "steps": []}\n', "standard input: Object missing required field `arrived_s`"),
+    ],
+)
+def test_a_mouse_of_which_nothing_can_be_read_is_one_line(touched, line, said):
+    with calibration(touched[1], "--lag", "--reference", "-", stdin=subprocess.PIPE) as process:
+        out, err = process.communicate(line)
+    assert (process.returncode, json.loads(out)["of"]) == (78, 20)
     assert said in err
     assert err.count("\n") == 1
 
