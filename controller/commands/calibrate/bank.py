@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 SAID_FREQUENCY = 0.002  # by which the plate's frequencies differ from board.toml's: costs a tenth of the amplitude
 SAID_DECAY = 0.2
 SAID_KELVIN = 0.5
+OF_RECORDS = {"measuring frame": "frame", "mass of the sensor": "sensor_mass"}
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -93,7 +94,8 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     notes += _of_bank(options, source, cells, report)
     for note in notes:
         tell(note)
-    figures = _figures(board, learned, source, waves, decays, drift) | {"frame": found.frame and found.frame.in_words()}
+    figures = _figures(board, learned, source, waves, decays, drift)
+    figures |= {"frame": found.frame and found.frame.in_words(), "sensor_mass": found.chain and found.chain.in_words()}
     show(options, {"path": str(path), "cells": report.cells, "bytes": report.bytes} | figures | {"notes": notes}, _table)
     if path != (played := find_bank(board)).path:
         tell(f"run plays from {played.path} ({played.why}) unless given --bank {path}")
@@ -249,7 +251,7 @@ def _table(figures: dict[str, Any]) -> str:
         return f"{pair[0]:g}" if pair[1] is None else f"{pair[0]:g} ± {pair[1]:g}"
 
     left = figures["left_out_kept"]
-    lines = [f"{'measuring frame':<28}{figures['frame'] or 'not found'}"]
+    lines = [f"{title:<28}{figures[name] or 'not found'}" for title, name in OF_RECORDS.items()]
     if points := figures["errors_of_points"]:
         lines += [
             f"{'errors of points':<28}{', '.join(points['corrected']) or 'none'} corrected; of a point left out"

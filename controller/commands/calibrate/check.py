@@ -13,7 +13,7 @@ from controller.device.board.lookup import find_board
 from controller.device.board.paths import state_folder
 from controller.errors import ConfigError
 
-ACCEPTED = ("dead", "swapped", "inverted", "clipped", "strength")
+ACCEPTED = ("dead", "swapped", "inverted", "clipped", "unit", "mass", "strength")
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -84,6 +84,7 @@ def _table(figures: dict[str, Any]) -> str:
         f"{'records late by':<26}{reported('delay_us', ' us')}",
         f"{'strength':<26}{reported('strength')} of what board.toml foresees",
         f"{'measuring frame':<26}{figures['frame'] or 'not found'}",
+        f"{'mass of the sensor':<26}{figures['sensor_mass'] or 'not found'}",
         "",
         f"{'channel':>7}{'points':>8}{'coherence':>11}{'SNR (dB)':>10}{'strength':>10}",
     ]

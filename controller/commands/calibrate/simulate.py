@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,8 @@ from controller.errors import UsageError
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+MIRRORED = {None: "", "x": "x runs the other way", "y": "y runs the other way", "xy": "x and y run the other way"}
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -48,6 +51,13 @@ def add(step: argparse.ArgumentParser) -> None:
     step.add_argument(
         "--swapped", type=int, nargs=2, action="append", default=[], metavar=("P", "Q"), help="channels in each other's place"
     )
+    step.add_argument("--offset-mm", type=float, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"), help="of all places")
+    step.add_argument("--rotation-deg", type=float, default=0.0, metavar="DEG", help="of all places about the plate's middle")
+    step.add_argument("--scale", type=float, default=1.0, metavar="S", help="of all places from the plate's middle")
+    step.add_argument("--mirror", choices=["x", "y", "xy"], help="axes that run the other way")
+    step.add_argument("--position-mm", type=float, default=0.0, metavar="SD", help="by which each place is off, along each axis")
+    step.add_argument("--gain-percent", type=float, default=0.0, metavar="SD", help="of the sensitivity, from point to point")
+    step.add_argument("--sensor-mass-mg", type=float, default=0.0, metavar="M", help="of the sensor that stands on the plate")
     step.add_argument("--seed", type=int, default=1, help="of noise, of what is missing, of scattered points (default: 1)")
     step.set_defaults(command=simulate)
 
@@ -85,6 +95,13 @@ def simulate(options: argparse.Namespace) -> int:
         dead=tuple(options.dead),
         inverted=tuple(options.inverted),
         swapped=tuple((a, b) for a, b in options.swapped),
+        offset_m=(options.offset_mm[0] * 1e-3, options.offset_mm[1] * 1e-3),
+        rotation=math.radians(options.rotation_deg),
+        scale=options.scale,
+        mirror=MIRRORED[options.mirror],
+        position_m=options.position_mm * 1e-3,
+        gain=options.gain_percent / 100,
+        sensor_mass_kg=options.sensor_mass_mg * 1e-6,
     )
     with threadpool_limits(1, "blas"):
         figures = simulate_measurement(
@@ -120,6 +137,11 @@ def _check(options: argparse.Namespace, board: Board) -> None:
         "drift_percent": (-5, 5),
         "clock_ppm": (-1e4, 1e4),
         "delay_us": (-1e5, 1e5),
+        "rotation_deg": (-10, 10),
+        "scale": (0.9, 1.1),
+        "position_mm": (0, 10),
+        "gain_percent": (0, 100),
+        "sensor_mass_mg": (0, 1e4),
         "missing": (0, 0.99),
         "seed": (0, 2**32),
     } | ({"clip": (1e-6, 1)} if options.clip is not None else {})

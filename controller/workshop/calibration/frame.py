@@ -61,6 +61,7 @@ class Frame:
     offset_m: tuple[float, float] = (0.0, 0.0)
     rotation: float = 0.0  # in rad, from x to y
     scale: float = 1.0
+    factor: float = 1.0  # of the wavenumber, with which the direct waves fit best
     offset_error_m: tuple[float, float] = (0.0, 0.0)  # these three: standard deviations
     rotation_error: float = 0.0
     scale_error: float = 0.0
@@ -127,7 +128,15 @@ def locate(
         for _ in range(STEPS):
             frame, factor = _step(many, frame, factor)
     inside = np.abs([*frame.offset_m, frame.rotation, frame.scale - 1]) < WIDEST
+    frame = replace(frame, factor=factor)
     return frame if inside.all() and _coherence(few, frame, factor) > KEPT * coherence else None
+
+
+def away_from_edges(board: Board, points_m: Floats) -> NDArray[np.intp]:
+    """Points whose direct waves come alone; all if these are few."""
+    from_edge_m = np.minimum(points_m, 2 * middle_m(board) - points_m).min(axis=1)
+    inside = np.flatnonzero(from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_low_hz))
+    return inside if len(inside) >= ENOUGH else np.arange(len(points_m))
 
 
 def _records(
@@ -139,10 +148,7 @@ def _records(
     most: tuple[int, int, int],  # points, patches, bins
     part: float,
 ) -> _Records:
-    from_edge_m = np.minimum(points_m, 2 * middle_m(board) - points_m).min(axis=1)
-    inside = np.flatnonzero(from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_low_hz))
-    if len(inside) < ENOUGH:
-        inside = np.arange(len(points_m))
+    inside = away_from_edges(board, points_m)
     points = inside[_some(len(inside), most[0])]
     patches = _some(len(board.actuators), most[1])
     low_hz, high_hz = board.waveform.band_low_hz, board.waveform.band_high_hz

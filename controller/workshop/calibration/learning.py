@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
-from controller.workshop.calibration.checking.checks import NOISY_COHERENCE, Objection, raise_fatal
+from controller.workshop.calibration.checking.checks import FATAL, NOISY_COHERENCE, Objection, raise_fatal
 from controller.workshop.calibration.checking.findings import findings_of, remarks_on
 from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.deconvolution import Deconvolution
@@ -21,6 +21,7 @@ from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.point_cache import PointCache
 from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
 from controller.workshop.calibration.records.measurements import Measurement, read_measurement, sha256_of
+from controller.workshop.calibration.sensor_chain import SensorChain, loaded, sensor_chain
 from controller.workshop.calibration.time_responses import responses_in_time
 from controller.workshop.calibration.transfers import Transfers
 
@@ -43,6 +44,7 @@ class Learned:
     waves: DirectWaves | None
     frame: Frame | None  # of the points' stated places; corrected if it is another one than they say. None: not found
     wiring: Wiring
+    chain: SensorChain | None  # what all records have in common; its mass is divided out. None: without a frame
     excited_hz: tuple[float, float]  # what was played excites this band
     residual: Floats  # (point,): share of the records' power that no drive explains
     learned_anew: int  # points that were not in the cache
@@ -82,6 +84,10 @@ def learn(
     clock, delay_s = _clock_and_delay(measurement, board, deconvolution, there, widest_s)
     results, files, again = _transfers(measurement, board, deconvolution, there, clock, cache, progress)
     frame, measurement, moved = _located(measurement, board, deconvolution, results)
+    chain, in_common = None, list[Objection]()
+    if frame is not None:
+        chain, results = _unloaded(measurement, board, deconvolution, results, frame, 0.0 if stated else delay_s)
+        in_common = chain.findings(measurement.settings.records.sensor_mass_mg)
     waves = _waves(measurement, board, deconvolution, results, widest_s)
     if waves is not None:
         delay_s = waves.delay_s
@@ -95,11 +101,15 @@ def learn(
     count = 2 * board.waveform.samples if samples is None else samples
     responses, ringing = responses_in_time(measurement, board, deconvolution, results, count, delay_s, files)
     findings, wiring = findings_of(measurement, board, deconvolution, results, responses, waves)
-    findings += [*moved, *remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)]
+    if any(finding.kind in FATAL for finding in in_common):  # by it all channels look misplaced
+        findings = [finding for finding in findings if finding.kind not in ("swapped", "inverted", "undecided", "strength")]
+    findings += [*in_common, *moved, *remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)]
     residual = np.full(len(measurement.names), np.nan)
     for point, found in results.items():
         residual[point] = found.residual
-    return Learned(measurement, responses, tuple(findings), clock, delay_s, waves, frame, wiring, excited_hz, residual, again)
+    return Learned(
+        measurement, responses, tuple(findings), clock, delay_s, waves, frame, wiring, chain, excited_hz, residual, again
+    )
 
 
 def _clock_and_delay(
@@ -119,9 +129,7 @@ def _located(
 ) -> tuple[Frame | None, Measurement, list[Objection]]:
     """The frame of the points, the measurement with their places on the plate, and what is said of it."""
     points, stated_m = list(results), measurement.points_m
-    transfers = np.stack([found.transfer for found in results.values()])
-    resolved = np.stack([found.resolved for found in results.values()])
-    frame = locate(board, deconvolution.bins, stated_m[points], transfers, resolved)
+    frame = locate(board, deconvolution.bins, stated_m[points], *_stacked(results))
     if frame is None or not frame.differs(board, stated_m[points]):
         return frame, measurement, []
     places_m = np.clip(frame.places(stated_m, middle_m(board)), 0, (board.plate.length_m, board.plate.width_m))
@@ -130,6 +138,27 @@ def _located(
         replace(measurement, points_m=places_m),
         [Objection("frame", f"points lie elsewhere than stated, corrected: {frame.in_words()}")],
     )
+
+
+def _unloaded(
+    measurement: Measurement,
+    board: Board,
+    deconvolution: Deconvolution,
+    results: dict[int, Transfers],
+    frame: Frame,
+    around_s: float,
+) -> tuple[SensorChain, dict[int, Transfers]]:
+    """What all records have in common, and transfer functions without the sensor's mass."""
+    bins = deconvolution.bins
+    chain = sensor_chain(board, bins, measurement.points_m[list(results)], *_stacked(results), frame.factor, around_s)
+    mass_kg = chain.divided_kg(measurement.settings.records.sensor_mass_mg)
+    free = (1 / loaded(board, bins.frequency_hz, mass_kg)).astype(np.complex64)
+    return chain, {point: replace(found, transfer=found.transfer * free) for point, found in results.items()}
+
+
+def _stacked(results: dict[int, Transfers]) -> tuple[NDArray[np.complex64], NDArray[np.bool_]]:
+    """Transfer functions (point, 32, bin), and which are resolved."""
+    return np.stack([found.transfer for found in results.values()]), np.stack([found.resolved for found in results.values()])
 
 
 def _waves(

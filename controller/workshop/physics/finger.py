@@ -118,7 +118,24 @@ def point_motion(
         pairs += gives @ (shapes[:, None, some] * shapes[None, :, some]).reshape(count * count, -1).T
     receptance = pairs.reshape(len(s), count, count)
     if modes_above:
-        plate = board.plate
-        wave = 4 * np.pi * np.sqrt(bending_stiffness(plate) * plate.density_kg_m3 * plate.thickness_m)
-        receptance[:, range(count), range(count)] += (np.arctan(s / float(modes.angular_frequency.max())) / (wave * s))[:, None]
+        receptance[:, range(count), range(count)] += _of_modes_above(board, modes, s)[:, None]
     return PointMotion(s=s, free=free, receptance=receptance, window_s=window_s, end_s=len(words) * period_s)
+
+
+def point_receptance(board: Board, modes: Modes, points_m: ArrayLike, s: Complex) -> Complex:
+    """Displacement of each point over a force there, (frequency, point) in m/N, with what the modes above the highest give."""
+    squares = np.asarray(modes.shapes(points_m), np.float64) ** 2
+    found: Complex = np.repeat(_of_modes_above(board, modes, s)[:, None], len(squares), axis=1)
+    for first in range(0, modes.count, MODES_AT_ONCE):
+        some = slice(first, first + MODES_AT_ONCE)
+        rates, squared = modes.decay_rate[some], modes.angular_frequency[some] ** 2
+        found += (1 / (modes.mass_kg[some] * (s[:, None] * (s[:, None] + 2 * rates) + squared))) @ squares[:, some].T
+    return found
+
+
+def _of_modes_above(board: Board, modes: Modes, s: Complex) -> Complex:
+    """What the modes above the highest of `modes` add to the receptance of a point: (frequency,)."""
+    plate = board.plate
+    wave = 4 * np.pi * np.sqrt(bending_stiffness(plate) * plate.density_kg_m3 * plate.thickness_m)
+    found: Complex = np.arctan(s / float(modes.angular_frequency.max())) / (wave * s)
+    return found

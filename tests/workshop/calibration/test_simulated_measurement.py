@@ -20,6 +20,7 @@ from controller.workshop.calibration.recording.simulated_measurement import (
     simulate_measurement,
 )
 from controller.workshop.calibration.records.measurements import read_measurement
+from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.modes.retuned import drifted
 from controller.workshop.physics.motion import PlateMotion
@@ -132,6 +133,35 @@ def test_faults_are_what_they_say(tmp_path):
     figures, found, _ = simulated(tmp_path / "missing", Flaws(missing=0.34))
     assert figures["missing"] == len(found.missing) == 2
     assert not np.allclose(np.array(simulated(tmp_path / "drift", Flaws(drift=5e-3, **quiet))[2])[-1], clean[-1], **close)
+
+
+def test_places_gains_and_the_sensors_mass_are_what_they_say(tmp_path):
+    quiet, displacement = {"snr_db": 200.0}, RecordingSettings(record_s=2e-3, quantity="m")
+    clean = np.array(simulated(tmp_path / "clean", Flaws(**quiet))[2])
+    close = {"rtol": 0, "atol": 1e-4 * np.abs(clean).max()}
+    middle_m = np.array([0.035, 0.025])
+    flaws = Flaws(offset_m=(1e-3, -2e-3), rotation=0.02, scale=0.98, mirror="y runs the other way", **quiet)
+    cos, sin = 0.98 * np.cos(0.02), 0.98 * np.sin(0.02)
+    places_m = (POINTS_M - middle_m) * [1, -1] @ np.array([[cos, sin], [-sin, cos]]) + middle_m + [1e-3, -2e-3]
+    _, found, moved = simulated(tmp_path / "frame", flaws)
+    simulate_measurement(tmp_path / "there", board(), board(), NAMES, places_m, SHORT, Flaws(**quiet))
+    there = read_measurement(tmp_path / "there", board())
+    assert np.array_equal(found.points_m, POINTS_M), "the files state other places than were measured"
+    assert np.allclose(moved, [there.records(point).values for point in range(len(NAMES))], **close)
+    gains = np.array(simulated(tmp_path / "gain", Flaws(gain=0.2, **quiet))[2]).std(axis=(1, 2, 3)) / clean.std(axis=(1, 2, 3))
+    assert 0.1 < np.log(gains).std() < 0.4
+    assert simulated(tmp_path / "off", Flaws(offset_m=(30e-3, 0.0), **quiet))[1].missing == (2, 3), "beside the plate"
+    _, found, heavy = simulated(tmp_path / "mass", Flaws(sensor_mass_kg=5e-5, **quiet), displacement)
+    light = np.array(simulated(tmp_path / "light", Flaws(**quiet), displacement)[2])[:, 0, 0]
+    times_s = found.settings.records.first_sample_us * 1e-6 + np.arange(heavy[0].shape[2]) / 250e3
+    motion = point_motion(board(), modes_of(board()), np.load(tmp_path / "mass/drive.npy")[0], POINTS_M[:1], after_s=0.0)
+    during = (times_s > 0.1e-3) & (times_s < motion.end_s)
+    expected = motion.displacement({0: Finger(5e-5)}, times_s[during] - motion.end_s)[:, 0]
+    got = heavy[0][0, 0, during]
+    error, without = (np.std(one - expected) / np.std(expected) for one in (got, light[0, during]))
+    print(f"under 50 mg {error:.3f} of what a finger of that mass does, without {without:.2f}")
+    assert error < 0.03
+    assert without > 0.3
 
 
 @pytest.mark.parametrize("kind", ["chirp", "noise"])

@@ -50,6 +50,7 @@ def check_figures(board: Board, learned: Learned) -> dict[str, Any]:
         "delay_us": None if waves is None else round(waves.delay_s * 1e6, 1),
         "strength": None if waves is None else _number(np.nanmedian, np.diag(waves.strength)[channels], 2),
         "frame": None if learned.frame is None else learned.frame.in_words(),
+        "sensor_mass": None if learned.chain is None else learned.chain.in_words(),
         "channels": [
             {
                 "channel": channel,

@@ -20,6 +20,8 @@ Kind = Literal[
     "inverted",
     "clipped",
     "strength",
+    "unit",
+    "mass",
     "missing",
     "noisy",
     "delay",
@@ -29,8 +31,17 @@ Kind = Literal[
     "band",
     "frame",
     "undecided",
+    "load",
 ]
-FATAL: tuple[Kind, ...] = ("dead", "swapped", "inverted", "clipped", "strength")  # what makes a bank wrong, unless it is accepted
+FATAL: tuple[Kind, ...] = (
+    "dead",
+    "swapped",
+    "inverted",
+    "clipped",
+    "strength",
+    "unit",
+    "mass",
+)  # what makes a bank wrong, unless it is accepted
 
 DEAD_POWER = 1e-2  # of the median channel
 DEAD_COHERENCE = 0.2

@@ -19,9 +19,12 @@ from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
+from controller.workshop.calibration.frame import Frame, middle_m
 from controller.workshop.calibration.recording.excitation import Kind, drive_words
 from controller.workshop.calibration.records.measurement_file import MeasurementFile, Quantity, RecordsTable, WordsDrive
 from controller.workshop.calibration.records.measurement_writer import write_measurement, write_records
+from controller.workshop.physics.finger import point_receptance
+from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.modes.retuned import drifted
 from controller.workshop.physics.motion import PlateMotion
@@ -62,6 +65,13 @@ class Flaws:
     dead: tuple[int, ...] = ()  # dead, inverted: channels that do nothing, or are wired the other way round
     inverted: tuple[int, ...] = ()
     swapped: tuple[tuple[int, int], ...] = ()  # channels in each other's place
+    offset_m: tuple[float, float] = (0.0, 0.0)  # these four: frame in which the files state places (`Frame`)
+    rotation: float = 0.0
+    scale: float = 1.0
+    mirror: str = ""
+    position_m: float = 0.0  # standard deviation of each place from its stated one, along each axis
+    gain: float = 0.0  # standard deviation of the sensitivity from point to point, relative
+    sensor_mass_kg: float = 0.0  # that stands on the plate
 
 
 def simulate_measurement(
@@ -82,14 +92,16 @@ def simulate_measurement(
     settings = _settings(board, recording, faults)
     _claim(folder, {"board": board.digest().hex(), "plate": real.digest().hex(), **asdict(recording), **asdict(faults)}, points_m)
     write_measurement(folder, settings, names, points_m, words)
-    todo = _present(len(names), faults.missing, recording.seed)
+    places_m = _places(board, points_m, faults, recording.seed)
+    on_plate = np.all((places_m >= 0) & (places_m <= (board.plate.length_m, board.plate.width_m)), axis=1)
+    todo = [point for point in _present(len(names), faults.missing, recording.seed) if on_plate[point]]
     plate = _Plate(board, real, words, recording, faults)
-    rms, peak = plate.scale(points_m[:SCALE_POINTS])
-    sensor = _Sensor(rms * 10 ** (-faults.snr_db / 20), faults.clip * peak, recording.repetitions, recording.seed)
+    rms, peak = plate.scale(places_m[todo[:SCALE_POINTS]])
+    sensor = _Sensor(rms * 10 ** (-faults.snr_db / 20), faults.clip * peak, faults.gain, recording.repetitions, recording.seed)
     done = 0
     for drift, some in _blocks(todo, lambda point: faults.drift * point / max(len(names) - 1, 1)):
         wanted = [point for point in some if not (folder / settings.records.files.format(point=names[point])).exists()]
-        records = plate.records(points_m[wanted], drift) if wanted else ()
+        records = plate.records(places_m[wanted], drift) if wanted else ()
         for point, record in zip(wanted, records, strict=True):
             write_records(folder, settings, names[point], sensor.heard(record, point))
             progress(done := done + 1, len(todo))
@@ -114,19 +126,28 @@ def _present(count: int, missing: float, seed: int) -> list[int]:
     return [point for point in range(count) if point not in absent]
 
 
+def _places(board: Board, points_m: Floats, faults: Flaws, seed: int) -> Floats:
+    """Where stated points lie: in the frame that they are stated in, each off by an error of its own."""
+    frame = Frame(faults.mirror, faults.offset_m, faults.rotation, faults.scale)
+    own = np.random.default_rng([seed, len(points_m), 2]).standard_normal(points_m.shape)
+    return frame.places(points_m, middle_m(board)) + faults.position_m * own
+
+
 class _Sensor(NamedTuple):
-    """White noise of a standard deviation, and the largest value that it gives."""
+    """White noise of a standard deviation, the largest value that it gives, and how its sensitivity scatters."""
 
     noise: float
     full_scale: float
+    gain: float
     repetitions: int
     seed: int
 
     def heard(self, record: NDArray[np.float32], point: int) -> NDArray[np.float32]:
         """Repeated records of a point, (emission, repetition, sample), from one without noise, (emission, sample)."""
         own = np.random.default_rng([self.seed, point])
-        heard = record[:, None] + self.noise * own.standard_normal((len(record), self.repetitions, record.shape[1]))
-        return np.clip(heard, -self.full_scale, self.full_scale).astype(np.float32)
+        factor = float(np.exp(self.gain * np.random.default_rng([self.seed, point, 2]).standard_normal()))
+        heard = factor * record[:, None] + self.noise * own.standard_normal((len(record), self.repetitions, record.shape[1]))
+        return np.asarray(np.clip(heard, -self.full_scale, self.full_scale), np.float32)
 
 
 def _settings(board: Board, recording: RecordingSettings, faults: Flaws) -> MeasurementFile:
@@ -175,6 +196,7 @@ class _Plate:
         self._steps_v[:, list(faults.inverted)] *= -1
         self._step_s = np.arange(words.shape[1] + 1) * board.waveform.bit_period_s
         count = round((BEFORE_S + recording.record_s) * recording.rate_hz)
+        self._mass_kg, self._rate_hz = faults.sensor_mass_kg, recording.rate_hz
         self._times_s = faults.delay_s - BEFORE_S + np.arange(count) / (recording.rate_hz * (1 + faults.clock_ppm * 1e-6))
 
     def scale(self, points_m: Floats) -> tuple[float, float]:
@@ -188,7 +210,17 @@ class _Plate:
     def records(self, points_m: Floats, drift: float) -> NDArray[np.float32]:
         """Records without noise: (point, emission, sample)."""
         motion = PlateMotion(self._real, drifted(self.modes, drift) if drift else self.modes)
-        return motion.of_points(points_m, self._step_s, self._steps_v, self._times_s, self._quantity)
+        records = motion.of_points(points_m, self._step_s, self._steps_v, self._times_s, self._quantity)
+        return self._loaded(points_m, records, motion.modes) if self._mass_kg else records
+
+    def _loaded(self, points_m: Floats, records: NDArray[np.float32], modes: Modes) -> NDArray[np.float32]:
+        """Records of points under the sensor's mass, which begin and end at rest."""
+        length = 2 * records.shape[2]
+        s = np.asarray(2j * np.pi * np.fft.rfftfreq(length, 1 / self._rate_hz), np.complex128)
+        s[0] = 1.0
+        held = 1 + self._mass_kg * s[:, None] ** 2 * point_receptance(self._real, modes, points_m, s)
+        spectra = np.fft.rfft(records, length, axis=2) / held.T[:, None]
+        return np.fft.irfft(spectra, length, axis=2)[..., : records.shape[2]].astype(np.float32)
 
 
 def _wiring(faults: Flaws) -> list[int]:

@@ -84,6 +84,8 @@ class RecordsTable(Record, frozen=True):
     v_per_m: Positive | None = None
     v_per_m_s: Positive | None = None
     v_per_m_s2: Positive | None = None
+    # Of what stands on the plate; divided out. Left out: found from the waves, and divided out if it is surely not nil
+    sensor_mass_mg: NotNegative | None = None
     full_scale: Positive | None = None  # of WAV files and of whole numbers: what the largest number stands for, in `unit`
     track: Annotated[int, Meta(ge=1, le=64)] = 1  # of WAV files with several: which, counted from 1
     repetitions: Annotated[int, Meta(ge=1, le=10_000)] = 1  # how often each emission was played
