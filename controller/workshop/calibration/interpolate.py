@@ -77,7 +77,8 @@ def interpolate(
     if not median >= LEAST_KEPT:
         raise CalibrationError(
             f"points left out keep {median:.2f} of their amplitude at the median, below {LEAST_KEPT:g}: {len(points_m)} points are"
-            f" too few (calibrate plan proposes {scattered_count(board)} scattered ones), or their positions or records are wrong"
+            f" too few (calibrate plan proposes {scattered_count(board)} scattered ones), their places are off by 1 mm and more, or"
+            " their records are noise"
         )
     provenance = msgspec.structs.replace(
         learned.provenance, kind=found.kind, model=found.words, points=len(points_m), kept=(median, least)

@@ -99,7 +99,7 @@ def fit_waves(
     if best in (0, len(COARSE) - 1) or least > MOST_UNFORESEEN:
         raise CalibrationError(
             f"no waves within 7 % of the board's wavelengths explain what was measured at {len(whole)} points (of one left out,"
-            f" {least:.0%} of the energy is not foreseen): too few points, or check positions, channels, [plate]"
+            f" {least:.0%} of the energy is not foreseen): too few points, places off by 1 mm and more, or another [plate]"
         )
     factors = []
     for part in parts:
