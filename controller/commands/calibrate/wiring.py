@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from controller.workshop.calibration.learning import Learned
 
 WRONG, UNDECIDED = 1, 75  # exit codes; 75: EX_TEMPFAIL, try again
-KINDS = ("dead", "swapped", "inverted", "undecided")
+KINDS = ("dead", "swapped", "inverted", "unit", "mass", "undecided")
 
 
 def add(step: argparse.ArgumentParser) -> None:
