@@ -19,7 +19,6 @@ from controller.console import tell
 from controller.device.board.lookup import find_board
 from controller.device.fpga.bitstream import Figures, figures_path
 from controller.errors import ConfigError, GatewareError, UsageError
-from controller.workshop.gateware.fpga_part import check_top, find_part
 
 if TYPE_CHECKING:
     from controller.workshop.gateware.bitstream_build import FpgaDesign, PlacedDesign
@@ -40,6 +39,7 @@ def add(step: argparse.ArgumentParser) -> None:
 def gateware_build(options: argparse.Namespace) -> int:
     """Build a bitstream, and write its figures beside it."""
     from controller.workshop.gateware.bitstream_build import FpgaDesign, pack, synthesise
+    from controller.workshop.gateware.fpga_part import check_top, find_part
 
     folder = find_board(options.board)
     board = named_board(options.board)
