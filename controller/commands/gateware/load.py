@@ -35,7 +35,8 @@ def add(step: argparse.ArgumentParser) -> None:
 def gateware_load(options: argparse.Namespace) -> int:
     """Load a bitstream that the board's bring-up would take, while nothing else uses the board; the link stays silent."""
     board = load_board(find_board(options.board))
-    command = [] if board.link.kind == "simulated" else _command(board, flash=options.flash)
+    has_flash = board.link.kind == "simulated" and board.link.device  # a simulated panel that is another than board.toml says
+    command = [] if has_flash else _command(board, flash=options.flash)
     file = Path(options.file) if options.file else bitstream_path(board)
     if not file.is_file():
         raise ConfigError(f"{file}: there is no such bitstream: haptic-panel gateware build --board {options.board} --out {file}")
