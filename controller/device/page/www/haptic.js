@@ -189,19 +189,18 @@
   function look() {
     if (!plate || !panel.rights.includes("regions")) return false;
     const now = performance.now(), m = !document.hidden && mapping();
+    if (!document.hidden && now < sentAt + SEND_MS) return true;
     for (const [box, at] of scrolling) if (now > at + SETTLE_MS) changed = scrolling.delete(box);
     known = new Map();
     if (m && changed) changed = !(order = ordered());
     const regions = m ? order.flatMap((one) => region(one, m)).slice(0, 250) : [], text = JSON.stringify(regions);
     if (text === shown) return moving() || scrolling.size;
-    if (document.hidden || now > sentAt + SEND_MS) {
-      shown = text;
-      sentAt = now;
-      send({ kind: "regions", regions }).then((answer) => {
-        if (answer.kind !== "layer") shown = "";
-        tell("layer", { regions, answer });
-      });
-    }
+    shown = text;
+    sentAt = now;
+    send({ kind: "regions", regions }).then((answer) => {
+      if (answer.kind !== "layer") shown = "";
+      tell("layer", { regions, answer });
+    });
     return true;
   }
   const moving = () => [...roots].some((root) => root.getAnimations().some((one) => one.playState === "running"));
