@@ -31,7 +31,7 @@ SETUP: Final = (
     *("--touch-key", "interrupt_line=GPIO4"),
 )
 SENSOR: Final = "--repetitions", "1", "--noise", "1e-4", "--yes"  # noise in m/s: 40 dB
-UNDECIDED: Final = 75  # exit code of `calibrate wiring`: more points are needed
+UNDECIDED: Final = 75  # exit code of `calibrate wiring`: the points do not tell
 TAPS: Final = tuple((0.2 + 0.1 * number, 0.25 + 0.08 * (number * 4 % 7)) for number in range(7))  # shares of length and width
 TAP_S: Final = 0.1
 TAPS_APART_S: Final = 0.3
@@ -57,7 +57,7 @@ def rehearse(bench: Bench) -> Iterator[Done]:
     """
     wanted = faults_of(bench.wrong)
     folder, board = str(bench.folder), ("--board", str(bench.folder))
-    points, records, taps = (str(bench.folder / name) for name in ("points.csv", "measured", "taps.evemu"))
+    points, taps = (str(bench.folder / name) for name in ("points.csv", "taps.evemu"))
     yield from _step(bench, "setup", folder, *SETUP)
     bench.first = bench.board
     bench.solder()
@@ -67,9 +67,8 @@ def rehearse(bench: Bench) -> Iterator[Done]:
     yield from _step(bench, "doctor", "--link", *board)
     yield from _step(bench, "calibrate", "channels", *board)
     yield from _step(bench, "bank", "build", *board)
-    yield from _wiring(bench)
     yield from _step(bench, "calibrate", "plan", *board, "--out", points)
-    yield from _step(bench, "calibrate", "measure", records, *board, "--points", points, *SENSOR)
+    records = yield from _measured(bench, points)
     yield from _step(bench, "calibrate", "check", records, *board)
     yield from _step(bench, "calibrate", "bank", records, *board, "--model")
     (bench.folder / "taps.evemu").write_text(taps_on(bench.board), encoding="utf-8")
@@ -82,18 +81,15 @@ def rehearse(bench: Bench) -> Iterator[Done]:
         raise RehearsalError(f"nothing has named {', '.join(sorted(missed))}")
 
 
-def _wiring(bench: Bench) -> Iterator[Done]:
-    """A few points, as many as the verdict needs; others once wires were mended."""
+def _measured(bench: Bench, points: str) -> Generator[Done, None, str]:
+    """The folder of a measurement whose wires are right, or undecided; another one once they were mended."""
     board = "--board", str(bench.folder)
     for number in range(MOST_TRIES):
-        records, points = str(bench.folder / f"wires{number}"), str(bench.folder / f"wires{number}.csv")
-        done = yield from _called_and_mended(bench, "calibrate", "wiring", records, *board, "--points", points)
-        for _ in range(MOST_TRIES):
-            if done.code == UNDECIDED:
-                yield from _step(bench, "calibrate", "measure", records, *board, "--points", points, *SENSOR)
-                done = yield from _called_and_mended(bench, "calibrate", "wiring", records, *board, "--points", points)
-        if not done.code:
-            return
+        records = str(bench.folder / f"measured{number or ''}")
+        yield from _step(bench, "calibrate", "measure", records, *board, "--points", points, *SENSOR)
+        done = yield from _called_and_mended(bench, "calibrate", "wiring", records, *board)
+        if done.code in (0, UNDECIDED):
+            return records
         if not done.mended:
             break
     raise RehearsalError(f"{done.command}: exit code {done.code}: {done.said[-1]}")

@@ -1,0 +1,61 @@
+"""`haptic-panel rehearse`: the whole way of the page "A panel of your own", on a panel that is wrong as real ones are."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from controller.cli import main
+
+ROOT = Path(__file__).parents[3]
+BY_HAND = {"calibrate-touch", "record"}  # marks, and a finger's strokes: tests/kernel/container_commissioning.py
+
+
+@pytest.fixture
+def rehearsed(tmp_path, capsys, monkeypatch):
+    """What a rehearsal with this that is wrong has found, and its commands."""
+    monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "state"))
+
+    def rehearsed(text=None):
+        wrong = []
+        if text is not None:
+            (tmp_path / "wrong.toml").write_text(text)
+            wrong = ["--wrong", str(tmp_path / "wrong.toml")]
+        assert main(["rehearse", str(tmp_path / "panel"), *wrong, "--json"]) == 0, capsys.readouterr().err
+        return json.loads(capsys.readouterr().out)
+
+    return rehearsed
+
+
+@pytest.mark.slow
+def test_each_fault_is_named_and_mended_and_a_finger_feels_it(rehearsed):
+    """The command itself asks for 0.97 of what the plate that is there can do."""
+    done = rehearsed()
+    assert {"an empty FPGA", "swapped wires", "dead patches", "a dead interrupt line", "other stages", "another plate"} < set(
+        done["found"]
+    )
+    assert "a frame that is off" in done["found"]
+    assert "felt 7 pulses" in done["steps"][-1]["said"][0]
+
+
+@pytest.mark.slow
+def test_quadrants_of_one_disc_that_are_swapped_are_named_by_a_sensor(rehearsed):
+    assert rehearsed("swapped = [[1, 2]]")["found"] == ["swapped wires"]
+
+
+def test_the_walk_has_each_command_of_the_page():
+    page = (ROOT / "boards/README.md").read_text().split("## A panel of your own")[1].split("```")[1]
+    walked = (ROOT / "controller/workshop/simulation/rehearsal.py").read_text()
+    for command, option in re.findall(r"^haptic-panel ([\w-]+) ?([\w-]*)", page, re.MULTILINE):
+        if command in BY_HAND:
+            continue
+        said = rf'"{command}"' if option.startswith("--") or command in ("setup", "run") else rf'"{command}", "{option}"'
+        assert said in walked, f"{command} {option}"
+
+
+def test_a_folder_that_is_there_is_one_line(tmp_path, capsys):
+    assert main(["rehearse", str(tmp_path)]) == 1
+    err = capsys.readouterr().err
+    assert "exists already" in err
+    assert err.count("\n") == 1
