@@ -18,6 +18,7 @@ complete haptic-panel \
         'c/--fingers=/(0 1 2 3 4)/' \
         'c/--file=/f/' \
         'c/--wrong=/f/' \
+        'c/--netlist=/f/' \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--when=/(command press enter leave)/' \
@@ -28,14 +29,15 @@ complete haptic-panel \
         'c/--points=/f/' \
         'c/--rate-khz=/f/' \
         'c/--drive=/(chirp noise)/' \
-        'c/--accept=/(dead swapped inverted clipped strength)/' \
+        'c/--accept=/(dead swapped inverted clipped unit mass strength)/' \
         'c/--quantity=/(m m/s m/s^2)/' \
+        'c/--mirror=/(x y xy)/' \
         'c/--targets=/(3 4 5)/' \
         'c/--gateware=/f/' \
         'c/--passphrase-file=/f/' \
         'c/--role=/(root targets snapshot timestamp)/' \
         'c/--settings=/f/' \
-        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s counter dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from full-scale gateware ghosts glass grid held help high-hz host idle-figures inductance-h inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc no-chirps no-pictures no-skip no-timing noise once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port power publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root same-as scattered scene screen-length-mm screen-width-mm seconds sectors seed seeds sensor serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold top touch touch-key touched-s v-per-m v-per-m-s v-per-m-s2 verbose version wheels when width-mm work workers write wrong www yes young-modulus-pa)/' \
+        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s counter csv dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from full-scale gain-percent gateware ghosts glass grid held help high-hz host idle-figures inductance-h inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter mirror missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc netlist no-chirps no-pictures no-skip no-timing noise offset-mm once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port position-mm power publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root rotation-deg same-as scale scattered scene screen-length-mm screen-width-mm seconds sectors seed seeds sensor sensor-mass-mg serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold top touch touch-key touched-s v-per-m v-per-m-s v-per-m-s2 verbose version wheels when width-mm work workers write wrong www yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -47,6 +49,7 @@ complete haptic-panel \
         'n/--fingers/(0 1 2 3 4)/' \
         'n/--file/f/' \
         'n/--wrong/f/' \
+        'n/--netlist/f/' \
         'n/--out/f/' \
         'n/--optimise/(contrast quiet balanced)/' \
         'n/--when/(command press enter leave)/' \
@@ -57,8 +60,9 @@ complete haptic-panel \
         'n/--points/f/' \
         'n/--rate-khz/f/' \
         'n/--drive/(chirp noise)/' \
-        'n/--accept/(dead swapped inverted clipped strength)/' \
+        'n/--accept/(dead swapped inverted clipped unit mass strength)/' \
         'n/--quantity/(m m/s m/s^2)/' \
+        'n/--mirror/(x y xy)/' \
         'n/--targets/(3 4 5)/' \
         'n/--gateware/f/' \
         'n/--passphrase-file/f/' \
@@ -66,7 +70,7 @@ complete haptic-panel \
         'n/--settings/f/' \
         'p/1/(run serve status client doctor setup rehearse board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)/' \
         'n/client/(play touches contacts emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)/' \
-        'n/board/(check reference schema)/' \
+        'n/board/(check bom reference schema)/' \
         'n/gateware/(check build info load)/' \
         'n/bank/(build choices info verify)/' \
         'n/effect/(import export)/' \
