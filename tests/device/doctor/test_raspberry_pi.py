@@ -96,6 +96,12 @@ def test_what_is_set_otherwise_is_one_line_with_what_to_do(found, path, text, ab
     assert advice in found(**{path.replace("/", "__"): text})[about].said
 
 
+@each_row(("core", "others"), [(0, "1-3"), (1, "0"), (2, "0-1"), (3, "0-2")])
+def test_interrupts_go_to_the_cores_below_that_of_the_loop(found, core, others):
+    said = found(realtime=Realtime(cpu=core), sys__devices__system__cpu__isolated="")["isolated core"].said
+    assert f"isolcpus={core} irqaffinity={others} to " in said
+
+
 def test_a_loop_without_a_core_of_its_own_is_informed_which_to_take(found):
     assert "set realtime.cpu = 3 in board.toml" in found(realtime=Realtime())["isolated core"].said
     said = found(realtime=Realtime(), sys__devices__system__cpu__isolated="")["isolated core"].said

@@ -358,3 +358,13 @@ def test_in_the_loop_a_tap_waits_for_the_end_of_the_shadow_of_the_spot_that_the_
     assert 3 <= len(at_once) <= 4  # 18 of 50 ms
     waits_s = sorted(late_s)[len(at_once) :]  # until the same instant, from taps 5 ms apart
     assert [after - before for before, after in pairwise(waits_s)] == pytest.approx([5e-3] * (len(waits_s) - 1), abs=1e-3)
+
+
+def test_when_there_is_quiet_time_again_is_known_once_all_of_it_was_used():
+    budget = QuietBudget(0.01)
+    assert budget.begin(0.0, 0.1)
+    budget.end(0.1)  # the reserve of a burst
+    assert not budget.begin(0.1, 0.13)
+    assert budget.retry_s == pytest.approx(0.115), "after half as long, two thirds of all time may be quiet"
+    assert not budget.begin(0.114, 0.144)
+    assert budget.begin(0.1151, 0.1451)
