@@ -42,6 +42,7 @@ def test_packing_copies_nothing_but_into_the_frame():
 def count_crcs(monkeypatch):
     """Lengths of what is read for a CRC from now on, by the kernel's twin: what the compiled one does is the same."""
     checked = []
+    twin.number_changes(512)  # made once
 
     class CountingZlib:
         @staticmethod
@@ -66,7 +67,6 @@ def test_composed_words_are_read_for_the_crcs_of_frames_and_slot_and_ready_frame
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
     fpga = open_session(link, board, clock.now_s)
-    twin.number_changes(512)  # made once
     checked = count_crcs(monkeypatch)
     fpga.upload(0, waveform)
     assert [size for size in checked if size > frames.FRAME_BYTES] == crcs
