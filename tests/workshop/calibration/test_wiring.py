@@ -115,7 +115,7 @@ def test_the_points_that_are_needed_follow_from_the_error():
     alone = wiring_of(None, range(8), range(8), 3)
     assert (alone.undecided, alone.points_needed) == (tuple(range(8)), FIRST_POINTS)
     (said,) = wrong_wires(alone, range(8))
-    assert said.message.startswith("undecided: all 8 channels: 3 points do not tell")
+    assert said.message.startswith("undecided: all 8 channels: measured points (3) do not tell")
     assert "measure about 5 more" in said.message
 
 

@@ -119,10 +119,10 @@ def wrong_wires(wiring: Wiring, alive: Sequence[int]) -> list[Objection]:
         found.append(Objection("inverted", text, off))
     if unknown := wiring.undecided:
         which = f"all {len(unknown)} channels" if len(unknown) == len(alive) else _channels(unknown, "")
+        more = wiring.points_needed - wiring.points
         text = (
-            f"undecided: {which}: {wiring.points} points do not tell which patch such a channel drives, nor its sign; measure about"
-            f" {wiring.points_needed - wiring.points} more, 30 mm and more from the edges;"
-            " places that are 2 mm off hide it too"
+            f"undecided: {which}: measured points ({wiring.points}) do not tell which patch such a channel drives, nor its sign;"
+            f" measure about {more} more, 30 mm and more from the edges; places that are 2 mm off hide it too"
         )
         found.append(Objection("undecided", text, unknown))
     return found
