@@ -63,7 +63,7 @@ def rehearse(bench: Bench) -> Iterator[Done]:
     bench.first = bench.board
     bench.solder()
     yield from _step(bench, "board", "check", folder)
-    yield from _step(bench, "doctor", "--link", *board)
+    yield from _called_and_mended(bench, "doctor", "--link", *board)  # the bank is not there yet, for one
     yield from _step(bench, "bank", "build", *board)
     yield from _step(bench, "doctor", "--link", *board)
     yield from _step(bench, "calibrate", "channels", *board)
@@ -100,8 +100,6 @@ def _step(bench: Bench, *arguments: str) -> Iterator[Done]:
     """Run a command, mend what it says, and run it again until it says nothing more."""
     for _ in range(MOST_TRIES):
         done = yield from _called_and_mended(bench, *arguments)
-        if "doctor" in arguments and done.mended:
-            return  # it is called again once the bank is there
         if not done.mended:
             break
     if done.code:
