@@ -39,11 +39,6 @@ def test_each_fault_is_named_and_mended_and_a_finger_feels_it(rehearsed):
     assert "felt 7 pulses" in done["steps"][-1]["said"][0]
 
 
-@pytest.mark.slow
-def test_quadrants_of_one_disc_that_are_swapped_are_named_by_a_sensor(rehearsed):
-    assert rehearsed("swapped = [[1, 2]]")["found"] == ["swapped wires"]
-
-
 def test_the_walk_has_each_command_of_the_page():
     page = (ROOT / "boards/README.md").read_text().split("## A panel of your own")[1].split("```")[1]
     walked = (ROOT / "controller/workshop/simulation/rehearsal.py").read_text()
