@@ -48,6 +48,12 @@ def add(step: argparse.ArgumentParser) -> None:
     for name, unit in SENSITIVITIES.items():
         option = "--" + name.replace("_", "-")
         how.add_argument(option, type=float, metavar="S", help=f"the sensor's sensitivity: V per {unit.replace('^2', '²')}")
+    step.add_argument(
+        "--sensor-mass-mg",
+        type=float,
+        metavar="M",
+        help="of what stands on the plate; 0: contactless, as on a simulated panel (default: found from the waves)",
+    )
     step.add_argument("--drive", choices=["chirp", "noise"], default="chirp", help="1-bit sequence that is played (default: chirp)")
     step.add_argument("--record-ms", type=float, metavar="MS", help="length of a record (default: an emission and 8 decay times)")
     step.add_argument("--repetitions", type=int, default=4, metavar="N", help="of each emission (default: 4)")
@@ -154,6 +160,7 @@ def _settings(options: argparse.Namespace, board: Board, recorder: Recorder, fir
     from controller.workshop.calibration.records.measurement_file import MeasurementFile, RecordsTable, WordsDrive
 
     sensitivity = {name: getattr(options, name) for name in SENSITIVITIES if getattr(options, name) is not None}
+    simulated = not (options.alsa or options.serial)
     return MeasurementFile(
         date=date_now(),
         sample_rate_hz=recorder.rate_hz,
@@ -163,6 +170,7 @@ def _settings(options: argparse.Namespace, board: Board, recorder: Recorder, fir
         records=RecordsTable(
             files="records/{point}.npy",
             unit="V" if sensitivity else "m/s",
+            sensor_mass_mg=0.0 if simulated and options.sensor_mass_mg is None else options.sensor_mass_mg,
             repetitions=options.repetitions,
             first_sample_us=0.0 if recorder.triggered else first_us,
             **sensitivity,
@@ -216,9 +224,11 @@ def _check(options: argparse.Namespace, board: Board) -> None:
         raise UsageError("a sensitivity is of use with --alsa or --serial")
     ranges = {"rate_khz": (2e-3 * board.waveform.band_high_hz, 1e5), "full_scale": (1e-9, 1e6), "repetitions": (1, 1000)}
     ranges |= {"baud": (9600, 12_000_000), "noise": (0, 1e3)}
-    optional = {"record_ms": (board.waveform.duration_ms, 1e3), "temperature_c": (-50, 150)} | dict.fromkeys(
-        SENSITIVITIES, (1e-9, 1e12)
-    )
+    optional = {
+        "record_ms": (board.waveform.duration_ms, 1e3),
+        "temperature_c": (-50, 150),
+        "sensor_mass_mg": (0, 1e4),
+    } | dict.fromkeys(SENSITIVITIES, (1e-9, 1e12))
     ranges |= {name: bounds for name, bounds in optional.items() if getattr(options, name) is not None}
     for name, (least, most) in ranges.items():
         if not least <= getattr(options, name) <= most:  # NaN too

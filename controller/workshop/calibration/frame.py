@@ -73,13 +73,17 @@ class Frame:
         found: Floats = (points_m - middle_m) @ turned.T + middle_m + self.offset_m
         return found
 
-    def differs(self, board: Board, points_m: Floats) -> bool:
-        """Whether it is surely another frame than the stated one, and not by so little that patches and edges leave it open."""
+    @property
+    def sure(self) -> tuple[bool, ...]:
+        """Whether offset along x, offset along y, rotation and scale are surely not nil."""
         off = (*self.offset_m, self.rotation, self.scale - 1)
         errors = (*self.offset_error_m, self.rotation_error, self.scale_error)
-        sure = bool(self.mirror) or any(abs(value) > SURE * error for value, error in zip(off, errors, strict=True))
+        return tuple(abs(value) > SURE * error for value, error in zip(off, errors, strict=True))
+
+    def differs(self, board: Board, points_m: Floats) -> bool:
+        """Whether it is surely another frame than the stated one, and not by so little that patches and edges leave it open."""
         moved_m = self.places(points_m, middle_m(board)) - points_m
-        return sure and float(np.hypot(moved_m[:, 0], moved_m[:, 1]).max()) > MOVED_M
+        return (bool(self.mirror) or any(self.sure)) and float(np.hypot(moved_m[:, 0], moved_m[:, 1]).max()) > MOVED_M
 
     def in_words(self) -> str:
         """Figures with their standard deviations."""
@@ -127,6 +131,12 @@ def locate(
         many = _records(board, bins, points_m, transfers, resolved, MANY, part)
         for _ in range(STEPS):
             frame, factor = _step(many, frame, factor)
+    if not all(frame.sure):  # what the waves leave open is as stated, and the rest is found once more
+        x, y, turned, stretched = sure = frame.sure
+        offset_m = (frame.offset_m[0] * x, frame.offset_m[1] * y)
+        frame = replace(frame, offset_m=offset_m, rotation=frame.rotation * turned, scale=frame.scale if stretched else 1.0)
+        for _ in range(STEPS):
+            frame, factor = _step(many, frame, factor, sure)
     inside = np.abs([*frame.offset_m, frame.rotation, frame.scale - 1]) < WIDEST
     frame = replace(frame, factor=factor)
     return frame if inside.all() and _coherence(few, frame, factor) > KEPT * coherence else None
@@ -191,8 +201,8 @@ def _coherence(few: _Records, frame: Frame, factor: float) -> float:
     return float(np.divide(sums, power, out=np.zeros(k.size), where=power > 0).mean())
 
 
-def _step(many: _Records, frame: Frame, factor: float) -> tuple[Frame, float]:
-    """One of Gauss and Newton's steps, for offset, rotation, scale and wavenumber together."""
+def _step(many: _Records, frame: Frame, factor: float, free: tuple[bool, ...] = (True,) * 4) -> tuple[Frame, float]:
+    """One of Gauss and Newton's steps, for the wavenumber and what of offset, rotation and scale is free, together."""
     places_m = frame.places(many.points_m, middle_m(many.board))
     wave = direct_wave(many.board, many.frequency_hz, many.bins.bit_clock_hz, places_m, factor, many.patches)
     wave = wave * np.any(many.values, axis=2, keepdims=True)
@@ -216,10 +226,13 @@ def _step(many: _Records, frame: Frame, factor: float) -> tuple[Frame, float]:
     left = many.values - common * wave
     normal = np.einsum("apqf,bpqf->pab", columns.conj(), columns, optimize=True).real
     right = np.einsum("apqf,pqf->pa", columns.conj(), left, optimize=True).real
-    change = np.linalg.solve(normal.sum(axis=0), right.sum(axis=0))
+    fitted = np.flatnonzero((*free, True))
+    normal, right = normal[:, fitted[:, None], fitted], right[:, fitted]
+    change, error = np.zeros(5), np.array([*frame.offset_error_m, frame.rotation_error, frame.scale_error, 0.0])
+    change[fitted] = np.linalg.solve(normal.sum(axis=0), right.sum(axis=0))
     parts = [np.arange(len(normal)) % GROUPS != group for group in range(GROUPS)]
     without = np.array([np.linalg.solve(normal[some].sum(axis=0), right[some].sum(axis=0)) for some in parts])
-    error = np.sqrt((GROUPS - 1) * without.var(axis=0))  # the jackknife
+    error[fitted] = np.sqrt((GROUPS - 1) * without.var(axis=0))  # the jackknife
     limit = np.clip(change, *(np.array([-1, 1])[:, None] * [2e-3, 2e-3, 0.02, 0.02, 0.02]))
     x_m, y_m, rotation, scale, wavenumber = limit.tolist()
     return replace(

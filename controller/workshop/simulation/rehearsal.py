@@ -31,7 +31,6 @@ SETUP: Final = (
     *("--touch-key", "interrupt_line=GPIO4"),
 )
 SENSOR: Final = "--repetitions", "1", "--noise", "1e-4", "--yes"  # noise in m/s: 40 dB
-CONTACTLESS: Final = "--accept", "mass"  # what looks like a mass of the sensor is none: other stages may look like one
 UNDECIDED: Final = 75  # exit code of `calibrate wiring`: the points do not tell
 TAPS: Final = tuple((0.2 + 0.1 * number, 0.25 + 0.08 * (number * 4 % 7)) for number in range(7))  # shares of length and width
 TAP_S: Final = 0.1
@@ -71,7 +70,7 @@ def rehearse(bench: Bench) -> Iterator[Done]:
     yield from _step(bench, "calibrate", "plan", *board, "--out", points)
     records = yield from _measured(bench, points)
     yield from _step(bench, "calibrate", "check", records, *board)
-    yield from _step(bench, "calibrate", "bank", records, *board, "--model", *CONTACTLESS)
+    yield from _step(bench, "calibrate", "bank", records, *board, "--model")
     (bench.folder / "taps.evemu").write_text(taps_on(bench.board), encoding="utf-8")
     *_, felt = played = list(_step(bench, "run", *board, "--replay", taps, "--speed", "max"))
     yield from played

@@ -39,6 +39,12 @@ def test_each_fault_is_named_and_mended_and_a_finger_feels_it(rehearsed):
     assert "felt 7 pulses" in done["steps"][-1]["said"][0]
 
 
+@pytest.mark.slow
+def test_a_swap_within_a_disc_is_named_by_the_sensor(rehearsed):
+    done = rehearsed("swapped = [[1, 2]]\n")
+    assert "swapped wires" in done["found"]
+
+
 def test_the_walk_has_each_command_of_the_page():
     page = (ROOT / "boards/README.md").read_text().split("## A panel of your own")[1].split("```")[1]
     walked = (ROOT / "controller/workshop/simulation/rehearsal.py").read_text()
