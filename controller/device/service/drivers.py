@@ -21,7 +21,6 @@ from controller.device.touch.drivers.awaited_reader import AwaitedReader
 from controller.device.touch.drivers.panel_process import PanelProcess, PanelSettings
 from controller.device.touch.event_reader import EventReader
 from controller.device.touch.live_source import LiveSource
-from controller.device.touch.prediction import Motion
 from controller.device.touch.source import TouchSource
 from controller.device.touch.tracker import Tracker
 from controller.errors import ConfigError, TouchError
@@ -127,11 +126,9 @@ def await_panel(board: Board) -> AwaitedReader | PanelProcess:
     return reader
 
 
-def tracked(
-    source: TouchSource, board: Board, bridged: Callable[[int, int], None] | None = None, motion: type[Motion] = Motion
-) -> Tracker:
-    """Tracker of a board for a source of touches; for `bridged` and `motion` see `Tracker`."""
-    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged, motion)
+def tracked(source: TouchSource, board: Board, bridged: Callable[[int, int], None] | None = None) -> Tracker:
+    """Tracker of a board for a source of touches; for `bridged` see `Tracker`."""
+    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged)
 
 
 def await_thermometer(board: Board) -> Thermometer | None:

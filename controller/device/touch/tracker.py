@@ -77,7 +77,6 @@ class Tracker:
         width_m: float,
         # Called when a finger was lost and found again, with its number and that of the source's new contact
         bridged: Callable[[int, int], None] | None = None,
-        motion: type[Motion] = Motion,  # another predictor, for comparisons
     ) -> None:
         self.counts: Counts = source.counts  # reports, contacts and fingers of the source
         self.touched = False  # of the source: see `TouchSource.touched`
@@ -87,7 +86,6 @@ class Tracker:
         self._source = source
         self.fileno, self.close = source.fileno, source.close
         self._bridged = bridged
-        self._motion = motion
         self._lag_s = settings.lag_s
         self._confirm_reports = settings.confirm_reports
         self._length_m, self._width_m = length_m, width_m
@@ -249,7 +247,7 @@ class Tracker:
             return found
         if not self.rate.measured and self._gone is not None:
             self._learn(self._gone, x_m, y_m, time_s)
-        contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
+        contact = _Contact(finger, Motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
         contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
         self.tracking.held_back += contact.suspect

@@ -61,7 +61,8 @@ class SensorChain:
         if mass_kg > MOST_DIVIDED_KG and (self.loads or stated_mg is not None):
             said = self.in_words() if stated_mg is None else f"{stated_mg:g} mg"
             most = f"up to {1e6 * MOST_DIVIDED_KG:.0f} mg can be corrected"
-            text = f"the sensor's mass, {said}, holds the plate back: {most}; take a lighter sensor; if it is contactless, state sensor_mass_mg = 0"
+            lighter = "take a lighter one; a contactless one: sensor_mass_mg = 0"
+            text = f"the sensor's mass, {said}, holds the plate back: {most}; {lighter}"
             return [Objection("mass", text)]
         if self.loads and stated_mg is None:
             text = f"a sensor of {self.in_words()} seems to stand on the plate: corrected; records.sensor_mass_mg states it"

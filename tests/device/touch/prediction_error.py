@@ -13,7 +13,6 @@ import numpy as np
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.service.drivers import tracked
-from controller.device.touch.prediction import Motion
 from controller.device.touch.recordings.recording import Recording, Track
 from controller.device.touch.recordings.replay import RecordingSource
 
@@ -25,44 +24,37 @@ START_M = 0.05
 PHASES = 20
 
 
-class LastReport(Motion):
-    """No prediction: the place last reported."""
-
-    def report(self, x_m, y_m, time_s):
-        self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
-
-
-def measure(recordings, motion):
-    """Median, 95th percentile and worst error in mm over all recordings, by horizon in ms."""
+def measure(recordings, *, predicted=True):
+    """Median, 95th percentile and worst error in mm over all recordings, by horizon in ms; else of the places last reported."""
     recordings = list(recordings)
     found = {}
     for horizon_ms in HORIZONS_MS:
-        off_mm = 1e3 * np.concatenate([errors_m(recording, motion, horizon_ms * 1e-3) for recording in recordings])
+        off_mm = 1e3 * np.concatenate([errors_m(recording, horizon_ms * 1e-3, predicted=predicted) for recording in recordings])
         found[f"{horizon_ms:g}"] = {"median": np.median(off_mm), "p95": np.quantile(off_mm, 0.95), "worst": off_mm.max()}
     return found
 
 
-def errors_m(recording, motion, ahead_s):
+def errors_m(recording, ahead_s, *, predicted=True):
     """Distances in m of the predictions from the recorded tracks, but for those beyond the end of a track."""
-    asked, tracks = _asked(recording, _board(), motion, ahead_s)
+    asked, tracks = _asked(recording, _board(), ahead_s, predicted=predicted)
     later = [(place, tracks[finger], now_s + ahead_s + _board().touch.lag_s) for finger, now_s, place in asked]
     return np.array([math.dist(place, track.position(at_s)) for place, track, at_s in later if at_s <= track.end_s])
 
 
-def overshoot_m(motion, *, turns):
+def overshoot_m(*, turns):
     """How far predictions overshoot a finger that stops, or `turns` back, once a report shows it: the farthest of all phases."""
     farthest = -math.inf
     for phase in range(PHASES):
         steps, stop = np.arange(60), 30 + phase / PHASES
         way = np.where(steps <= stop, steps, 2 * stop - steps if turns else stop)
-        along = _predictions(way * PERIOD_S * SPEED_M_PER_S, phase, motion)[:, 0] - START_M - stop * PERIOD_S * SPEED_M_PER_S
+        along = _predictions(way * PERIOD_S * SPEED_M_PER_S, phase)[:, 0] - START_M - stop * PERIOD_S * SPEED_M_PER_S
         farthest = max(farthest, along[math.floor(stop) + 2 :].max())
     return farthest
 
 
-def rest_m(motion):
-    """Range of predictions for a finger at rest, from its 20th report on."""
-    return max(np.ptp(_predictions(np.zeros(100), seed, motion)[20:], axis=0).max() for seed in range(PHASES))
+def rest_m(*, predicted=True):
+    """Range of predictions, or of reports, for a finger at rest, from its 20th report on."""
+    return max(np.ptp(_predictions(np.zeros(100), seed, predicted=predicted)[20:], axis=0).max() for seed in range(PHASES))
 
 
 @cache
@@ -70,23 +62,26 @@ def _board():
     return load_board(find_board("simulated"))
 
 
-def _asked(recording, board, motion, ahead_s):
-    """(finger, time_s, predicted place) after each report, and the recorded track of each finger."""
+def _asked(recording, board, ahead_s, *, predicted=True):
+    """(finger, time_s, its predicted or last place) after each report, and the recorded track of each finger."""
     axes = recording.axes(board)
     contacts = recording.tracks(axes)
     parts = {finger: [track] for finger, track in contacts.items()}
     source = RecordingSource(recording, axes, 0.0)
-    tracker = tracked(source, board, lambda finger, contact: parts[finger].append(contacts[contact]), motion)
-    asked, down = [], set()
+    tracker = tracked(source, board, lambda finger, contact: parts[finger].append(contacts[contact]))
+    asked, down = [], {}
     while (now_s := tracker.next_time_s()) is not None:
         for sample in tracker.read(now_s):
-            (down.add if sample.contact else down.discard)(sample.finger)
+            down.pop(sample.finger, None)
+            if sample.contact:
+                down[sample.finger] = sample.x_m, sample.y_m
         if tracker.touched:
-            asked += [(finger, now_s, place) for finger in down if (place := tracker.predict(finger, now_s + ahead_s)) is not None]
+            there = {finger: tracker.predict(finger, now_s + ahead_s) if predicted else last for finger, last in down.items()}
+            asked += [(finger, now_s, place) for finger, place in there.items() if place is not None]
     return asked, {finger: Track.joined(finger, found) for finger, found in parts.items()}
 
 
-def _predictions(along_m, seed, motion):
+def _predictions(along_m, seed, *, predicted=True):
     """(report, 2) predictions for a synthesised finger along x, with latency, noise and resolution of a panel."""
     noise = np.random.default_rng(seed).normal(0, SIGMA_M, (2, len(along_m)))
     raw = np.rint((noise + np.array([along_m, 0 * along_m]) + START_M) * 1e4).astype(int)
@@ -94,5 +89,5 @@ def _predictions(along_m, seed, motion):
     for k, (x, y) in enumerate(raw.T.tolist()):
         lines += [f"E: {k * PERIOD_S:.6f} {code}\n" for code in (f"0003 0035 {x}", f"0003 0036 {y}", "0000 0000 0")]
     lagging = msgspec.structs.replace(_board(), touch=msgspec.structs.replace(_board().touch, lag_ms=LAG_MS))
-    asked, _ = _asked(Recording("".join(lines)), lagging, motion, AHEAD_S)
+    asked, _ = _asked(Recording("".join(lines)), lagging, AHEAD_S, predicted=predicted)
     return np.array([place for *_, place in asked])

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from prediction_error import HORIZONS_MS, LastReport, measure, overshoot_m, rest_m
+from prediction_error import HORIZONS_MS, measure, overshoot_m, rest_m
 from scripted_source import ScriptedSource, touch
 
 from controller.device.board.touch_panels import TouchPanel
@@ -47,7 +47,7 @@ def recorded():
 
 @pytest.fixture(scope="module")
 def ours(recorded):
-    return measure(recorded, Motion)
+    return measure(recorded)
 
 
 @given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.floats(0, 0.015), st.floats(0.004, 0.012))
@@ -172,7 +172,7 @@ def test_on_the_recordings_it_is_as_good_as_the_readme_says(ours):
 
 
 def test_on_the_recordings_it_is_several_times_better_than_no_prediction(ours, recorded):
-    for horizon_ms, none in measure(recorded, LastReport).items():
+    for horizon_ms, none in measure(recorded, predicted=False).items():
         assert ours[horizon_ms]["p95"] < none["p95"] / 3
         assert ours[horizon_ms]["median"] < none["median"] / 4
 
@@ -188,7 +188,7 @@ def test_the_figures_are_of_the_call_that_the_loop_makes(perform, evemu_text, mo
 
     monkeypatch.setattr(Tracker, "predict", elsewhere)
     reports = [(k * PERIOD_S, {0: (85.0, 54.0 + 0.5 * k)}) for k in range(60)]
-    for error_mm in measure([Recording(evemu_text(*reports))], Motion).values():
+    for error_mm in measure([Recording(evemu_text(*reports))]).values():
         assert error_mm["median"] == pytest.approx(20.6, abs=1.0)
     assert {round(ahead_s * 1e3, 6) for ahead_s in asked_ahead_s} == {*HORIZONS_MS}
     asked_ahead_s.clear()
@@ -198,19 +198,19 @@ def test_the_figures_are_of_the_call_that_the_loop_makes(perform, evemu_text, mo
 
 
 def test_stops_turns_and_rest_are_met_as_the_readme_says():
-    assert overshoot_m(Motion, turns=False) < 0.7e-3
-    assert overshoot_m(Motion, turns=True) < 0
-    assert rest_m(Motion) == 0
-    assert rest_m(LastReport) > 0.2e-3
+    assert overshoot_m(turns=False) < 0.7e-3
+    assert overshoot_m(turns=True) < 0
+    assert rest_m() == 0
+    assert rest_m(predicted=False) > 0.2e-3
 
 
 def test_it_is_exact_on_a_straight_line_and_an_error_of_one_percent_is_seen(evemu_text):
     recording = Recording(evemu_text(*[(k * 8e-3, {0: (20 + 1.6 * k, 50)}) for k in range(90)]))
-    assert measure([recording], LastReport)["10"]["median"] == pytest.approx(2.0, rel=0.009)
-    assert measure([recording], Motion)["10"]["median"] < 0.02
+    assert measure([recording], predicted=False)["10"]["median"] == pytest.approx(2.0, rel=0.009)
+    assert measure([recording])["10"]["median"] < 0.02
 
 
 def test_a_finger_that_the_panel_loses_in_between_is_measured_as_one(evemu_text):
     recording = Recording(evemu_text(*[(k * 8e-3, {0: None if k == 30 else (20 + 1.6 * k, 50)}) for k in range(90)]))
-    assert measure([recording], LastReport)["20"]["median"] == pytest.approx(4.0, rel=0.009)
-    assert measure([recording], Motion)["20"]["worst"] < 4.1  # at its first report
+    assert measure([recording], predicted=False)["20"]["median"] == pytest.approx(4.0, rel=0.009)
+    assert measure([recording])["20"]["worst"] < 4.1  # at its first report
