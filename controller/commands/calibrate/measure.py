@@ -85,9 +85,8 @@ def measure(options: argparse.Namespace) -> int:
     record_s = board.waveform.duration_s + ring_s if options.record_ms is None else options.record_ms * 1e-3
     names, points_m = read_points(Path(options.points), board)
     words = drive_words(board, options.drive)
-    simulated = board.link.kind == "simulated"
-    clock: Clock = VirtualClock() if simulated else MonotonicClock()
-    simulation = open_simulated(board, clock.now_s) if simulated else None
+    clock: Clock = VirtualClock() if board.link.kind == "simulated" else MonotonicClock()
+    simulation = open_simulated(board, clock.now_s) if isinstance(clock, VirtualClock) else None
     recorder = _recorder(options)
     link: Link = simulation or open_link(board, clock.now_s, unhurried=True)
     try:
@@ -105,10 +104,9 @@ def measure(options: argparse.Namespace) -> int:
         excitation = Excitation(words, options.repetitions, period_s(board, ring_s), record_s)
         played = InPlace(session, board, clock, used, excitation, sync_channel=sync)
         for done, index in enumerate(missing, len(names) - len(missing)):
-            x_m, y_m = points_m[index]
             if sensor is not None:
                 sensor.place_m = frame.place_m(points_m[index])
-            _move(options, names[index], done, len(names), x_m * 1e3, y_m * 1e3, ask=sensor is None)
+            _move(options, names[index], done, len(names), *(points_m[index] * 1e3), ask=sensor is None)
             write_records(folder, settings, names[index], _measured(played, names[index]).astype("float32"))
     except KeyboardInterrupt:
         tell(f"the outputs are off; the same command goes on with what {options.folder} lacks")

@@ -38,7 +38,7 @@ MAX_MOUSE_PERIOD_S: Final = 10e-3  # the lag is uncertain by half of it
 Array = NDArray[np.float64]
 
 
-class Track(NamedTuple):
+class TimedPlaces(NamedTuple):
     """When something was where: times in s, (n,), and places, (n, 2), in m or in counts."""
 
     at_s: Array
@@ -66,7 +66,7 @@ def lag_figures(recording: Recording, board: Board) -> LagFigures:
     return lag_of(_finger(recording, board), _mouse(recording))
 
 
-def lag_of(finger: Track, mouse: Track) -> LagFigures:
+def lag_of(finger: TimedPlaces, mouse: TimedPlaces) -> LagFigures:
     """Evaluate the tracks of one finger and of a mouse that moved with it; raises CalibrationError as `lag_figures` does."""
     if (period_s := _period_s(mouse.at_s)) > MAX_MOUSE_PERIOD_S:
         raise CalibrationError(f"the mouse reports every {period_s * 1e3:.0f} ms: take one that reports at least every 8 ms")
@@ -95,7 +95,7 @@ def lag_of(finger: Track, mouse: Track) -> LagFigures:
     return LagFigures(max(lag_s, 0.0) * 1e3, error_s * 1e3, period_s * 1e3, turns, len(windows), residual_m * 1e3)
 
 
-def _mouse(recording: Recording) -> Track:
+def _mouse(recording: Recording) -> TimedPlaces:
     """The mouse's reports, and its accumulated counts."""
     steps: dict[float, list[int]] = {}
     for kind, code, value, time_s in recording.events:
@@ -105,14 +105,14 @@ def _mouse(recording: Recording) -> Track:
         raise CalibrationError(
             f"{recording.name} has no mouse in it: make one with calibrate-touch --lag --reference DEVICE --out FILE"
         )
-    return Track(np.array(list(steps)), np.cumsum(np.array(list(steps.values()), np.float64), axis=0))
+    return TimedPlaces(np.array(list(steps)), np.cumsum(np.array(list(steps.values()), np.float64), axis=0))
 
 
 def _period_s(at_s: Array) -> float:
     return float(np.median(np.diff(at_s)))
 
 
-def _finger(recording: Recording, board: Board) -> Track:
+def _finger(recording: Recording, board: Board) -> TimedPlaces:
     """The finger's positions in m."""
     source = RecordingSource(recording, recording.axes(board), 0.0)
     reports: list[tuple[float, float, float]] = []
@@ -125,12 +125,12 @@ def _finger(recording: Recording, board: Board) -> Track:
     return finger_track(reports)
 
 
-def finger_track(reports: list[tuple[float, float, float]]) -> Track:
+def finger_track(reports: list[tuple[float, float, float]]) -> TimedPlaces:
     """The track of a finger's reports (time in s, x and y in m); raises CalibrationError if there are next to none."""
     if len(reports) < MIN_REPORTS:
         raise CalibrationError("no finger slid over the panel")
     table = np.array(reports)
-    return Track(table[:, 0], table[:, 1:])
+    return TimedPlaces(table[:, 0], table[:, 1:])
 
 
 def _turns(positions_m: Array) -> int:
@@ -161,13 +161,13 @@ def _windows(at_s: Array, positions_m: Array) -> list[NDArray[np.intp]]:
     return found
 
 
-def _counts(mouse: Track, at_s: Array) -> Array:
+def _counts(mouse: TimedPlaces, at_s: Array) -> Array:
     """The mouse's counts at times `at_s`, (n, 2), linear between its reports."""
     times_s, counts = mouse
     return np.stack([np.interp(at_s, times_s, counts[:, axis]) for axis in (0, 1)], axis=1)
 
 
-def _fit(at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse: Track, lag_s: float) -> tuple[float, Array]:
+def _fit(at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse: TimedPlaces, lag_s: float) -> tuple[float, Array]:
     """Rms residual in m, and the (2, 2) map from counts to m that fits all windows best, each about its own mean."""
     counts = _counts(mouse, at_s - lag_s)
     here = np.concatenate([counts[window] - counts[window].mean(axis=0) for window in windows])
@@ -176,7 +176,7 @@ def _fit(at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse
     return float(np.sqrt(np.mean(np.sum((here @ map_of - there) ** 2, axis=1)))), map_of
 
 
-def _lag_of(at_s: Array, positions_m: Array, mouse: Track, map_of: Array, near_s: float) -> float:
+def _lag_of(at_s: Array, positions_m: Array, mouse: TimedPlaces, map_of: Array, near_s: float) -> float:
     """Least-squares lag of one window within 15 ms of `near_s`, refined by a parabola through the minimum."""
     lags_s = near_s + np.arange(-15e-3, 15.05e-3, 0.5e-3)
     errors = []

@@ -10,7 +10,7 @@ import numpy as np
 
 from controller.device.page.mouse_steps import ArrivedSteps
 from controller.device.touch_calibration.clock_offset import ClockOffset
-from controller.device.touch_calibration.lag_figures import Track
+from controller.device.touch_calibration.lag_figures import TimedPlaces
 from controller.errors import CalibrationError
 
 STDIN: Final = 0
@@ -42,7 +42,7 @@ class PageMouse:
             age_ms = message.sent_ms - at_ms
             self._youngest_ms, self._oldest_ms = min(self._youngest_ms, age_ms), max(self._oldest_ms, age_ms)
 
-    def track(self) -> tuple[Track, float]:
+    def track(self) -> tuple[TimedPlaces, float]:
         """When the mouse was where, by our clock, and how far off these times may be.
 
         Raises
@@ -62,7 +62,7 @@ class PageMouse:
         at_s, index = np.unique(steps[:, 0] * 1e-3 + self._clock.offset_s, return_index=True)
         counts = np.cumsum(steps[:, 1:], axis=0)
         last = np.append(index[1:], len(steps)) - 1  # of the steps of one time
-        return Track(at_s, counts[last]), max(error_s, 0.0)
+        return TimedPlaces(at_s, counts[last]), max(error_s, 0.0)
 
 
 class StandardInput:

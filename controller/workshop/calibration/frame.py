@@ -54,7 +54,7 @@ MIRRORS = {  # from stated coordinates to those of the plate, about its middle
 
 
 @dataclass(frozen=True)
-class Frame:
+class MeasuringFrame:
     """How stated places become those on the plate: mirrored, turned and stretched about the plate's middle, then moved."""
 
     mirror: str = ""  # a key of `MIRRORS`
@@ -119,7 +119,7 @@ def locate(
     points_m: Floats,  # (point, 2): as stated
     transfers: NDArray[np.complexfloating],  # (point, 32, bin)
     resolved: NDArray[np.bool_],  # (point, 32)
-) -> Frame | None:
+) -> MeasuringFrame | None:
     """Find the frame; None from too few points, or if the direct waves do not stand out in any."""
     if len(points_m) < LEAST_POINTS:
         return None
@@ -176,10 +176,10 @@ def _some(count: int, most: int) -> NDArray[np.intp]:
     return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
 
 
-def _search(few: _Records) -> tuple[Frame, float, float]:
+def _search(few: _Records) -> tuple[MeasuringFrame, float, float]:
     """The best frame of the lattice, its factor on the wavenumber, and its coherence."""
     frames = [
-        Frame(mirror, (x_m, y_m), rotation, scale)
+        MeasuringFrame(mirror, (x_m, y_m), rotation, scale)
         for mirror, rotation, scale, x_m, y_m in product(MIRRORS, ROTATIONS, SCALES, OFFSETS_M, OFFSETS_M)
     ]
     found = sorted(((_coherence(few, frame, 1.0), -number) for number, frame in enumerate(frames)), reverse=True)
@@ -190,7 +190,7 @@ def _search(few: _Records) -> tuple[Frame, float, float]:
     return frames[-at], FACTORS[-less], coherence
 
 
-def _coherence(few: _Records, frame: Frame, factor: float) -> float:
+def _coherence(few: _Records, frame: MeasuringFrame, factor: float) -> float:
     """Of records and waves without directivity, whose phase alone says where they come from."""
     k = factor * Dispersion.of(few.board.plate).wavenumber(few.frequency_hz)
     away_m = frame.places(few.points_m, middle_m(few.board))[:, None] - few.places_m
@@ -201,7 +201,9 @@ def _coherence(few: _Records, frame: Frame, factor: float) -> float:
     return float(np.divide(sums, power, out=np.zeros(k.size), where=power > 0).mean())
 
 
-def _step(many: _Records, frame: Frame, factor: float, free: tuple[bool, ...] = (True,) * 4) -> tuple[Frame, float]:
+def _step(
+    many: _Records, frame: MeasuringFrame, factor: float, free: tuple[bool, ...] = (True,) * 4
+) -> tuple[MeasuringFrame, float]:
     """One of Gauss and Newton's steps, for the wavenumber and what of offset, rotation and scale is free, together."""
     places_m = frame.places(many.points_m, middle_m(many.board))
     wave = direct_wave(many.board, many.frequency_hz, many.bins.bit_clock_hz, places_m, factor, many.patches)

@@ -16,7 +16,7 @@ from controller.workshop.calibration.checking.findings import findings_of, remar
 from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
-from controller.workshop.calibration.frame import Frame, locate, middle_m
+from controller.workshop.calibration.frame import MeasuringFrame, locate, middle_m
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.point_cache import PointCache
 from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
@@ -42,7 +42,7 @@ class Learned:
     clock: RecorderClock
     delay_s: float  # by which what happened is later in the records than they say; corrected
     waves: DirectWaves | None
-    frame: Frame | None  # of the points' stated places; corrected if it is another one than they say. None: not found
+    frame: MeasuringFrame | None  # of the points' stated places; corrected if it is another one than they say. None: not found
     wiring: Wiring
     chain: SensorChain | None  # what all records have in common; its mass is divided out. None: without a frame
     excited_hz: tuple[float, float]  # what was played excites this band
@@ -126,7 +126,7 @@ def _clock_and_delay(
 
 def _located(
     measurement: Measurement, board: Board, deconvolution: Deconvolution, results: dict[int, Transfers]
-) -> tuple[Frame | None, Measurement, list[Objection]]:
+) -> tuple[MeasuringFrame | None, Measurement, list[Objection]]:
     """The frame of the points, the measurement with their places on the plate, and what is said of it."""
     points, stated_m = list(results), measurement.points_m
     frame = locate(board, deconvolution.bins, stated_m[points], *_stacked(results))
@@ -145,7 +145,7 @@ def _unloaded(
     board: Board,
     deconvolution: Deconvolution,
     results: dict[int, Transfers],
-    frame: Frame,
+    frame: MeasuringFrame,
     around_s: float,
 ) -> tuple[SensorChain, dict[int, Transfers]]:
     """What all records have in common, and transfer functions without the sensor's mass."""

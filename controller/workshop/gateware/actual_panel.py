@@ -52,7 +52,7 @@ class SensorFrame(Record, frozen=True, kw_only=True):
         return place_m
 
 
-class Touch(Record, frozen=True, kw_only=True):
+class ActualTouch(Record, frozen=True, kw_only=True):
     """The touch panel's wires."""
 
     interrupt: bool = True  # whether its interrupt line arrives
@@ -71,7 +71,7 @@ class ActualPanel(Record, frozen=True, kw_only=True):
     driver: dict[str, Any] = msgspec.field(default_factory=dict)
     actuators: tuple[ActualPatch, ...] | None = None  # those that move; None: as board.toml says
     frame: SensorFrame = SensorFrame()
-    touch: Touch = Touch()
+    touch: ActualTouch = ActualTouch()
     fpga: Fpga | None = None  # None: it has the board's gateware
 
     def of(self, board: Board) -> Board:

@@ -12,7 +12,7 @@ from controller.device.page.mouse_steps import ArrivedSteps
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch_calibration import lag_figures
 from controller.device.touch_calibration.clock_offset import ClockOffset
-from controller.device.touch_calibration.lag_figures import Track, lag_of
+from controller.device.touch_calibration.lag_figures import TimedPlaces, lag_of
 from controller.device.touch_calibration.page_mouse import MAX_CLOCK_ERROR_S, PageMouse
 from controller.errors import CalibrationError
 from controller.workshop.simulation.simulated_strokes import SimulatedStrokes
@@ -54,7 +54,7 @@ def test_the_lag_is_found_within_what_is_said_and_an_error_of_a_hundredth_of_the
     within_ms = figures.error_ms + figures.mouse_ms / 2 + clock_s * 1e3 + 0.3
     assert figures.lag_ms == pytest.approx(LAG_S * 1e3, abs=within_ms)
     for wrong_s in (0.01 * RANGE_S, -0.01 * RANGE_S):
-        late = lag_of(finger, Track(seen.at_s + wrong_s, seen.places))
+        late = lag_of(finger, TimedPlaces(seen.at_s + wrong_s, seen.places))
         assert late.lag_ms == pytest.approx(figures.lag_ms - wrong_s * 1e3, abs=0.1)
         assert abs(late.lag_ms - LAG_S * 1e3) > 0.5
 
@@ -63,9 +63,9 @@ def test_a_clock_of_the_other_sign_finds_nothing():
     finger, mouse = strokes()
     seen, _ = told(mouse).track()
     with pytest.raises(CalibrationError):
-        lag_of(finger, Track(seen.at_s - 2 * OFFSET_S, seen.places))
+        lag_of(finger, TimedPlaces(seen.at_s - 2 * OFFSET_S, seen.places))
     with pytest.raises(CalibrationError, match="did not move together"):
-        lag_of(finger, Track(2 * seen.at_s.mean() - seen.at_s[::-1], seen.places[::-1]))
+        lag_of(finger, TimedPlaces(2 * seen.at_s.mean() - seen.at_s[::-1], seen.places[::-1]))
 
 
 def test_the_offset_is_where_it_is_said_to_be_however_long_messages_take():

@@ -7,7 +7,7 @@ from small_plate import WHOLE, small_board
 from workshop.calibration.true_plate import TruePlate
 
 from controller.workshop.calibration.direct_wave import direct_transfer
-from controller.workshop.calibration.frame import MIRRORS, Frame, locate, middle_m
+from controller.workshop.calibration.frame import MIRRORS, MeasuringFrame, locate, middle_m
 from controller.workshop.calibration.point_plan import scattered_points
 from controller.workshop.calibration.transfers import RawBins
 
@@ -17,9 +17,9 @@ BOARD = msgspec.structs.replace(  # two discs at opposite corners: at one edge t
 )
 STATED_M = scattered_points(BOARD, 120, 5e-3)
 FRAMES = (
-    Frame(offset_m=(2e-3, -1e-3)),
-    Frame(rotation=0.03),
-    Frame("x runs the other way", offset_m=(0.0, 1e-3)),
+    MeasuringFrame(offset_m=(2e-3, -1e-3)),
+    MeasuringFrame(rotation=0.03),
+    MeasuringFrame("x runs the other way", offset_m=(0.0, 1e-3)),
 )
 
 
@@ -55,7 +55,7 @@ def test_direct_waves_alone_give_the_frame_to_a_tenth_of_a_millimetre():
     """On the paper's plate, under four times as much of something else; 1 % of scale would be a millimetre."""
     random, bins = np.random.default_rng(3), RawBins.of(WHOLE, 2e-3)
     stated_m = random.uniform(0.02, 0.98, (100, 2)) * 2 * middle_m(WHOLE)
-    true = Frame("y runs the other way", (-1.5e-3, 3e-3), rotation=-0.02, scale=1.015)
+    true = MeasuringFrame("y runs the other way", (-1.5e-3, 3e-3), rotation=-0.02, scale=1.015)
     actual_m = true.places(stated_m, middle_m(WHOLE))
     waves = direct_transfer(WHOLE, bins, actual_m, 1.01)
     other = random.standard_normal((2, *waves.shape)) * np.abs(waves).std(axis=2, keepdims=True) * 4

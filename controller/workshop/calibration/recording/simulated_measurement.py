@@ -19,7 +19,7 @@ from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
-from controller.workshop.calibration.frame import Frame, middle_m
+from controller.workshop.calibration.frame import MeasuringFrame, middle_m
 from controller.workshop.calibration.recording.excitation import Kind, drive_words
 from controller.workshop.calibration.records.measurement_file import MeasurementFile, Quantity, RecordsTable, WordsDrive
 from controller.workshop.calibration.records.measurement_writer import write_measurement, write_records
@@ -65,7 +65,7 @@ class Flaws:
     dead: tuple[int, ...] = ()  # dead, inverted: channels that do nothing, or are wired the other way round
     inverted: tuple[int, ...] = ()
     swapped: tuple[tuple[int, int], ...] = ()  # channels in each other's place
-    offset_m: tuple[float, float] = (0.0, 0.0)  # these four: frame in which the files state places (`Frame`)
+    offset_m: tuple[float, float] = (0.0, 0.0)  # these four: frame in which the files state places (`MeasuringFrame`)
     rotation: float = 0.0
     scale: float = 1.0
     mirror: str = ""
@@ -128,7 +128,7 @@ def _present(count: int, missing: float, seed: int) -> list[int]:
 
 def _places(board: Board, points_m: Floats, faults: Flaws, seed: int) -> Floats:
     """Where stated points lie: in the frame that they are stated in, each off by an error of its own."""
-    frame = Frame(faults.mirror, faults.offset_m, faults.rotation, faults.scale)
+    frame = MeasuringFrame(faults.mirror, faults.offset_m, faults.rotation, faults.scale)
     own = np.random.default_rng([seed, len(points_m), 2]).standard_normal(points_m.shape)
     return frame.places(points_m, middle_m(board)) + faults.position_m * own
 
