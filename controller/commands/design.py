@@ -96,6 +96,13 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--felt-um", type=float, default=FELT_UM, metavar="µm", help="amplitude under the finger that --find wants"
     )
+    command.add_argument(
+        "--price",
+        action="append",
+        default=[],
+        metavar="NAME=COST",
+        help="with --find, the cheapest first: what a channel with its stage costs (channel=4), and a disc (7BB-20-6=0.8, disc=1); without a price it costs nothing",
+    )
     command.add_argument("--disc", help="piezo disc of the catalogue, in place of the board's: C, R, L and moment follow")
     command.add_argument("--sectors", type=int, metavar="N", help="actuators that a disc is cut into")
     numbers = command.add_argument_group("parameters of the design")
@@ -114,6 +121,8 @@ def design(options: argparse.Namespace) -> int:
 
     if options.plot and not options.sweep:
         raise ConfigError("--plot draws a sweep: give --sweep NAME=FROM:TO:STEP too")
+    if options.price and not options.find:
+        raise ConfigError("--price is of use with --find")
     if options.find and options.sweep:
         raise ConfigError("--find and --sweep: give one of both")
     picture = picture_path(options)
@@ -151,10 +160,24 @@ def _find(options: argparse.Namespace, board: Board, changes: dict[str, float], 
 
     if not options.felt_um > 0:
         raise ConfigError(f"--felt-um {options.felt_um:g}: must be above 0")
-    rows = find_designs(board, changes, parts, options.find.split(","), options.felt_um)
+    rows = find_designs(board, changes, parts, options.find.split(","), options.felt_um, _prices(options.price))
     reached = rows[0]["amplitude_under_finger_um"] >= options.felt_um
     show(options, {"board": board.name, "felt_um": options.felt_um, "reached": reached, "designs": rows}, _found_table)
     return 0 if reached else 1
+
+
+def _prices(given: list[str]) -> dict[str, float]:
+    """Costs by name, of NAME=COST."""
+    prices = {}
+    for text in given:
+        name, _, cost = text.partition("=")
+        try:
+            prices[name] = float(cost)
+        except ValueError:
+            prices[name] = -1.0
+        if not 0 <= prices[name] < 1e9:
+            raise ConfigError(f"--price {text}: must be NAME=COST, a number from 0")
+    return prices
 
 
 def _plot(picture: Path, figures: dict[str, Any]) -> None:
@@ -178,8 +201,11 @@ def _table(figures: dict[str, Any]) -> str:
 
 def _found_table(figures: dict[str, Any]) -> str:
     reached = figures["reached"]
-    said = f"{'Fewest channels that reach' if reached else 'None reaches'} {figures['felt_um']:g} µm under the finger"
-    rows = [FOUND, *([_shown(row[name]) for name in FOUND] for row in figures["designs"])]
+    priced = "cost" in figures["designs"][0]
+    least = "Cheapest" if priced else "Fewest channels"
+    said = f"{f'{least} that reach' if reached else 'None reaches'} {figures['felt_um']:g} µm under the finger"
+    names = ("cost", *FOUND) if priced else FOUND
+    rows = [names, *([_shown(row[name]) for name in names] for row in figures["designs"])]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     table = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows]
     return "\n".join([f"{said}{'' if reached else '; the strongest'}:", *table])

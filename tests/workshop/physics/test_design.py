@@ -186,6 +186,19 @@ def test_a_search_finds_the_fewest_channels_that_reach_it(searched, felt_um):
             assert found["amplitude_under_finger_um"] < felt_um
 
 
+def test_with_prices_the_cheapest_come_first_and_a_disc_without_a_price_is_left_out():
+    """Five of the smaller discs are dearer than four of the larger; at three times their price they are not."""
+    prices = {"channel": 4.0, "7BB-20-6": 0.8, "7BB-27-4": 1.1}
+    rows = find_designs(BOARD, {}, None, ("thickness", "channels", "disc"), 3.0, prices)
+    assert {row["disc"] for row in rows} == {"7BB-20-6", "7BB-27-4"}
+    assert [row["cost"] for row in rows] == sorted(4.0 * row["channels"] + prices[row["disc"]] * row["discs"] for row in rows)
+    assert rows[0]["disc"] == "7BB-27-4"
+    dear = find_designs(BOARD, {}, None, ("thickness", "channels", "disc"), 3.0, prices | {"7BB-27-4": 10.0})
+    assert dear[0]["disc"] == "7BB-20-6"
+    anything = find_designs(BOARD, {}, None, ("channels", "disc"), 3.0, {"channel": 1.0})
+    assert len({row["disc"] for row in anything}) > 2, "discs cost nothing"
+
+
 def test_a_search_that_finds_nothing_gives_the_strongest():
     (row,) = find_designs(BOARD, {"supply_v": 5.0}, None, ("thickness", "disc"), 3.0)
     assert row["amplitude_under_finger_um"] < 3.0

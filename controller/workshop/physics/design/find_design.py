@@ -24,16 +24,21 @@ SHOWN: Final = ("spot_mm", "contrast_outside", "resistors_w", "edge_limit_khz")
 
 
 def find_designs(
-    board: Board, changes: Mapping[str, float], parts: Parts | None, searched: Sequence[str], felt_um: float
+    board: Board,
+    changes: Mapping[str, float],
+    parts: Parts | None,
+    searched: Sequence[str],
+    felt_um: float,
+    prices: Mapping[str, float] | None = None,  # of a channel with its stage ("channel"), of a disc by its name, or of any ("disc")
 ) -> list[dict[str, Any]]:
     """At most `MOST_ROWS` panels that reach `felt_um` under the finger: those of the fewest channels, of these the strongest.
 
     `changes` are numbers that stand; `searched`, of `SEARCHED`, may differ; if no panel reaches it, the strongest alone is
-    returned. `parts` None: as the board. Raises ConfigError if a number stands and is searched, what is searched is unknown, or no
-    panel is possible.
+    returned. With `prices` the cheapest come first, and a disc without a price is not searched. `parts` None: as the board. Raises
+    ConfigError if a number stands and is searched, what is searched or has a price is unknown, or no panel is possible.
     """
-    _check(changes, parts, searched)
-    discs = [msgspec.structs.replace(parts or board.parts or ASSUMED, disc=name) for name in catalogue()]
+    _check(changes, parts, searched, prices)
+    discs = [msgspec.structs.replace(parts or board.parts or ASSUMED, disc=name) for name in catalogue() if _priced(name, prices)]
     found: list[_Found] = []
     refused = ""
     for one in discs if "disc" in searched else [parts]:
@@ -46,8 +51,8 @@ def find_designs(
     if not found:
         raise ConfigError(f"--find: no such panel is possible ({refused})")
     best = sorted((one for one in found if one.felt_um >= felt_um), key=lambda one: (one.numbers.get("channels"), -one.felt_um))
-    rows = [_row(board, one) for one in best[:MOST_ROWS] or [max(found, key=lambda one: one.felt_um)]]
-    return sorted(rows, key=lambda row: (row["channels"], row["resistors_w"]))
+    rows = [_row(board, one, prices) for one in (best if prices else best[:MOST_ROWS]) or [max(found, key=lambda one: one.felt_um)]]
+    return sorted(rows, key=lambda row: (row.get("cost", 0), row["channels"], row["resistors_w"]))[:MOST_ROWS]
 
 
 class _Found(NamedTuple):
@@ -69,7 +74,14 @@ def _fewest(board: Board, numbers: Mapping[str, float], parts: Parts | None, fel
     return _as_given(board, {**numbers, "channels": min(max(discs, 1) * sectors, most)}, parts)
 
 
-def _check(changes: Mapping[str, float], parts: Parts | None, searched: Sequence[str]) -> None:
+def _priced(disc: str, prices: Mapping[str, float] | None) -> bool:
+    return not prices or not prices.keys() - {"channel"} or disc in prices or "disc" in prices
+
+
+def _check(changes: Mapping[str, float], parts: Parts | None, searched: Sequence[str], prices: Mapping[str, float] | None) -> None:
+    for name in prices or {}:
+        if name not in (known := ("channel", "disc", *catalogue())):
+            raise ConfigError(f"--price {name}: must be one of {', '.join(known)}")
     for name in searched:
         if name not in SEARCHED:
             raise ConfigError(f"--find {','.join(searched)}: {name!r} cannot be searched: one or more of {','.join(SEARCHED)}")
@@ -79,14 +91,18 @@ def _check(changes: Mapping[str, float], parts: Parts | None, searched: Sequence
             raise ConfigError(f"--find {','.join(searched)}: {name} is given too: leave out one of both")
 
 
-def _row(board: Board, found: _Found) -> dict[str, Any]:
+def _row(board: Board, found: _Found, prices: Mapping[str, float] | None) -> dict[str, Any]:
     figures = design_figures(board, found.numbers, found.parts)
     given, of = figures["inputs"], found.parts or board.parts or ASSUMED
+    disc, discs = of.disc if isinstance(of.disc, str) else "own", math.ceil(given["channels"] / of.sectors)
+    costs = prices or {}
+    cost = discs * costs.get(disc, costs.get("disc", 0.0)) + given["channels"] * costs.get("channel", 0.0)
     return {
         "thickness_mm": given["thickness_mm"],
-        "disc": of.disc if isinstance(of.disc, str) else "own",
-        "discs": math.ceil(given["channels"] / of.sectors),
+        "disc": disc,
+        "discs": discs,
         "channels": given["channels"],
+        **({"cost": cost} if prices else {}),
         "amplitude_under_finger_um": figures["amplitude_under_finger_um"],
         **{name: figures[name] for name in SHOWN},
         **{name: given[name] for name in ("resistance_ohm", "inductance_h", "capacitance_f")},
