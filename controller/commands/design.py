@@ -101,7 +101,8 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME=COST",
-        help="with --find, the cheapest first: what a channel with its stage costs (channel=4), and a disc (7BB-20-6=0.8, disc=1); without a price it costs nothing",
+        help="with --find, the cheapest first: what a channel with its stage costs (channel=4), and a disc (7BB-20-6=0.8, disc=1); "
+        "what has no price costs nothing",
     )
     command.add_argument("--disc", help="piezo disc of the catalogue, in place of the board's: C, R, L and moment follow")
     command.add_argument("--sectors", type=int, metavar="N", help="actuators that a disc is cut into")
