@@ -49,7 +49,7 @@ def measured(folder, flaws, unit=None, points=250, mass_mg=None):
         ("--position-mm 0.5", 0.95, None),
         ("--gain-percent 20", 0.97, None),
         ("--drift-percent 0.3", 0.97, None),
-        ("--sensor-mass-mg 10", 0.965, None),
+        ("--sensor-mass-mg 10", 0.97, None),
         ("--sensor-mass-mg 10", 0.97, 10.0),
         ("--offset-mm 2 0 --rotation-deg -1 --position-mm 0.3 --gain-percent 15 --drift-percent 0.2", 0.97, None),
     ],
