@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,34 +14,9 @@ from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.direct_wave import DirectWaves
 
 Floats = NDArray[np.float64]
-Kind = Literal[
-    "dead",
-    "swapped",
-    "inverted",
-    "clipped",
-    "strength",
-    "unit",
-    "mass",
-    "missing",
-    "noisy",
-    "delay",
-    "clock",
-    "board",
-    "short",
-    "band",
-    "frame",
-    "undecided",
-    "load",
-]
-FATAL: tuple[Kind, ...] = (
-    "dead",
-    "swapped",
-    "inverted",
-    "clipped",
-    "strength",
-    "unit",
-    "mass",
-)  # what makes a bank wrong, unless it is accepted
+FatalKind = Literal["dead", "swapped", "inverted", "clipped", "strength", "unit", "mass"]
+Kind = FatalKind | Literal["missing", "noisy", "delay", "clock", "board", "short", "band", "frame", "undecided", "load"]
+FATAL: tuple[Kind, ...] = get_args(FatalKind)  # what makes a bank wrong, unless it is accepted
 
 DEAD_POWER = 1e-2  # of the median channel
 DEAD_COHERENCE = 0.2
