@@ -9,7 +9,9 @@ import pytest
 from workshop.calibration.exact_records import BIT_CLOCK_HZ, NAMES, POINTS_M, board, displacement, noisy
 
 from controller.cli import main
+from controller.commands.calibrate.check import ACCEPTED
 from controller.device.board.board import load_board
+from controller.workshop.calibration.checking.checks import FATAL
 from controller.workshop.calibration.records.measurement_file import MeasurementFile, RecordsTable, WordsDrive
 from controller.workshop.calibration.records.measurement_writer import write_measurement
 
@@ -110,3 +112,7 @@ def test_what_makes_a_wrong_bank_ends_with_78_unless_it_is_accepted(measured, tm
     code, figures, err = checked(capsys, (tmp_path / "nowhere", panel))
     assert (code, figures) == (78, None)
     assert "measurement.toml: cannot be read" in err
+
+
+def test_what_makes_a_bank_wrong_is_what_may_be_accepted():
+    assert set(ACCEPTED) == set(FATAL)
