@@ -36,7 +36,7 @@ BANDS = [
 def test_bank_focus_and_twin_have_the_modes_of_the_band(board, tmp_path, band):
     """Before, all stopped at 100 kHz: above it the focus was of nothing."""
     panel = with_band(board, *band, thickness_mm=3.0)  # a sixth of the modes
-    cut_hz = mode_cut_hz(panel.waveform)
+    cut_hz = mode_cut_hz(panel)
     model, twin = ResponseModel(panel), PlateTwin(panel)
     assert band[1] * 1.2 < model.plate_modes.angular_frequency[-1] / (2 * np.pi) <= cut_hz
     assert np.array_equal(model.plate_modes.angular_frequency, twin.modes.angular_frequency)

@@ -61,4 +61,4 @@ class BankRequest:
     @property
     def highest_mode_hz(self) -> float:
         """`highest_hz`, or its default."""
-        return mode_cut_hz(self.board.waveform) if self.highest_hz is None else self.highest_hz
+        return mode_cut_hz(self.board) if self.highest_hz is None else self.highest_hz

@@ -127,6 +127,10 @@ JUST = {
     "_focus_width": ({"plate__thickness_mm": WIDE_MM * 0.999}, {"plate__thickness_mm": WIDE_MM * 1.001}),
     "_modes": ({"waveform__band_low_hz": HIGH - 1.001 * MODES_HZ}, {"waveform__band_low_hz": HIGH - 0.999 * MODES_HZ}),
     "_decay": ({"plate__decay_time_ms": 0.667}, {"plate__decay_time_ms": 0.666}),
+    "_resolved": (
+        {"waveform__band_low_hz": 500.0, "waveform__band_high_hz": 700.0},
+        {"waveform__band_low_hz": 500.0, "waveform__band_high_hz": 699.0},
+    ),
     "_periods": ({"waveform__duration_ms": 0.2}, {"waveform__duration_ms": 0.198}),
     "_bit_ticks": ({"link__clock_hz": 2_000_000, "link__sck_hz": 10**6}, {"link__clock_hz": 1_999_999, "link__sck_hz": 900_000}),
     "_bit_period": (
@@ -329,6 +333,14 @@ def test_the_slowest_bit_clock_has_to_be_whole_clocks():
 def test_decay_is_that_of_the_longest():
     decays = (DecayAt(frequency_hz=20e3, decay_time_ms=0.1), DecayAt(frequency_hz=70e3, decay_time_ms=0.7))
     assert not list(NAMED["_decay"].broken(changed(BOARD, plate__damping=Damping(decay_times=decays))))
+
+
+@each_row(("low_hz", "clock_hz"), [(499.0, 500e3), (1e-3, 500e3), (5e-324, 2e6), (99.0, 100e3)])
+def test_a_band_that_an_emission_cannot_tell_from_rest_is_refused(low_hz, clock_hz):
+    waveform = {"band_low_hz": low_hz, "band_high_hz": 40e3, "bit_clock_hz": clock_hz, "duration_ms": 0.5}
+    board = changed(BOARD, **{f"waveform__{key}": value for key, value in waveform.items()})
+    (line,) = NAMED["_resolved"].broken(board)
+    assert f"tell no less than {clock_hz / 1000:g} Hz from rest" in line
 
 
 def test_pulses_of_hv_alive_are_those_of_the_gateware():

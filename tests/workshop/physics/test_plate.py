@@ -1,12 +1,29 @@
 import msgspec
 import numpy as np
 import pytest
+from device.board.changed_board import changed
+from hypothesis import given
+from hypothesis import strategies as st
 from tables import each_row
 
+from controller.device.bank.packing import channel_bits
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
 from controller.device.board.panel import Actuator, Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
+from controller.device.board.relations.checked import RELATIONS
 from controller.errors import ConfigError
 from controller.workshop.physics.modes.closed_form import SimplySupported
+from controller.workshop.physics.modes.ritz import longest_matrix
+from controller.workshop.physics.modes.ritz_modes import LONGEST_MATRIX, plate_shape
+from controller.workshop.physics.plate import mode_cut_hz
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.responses.modal_response import transform_length
+
+BOARD = load_board(find_board("simulated"))
+FLOOR = {"plate__length_mm": 4000.0, "plate__width_mm": 3000.0, "plate__thickness_mm": 20.0}
+LOW = {"waveform__band_low_hz": 1e3, "waveform__band_high_hz": 8e3, "waveform__bit_clock_hz": 100e3, "waveform__duration_ms": 10.0}
+MIXED = {"x0": "clamped", "x1": "free", "y0": "simply_supported", "y1": "free"}
 
 PAPER = Plate(
     length_mm=210.0,
@@ -95,3 +112,52 @@ def test_a_plate_with_more_modes_than_can_be_computed_with_is_refused():
     vast = msgspec.structs.replace(PAPER, length_mm=2000.0, width_mm=2000.0)
     with pytest.raises(ConfigError, match="more than 30000 modes"):
         SimplySupported.of(vast, 100e3)
+
+
+def test_modes_reach_100_khz_on_small_plates_and_on_a_floor_as_far_as_its_band_needs():
+    assert mode_cut_hz(BOARD) == 100e3
+    assert mode_cut_hz(changed(BOARD, waveform__band_high_hz=200e3)) == pytest.approx(200e3 * 10 / 7)
+    assert mode_cut_hz(changed(BOARD, **LOW)) == 100e3
+    floor = changed(BOARD, **FLOOR, **LOW)
+    assert 8e3 * 10 / 7 < mode_cut_hz(floor) < 13e3
+    assert SimplySupported.of(floor.plate, mode_cut_hz(floor)).count == pytest.approx(2200, rel=0.05)
+    thinner = changed(floor, plate__thickness_mm=10.0)
+    assert mode_cut_hz(thinner) == pytest.approx(8e3 * 10 / 7), "its band asks for more modes than are few"
+    wavenumber2 = 2 * np.pi * mode_cut_hz(floor) * np.sqrt(2510.0 * 20e-3 / bending_stiffness(floor.plate))
+    mixed = plate_shape(msgspec.convert(msgspec.to_builtins(floor.plate) | {"edges": MIXED}, Plate))
+    assert longest_matrix(mixed, wavenumber2**0.5) < LONGEST_MATRIX, "edges of which none is like the opposite one"
+
+
+@each_row(("inductance_h", "resistance_ohm", "most"), [(6.8e-3, 2e3, 0.014), (0.6254, 19.22e3, 0.004)])
+def test_modes_beyond_the_cut_of_a_floor_add_little(inductance_h, resistance_ohm, most):
+    """A driver that passes the harmonics of the bits, and one of the band; patches of 0.44 of a wave, as on the paper's plate."""
+    patches = tuple(
+        msgspec.structs.replace(a, x_mm=46 + (a.x_mm / 210) * 1908, y_mm=46 + (a.y_mm / 148) * 1408, size_mm=92.0)
+        for a in BOARD.actuators
+    )
+    driver = {"driver__inductance_h": inductance_h, "driver__resistance_ohm": resistance_ohm}
+    floor = changed(BOARD, **FLOOR | {"plate__length_mm": 2000.0, "plate__width_mm": 1500.0}, **LOW, **driver, actuators=patches)
+    points = np.random.default_rng(1).uniform(0.15, 0.85, (6, 2)) * (2.0, 1.5)
+    model = ResponseModel(floor, modes=SimplySupported.of(floor.plate, 60e3))
+    bits = (model.drive_order_responses(points) > 0) - channel_bits(np.array([floor.idle_word], "<u4")).astype(float)
+    cut = model.plate_modes.angular_frequency <= 2 * np.pi * 8e3 * 10 / 7
+    shapes = model.plate_modes.shapes(points)
+    of_modes = np.einsum("pnq,mq,mn,pm->pm", bits, model.forces, model.modal[:, ::-1], shapes, optimize=True)
+    beyond = of_modes[:, ~cut].sum(axis=1) / of_modes.sum(axis=1)
+    print(f"beyond the cut of a floor, of the amplitude: {np.round(100 * beyond, 2)} %")
+    assert 1e-4 < np.abs(beyond).max() < most
+
+
+@given(st.floats(100e3, 2e6), st.floats(1e-3, 0.49), st.floats(4e-4, 0.49), st.integers(1, 1000), st.floats(1e-5, np.inf))
+def test_the_filter_of_every_band_that_a_board_may_have_fits_a_transform_of_131072_samples(
+    clock_hz, low, width, samples, slowest_s
+):
+    """Edges of the band over the bit clock: from just what a board is held to."""
+    band_hz = low * clock_hz, (low + width) * clock_hz
+    assert transform_length(1 / clock_hz, samples, band_hz, slowest_s)[0] <= 1 << 17
+    assert transform_length(1 / clock_hz, samples, (0.5 * band_hz[0], band_hz[1]), slowest_s)[0] <= 1 << 18
+    if low + width < 0.49:
+        keys = {"band_low_hz": band_hz[0] * 1.0001, "band_high_hz": band_hz[1] * 1.0002, "bit_clock_hz": clock_hz}
+        keys["duration_ms"] = 1e3 * samples / clock_hz
+        resolved = next(relation for relation in RELATIONS if relation.broken.__name__ == "_resolved")
+        assert not list(resolved.broken(changed(BOARD, **{f"waveform__{key}": value for key, value in keys.items()})))

@@ -22,6 +22,8 @@ MOST_SHIFT = 0.05  # of the frequency, by the shear and inertia that Kirchhoff's
 FEWEST_WAVES = 2.0  # along the plate's shorter side
 FEWEST_MODES = 50.0  # in the band
 LONGEST_DECAYS = 3.0  # what is emitted earlier has decayed
+LONGEST_WORDS = 1000  # of an emission
+LEAST_WIDTH = 0.4  # of a band, over one over the longest emission: its filter rings for as long as that of the lowest band
 FEWEST_PERIODS = 10.0  # of the band's width within an emission
 WIDEST_FOCUS_MM = 15.0  # a fingertip
 FOCUS = 0.54  # of a wave in the middle of the band: 5.7 mm of 10.54 mm on the paper's plate
@@ -101,6 +103,19 @@ def _decay(board: Board) -> Iterator[str]:
         yield (
             f"waveform.duration_ms = {waveform.duration_ms:g} is {waveform.duration_ms / decay_ms:.3g} times plate.decay_time_ms"
             f" = {decay_ms:g}: what is emitted more than {LONGEST_DECAYS:g} times before the end has decayed; shorten it"
+        )
+
+
+@refuses("`waveform.band_low_hz`, `band_high_hz`, `bit_clock_hz`")
+def _resolved(board: Board) -> Iterator[str]:
+    """1,000 words, the longest emission, last a period of the band's lower edge, and 0.4 of one of its width."""
+    waveform = board.waveform
+    least_hz, width_hz = waveform.bit_clock_hz / LONGEST_WORDS, waveform.band_high_hz - waveform.band_low_hz
+    if waveform.band_low_hz < least_hz or width_hz < LEAST_WIDTH * least_hz:
+        yield (
+            f"waveform.band_low_hz = {waveform.band_low_hz:g} and band_high_hz = {waveform.band_high_hz:g}: {LONGEST_WORDS} words"
+            f" of bit_clock_hz = {waveform.bit_clock_hz:g} tell no less than {least_hz:g} Hz from rest, and make no band narrower"
+            f" than {LEAST_WIDTH * least_hz:g} Hz: take a higher and wider band, or a slower bit clock"
         )
 
 

@@ -106,7 +106,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
         words = focus(model.drive_order_responses([(x_m, y_m)], dtype=np.float64), [1.0], board.idle_word)
         evaluated = emit(twin, words).focus_metrics(x_m, y_m)
         audible = surface_energy(board, words, board.idle_word)
-        inaudible = surface_energy(board, words, board.idle_word, low_hz=16e3, high_hz=mode_cut_hz(board.waveform))
+        inaudible = surface_energy(board, words, board.idle_word, low_hz=16e3, high_hz=mode_cut_hz(board))
         rows.append(
             {
                 "amplitude_um": evaluated.amplitude_m * 1e6,

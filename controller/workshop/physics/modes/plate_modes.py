@@ -31,7 +31,7 @@ def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
     computed with.
     """
     places = () if board.patches is None else board.patches.on(board.plate, board.actuators)
-    return _modes(board.plate, board.patches, places, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
+    return _modes(board.plate, board.patches, places, mode_cut_hz(board) if highest_hz is None else highest_hz)
 
 
 @lru_cache(maxsize=KEPT)
