@@ -21,6 +21,7 @@ from controller.workshop.physics.field import Field, FocusScale
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.sound import PlateSound
 from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
@@ -52,6 +53,7 @@ class PlateUnderTest:
         self.board = board
         self.model = ResponseModel(board)
         self._scale = FocusScale.of(board)
+        self._sound = PlateSound(board, self.model.plate_modes)
         self._prediction = Prediction(board, self.model)
         self._in_drive_order = np.ascontiguousarray(self.model.modal[:, ::-1])
         self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
@@ -123,6 +125,13 @@ class PlateUnderTest:
             steps, [frequency[0], frequency[-1] + step_hz], len(frequency), fs=self.board.waveform.bit_clock_hz, axis=0
         )
         return float(np.einsum("fi,fij,fj->f", slopes.conj(), gram, slopes, optimize=True).real.sum()) * step_hz
+
+    def sound_pa2_s(self, words: Words) -> float:
+        """A-weighted sound exposure at 0.3 m: `physics.sound.PlateSound.exposure_pa2_s`."""
+        resting = np.full(
+            self.model.samples - len(words), self.board.idle_word, np.uint32
+        )  # one period for emissions of any length
+        return self._sound.exposure_pa2_s(np.concatenate([resting, words]), self.board.idle_word)
 
     @cached_property
     def _audible_gram(self) -> tuple[Floats, float, Floats]:

@@ -98,6 +98,9 @@ def test_the_papers_plate_has_the_energy_pulse_and_heat_that_other_simulations_g
     assert found["stages_w"] == pytest.approx(8, abs=0.5)
     assert found["stages_uj"] == pytest.approx(sum(channel["energy_uj"] for channel in found["channels"]))
     assert 7.1 < row["pulse_us"] < 11
+    sound = found["sound"]
+    assert sound["train_50_hz_db"] == pytest.approx(sound["exposure_db"] + 10 * np.log10(50), abs=0.1)
+    assert sound["arming_exposure_db"] < sound["exposure_db"] - 10
     assert row["spot_wavelengths"] == pytest.approx(row["spot_mm"] / 10.54, rel=1e-3)
     motion, around_s = point_motion(board, emission.twin.modes, emission.words, [(0.1, 0.07)]), np.linspace(-10e-6, 10e-6, 101)
     for finger_mg in (20.0, 100.0):

@@ -12,6 +12,7 @@ from controller.workshop.benchmark.judge import Judge
 from controller.workshop.benchmark.plate_under_test import bound
 from controller.workshop.physics.audible import surface_energy
 from controller.workshop.physics.plate_twin import PlateTwin
+from controller.workshop.physics.sound import PlateSound
 
 PLACES = ((0.04, 0.03), (0.065, 0.045))
 NULL = (0.05, 0.05)
@@ -33,6 +34,8 @@ def test_errors_are_those_of_the_plate_twin(small_board, judge, small_model):
     assert found["worst_loss"] == pytest.approx(1 - min(share), rel=1e-6)
     assert found["contrast"] == pytest.approx(min(metric.contrast for metric in metrics), rel=1e-6)
     assert found["audible_m2_per_s"] == pytest.approx(surface_energy(small_board, words, small_board.idle_word), rel=1e-6)
+    heard = PlateSound(small_board, twin.modes).exposure_pa2_s(words, small_board.idle_word)
+    assert found["sound_pa2_s"] == pytest.approx(heard, rel=1e-6)
     near = np.abs(Prediction(small_board, small_model).near_focus(words, [NULL])).max()
     mean = np.mean([metric.amplitude_m for metric in metrics])
     assert found["quiet"] == pytest.approx(near / mean, rel=1e-6)

@@ -20,6 +20,7 @@ from tqdm import tqdm
 
 from controller.device.board.board import Board
 from controller.workshop.benchmark.focus.focus_figures import emit, idling_low, random_points, spread
+from controller.workshop.benchmark.focus.sound_figures import ramp_samples, ramp_words
 from controller.workshop.gateware.model.pins import ramp_bits
 from controller.workshop.physics.audible import AUDIBLE_HZ, surface_energy, surface_spectrum
 from controller.workshop.physics.focusing import focus
@@ -109,16 +110,6 @@ def _of_ramps(board: Board, decibels: Callable[[float], float]) -> dict[str, Any
             "instant": decibels(surface_energy(board, NOTHING, 0, before_word=board.idle_word)),
         },
     }
-
-
-def ramp_samples(board: Board, ramp_ms: float) -> int:
-    """Length of a ramp of `ramp_ms` in samples, rounded as the session rounds it for the FPGA."""
-    return max(1, round(ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
-
-
-def ramp_words(board: Board, bits: Bits) -> Words:
-    """Drive words of a ramp, (sample,): the idle word where the ramp's bit is high, else 0."""
-    return np.where(bits, np.uint32(board.idle_word), np.uint32(0))
 
 
 def first_order_bits(samples: int) -> Bits:

@@ -23,6 +23,7 @@ from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.plate import mode_cut_hz, wave_scale
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.sound import PlateSound, decibels
 from controller.workshop.physics.word_capture import capture_of_words
 
 Floats = NDArray[np.float64]
@@ -97,9 +98,10 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
     """Evaluate foci one at a time: amplitude, contrast, spot, time of the peak, and sound; min, median and max of each.
 
     `model` is of a board with the same plate and driver; each point is (2,). `audible_m2_per_s` is `surface_energy` below 16 kHz,
-    `audible_fraction_db` its share of all energy up to `mode_cut_hz`.
+    `audible_fraction_db` its share of all energy up to `mode_cut_hz`, `sound_exposure_db` what is heard of it (`physics.sound`).
     """
     twin = PlateTwin(board)
+    sound = PlateSound(board, model.plate_modes)
     rows = []
     for point in points_m:
         x_m, y_m = map(float, point)
@@ -118,6 +120,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
                 "relative_amplitude": evaluated.amplitude_m / twin.reference_amplitude(x_m, y_m),
                 "audible_m2_per_s": audible,
                 "audible_fraction_db": 10 * float(np.log10(audible / (audible + inaudible))),
+                "sound_exposure_db": decibels(sound.exposure_pa2_s(words, board.idle_word)),
             }
         )
     return {key: spread([row[key] for row in rows]) for key in rows[0]}
