@@ -130,12 +130,17 @@ class Selection:
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
         lattice_m = self.lattice_m
-        points = [(x * lattice_m, y * lattice_m, AMPLITUDES[step]) for x, y, step in key if step != NULL]
+        points = self.foci(key)
         words = self._composer.compose(points)
         if len(points) < len(key):
             self._composer.keep_still(points, [(x * lattice_m, y * lattice_m, 1.0) for x, y, step in key if step == NULL])
         self._bank.file.require_unchanged()
         return words
+
+    def foci(self, key: tuple[LatticePoint, ...]) -> list[Point]:
+        """Points that are composed for a key, as they lie on the lattice."""
+        lattice_m = self.lattice_m
+        return [(x * lattice_m, y * lattice_m, AMPLITUDES[step]) for x, y, step in key if step != NULL]
 
     def recheck(self, key: Key) -> None:
         """Check the entry of a key again, of which the FPGA refused a frame or the words for a wrong CRC.

@@ -61,13 +61,19 @@ def scenes(board: Board, seed: int, each: int, random_scenes: int) -> list[Finge
     def null(points: Sequence[Place]) -> Place:
         return _null(random, points, size)
 
-    def add(family: str, points_of: Callable[[], Sequence[Place]], count: int = each, detuning: float = 1.0) -> None:
+    def add(family: str, points_of: Callable[[], Sequence[Place]], count: int = each) -> None:
         for _ in range(count):
             points = points_of()
-            made.append(still(family, points, null(points), detuning))
+            made.append(still(family, points, null(points)))
 
     def on_grid(fingers: int) -> list[Place]:
         return [grid.place(grid.nearest(*point)[0]) for point in drawn(fingers, inner_m)]
+
+    def beside_a_cell() -> list[Place]:
+        """Within the snap distance: equally often on equal areas."""
+        around, away_m = random.uniform(0, 2 * np.pi), board.bank.snap_mm * 1e-3 * float(np.sqrt(random.uniform()))
+        ((x_m, y_m),) = on_grid(1)
+        return [(x_m + away_m * float(np.cos(around)), y_m + away_m * float(np.sin(around)))]
 
     def square() -> list[Place]:
         x_m, y_m = random.uniform(inner_m, size - inner_m).tolist()
@@ -78,10 +84,12 @@ def scenes(board: Board, seed: int, each: int, random_scenes: int) -> list[Finge
         add(f"{fingers} off grid", partial(drawn, fingers, inner_m))
     for fingers in (1, 4):
         add(f"{fingers} on grid", partial(on_grid, fingers))
+    add("1 beside a cell", beside_a_cell)
     add("1 near an edge", lambda: [_near_edge(random, size)])
     add("four foci of the paper", square)
+    alone = [scene for scene in made if scene.family == "1 off grid"]
     for detuning in (1 - DRIFT, 1 + DRIFT):
-        add(f"1 at {100 * (detuning - 1):+.1f} % drift", partial(drawn, 1, inner_m), detuning=detuning)
+        made += [still(f"1 at {100 * (detuning - 1):+.1f} % drift", scene.points, scene.null, detuning) for scene in alone]
     for speed_m_s in (0.05, 0.2):
         for _ in range(each):
             points = drawn(1, inner_m)

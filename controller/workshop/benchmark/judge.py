@@ -57,31 +57,31 @@ class Judge:
         """
         plate = self._plates[scene.detuning]
         reference = plate.reference(scene.points)
-        heat_j = plate.stage_heat_j(words)
-        null = plate.near_responses(scene.null)
-        found = []
-        for given, free, heat in zip(words, free_polarity, heat_j.tolist(), strict=True):
-            volts = plate.volts(given)
-            field = plate.field(volts)
-            amplitude = field.at(scene.points)
-            share = (np.abs(amplitude) if free else amplitude) / reference.alone_m
-            in_band = np.tensordot(reference.unit, plate.signs(given), 2)
-            mean_m = float(np.abs(amplitude).mean())
-            found.append(
-                {
-                    "loss": float(1 - share.mean()),
-                    "worst_loss": float(1 - share.min()),
-                    "bound_loss": float(1 - (np.abs(in_band) if free else in_band).min() / reference.bound),
-                    "felt_loss": float(share.min()),  # for now: what the others reach is not known yet
-                    "amplitude_over_unfiltered": float((share * reference.unfiltered_share).mean()),
-                    "quiet": float(np.abs(np.tensordot(null, volts, 2)).max()) / max(mean_m, STILL_M),
-                    "contrast": _contrast(field, scene, amplitude),
-                    "audible_m2_per_s": plate.audible(volts),
-                    "sound_pa2_s": plate.sound_pa2_s(given),
-                    "crest_m": max(_crest_m(field, point) for point in scene.points),
-                    "stage_j": heat,
-                }
-            )
+        volts = np.stack([plate.volts(given) for given in words])
+        signs = np.stack([plate.signs(given) for given in words])
+        amplitudes, shares, quiet = (
+            np.tensordot(played, rows, ((1, 2), (1, 2)))
+            for played, rows in ((volts, reference.whole), (signs, reference.unit), (volts, plate.near_responses(scene.null)))
+        )
+        one_way = ~np.array(free_polarity)[:, None]  # what is kicked downwards then counts below zero
+        felt, in_band = (np.where(one_way, kicks, np.abs(kicks)) for kicks in (amplitudes, shares))
+        share = felt / reference.alone_m
+        mean_m = np.maximum(np.abs(amplitudes).mean(axis=1), STILL_M)
+        fields = plate.fields(volts)
+        figures = {
+            "loss": 1 - share.mean(axis=1),
+            "worst_loss": 1 - share.min(axis=1),
+            "bound_loss": 1 - in_band.min(axis=1) / reference.bound,
+            "felt_loss": share.min(axis=1),  # for now: what the others reach is not known yet
+            "amplitude_over_unfiltered": (share * reference.unfiltered_share).mean(axis=1),
+            "quiet": np.abs(quiet).max(axis=1) / mean_m,
+            "contrast": _contrasts(fields, scene, amplitudes),
+            "audible_m2_per_s": plate.audible(volts),
+            "sound_pa2_s": [plate.sound_pa2_s(given) for given in words],
+            "crest_m": [max(_crest_m(field, point) for point in scene.points) for field in fields],
+            "stage_j": plate.stage_heat_j(words),
+        }
+        found = [{name: float(values[index]) for name, values in figures.items()} for index in range(len(words))]
         most = max((errors["felt_loss"] for errors in found), default=0.0)
         for errors in found:
             errors["felt_loss"] = 1 - errors["felt_loss"] / most if most > 0 else 1.0
@@ -96,14 +96,14 @@ def detuned(board: Board, ratio: float) -> Board:
     return msgspec.structs.replace(board, plate=stiffer)
 
 
-def _contrast(field: Field, scene: FingerScene, amplitude: Floats) -> float:
+def _contrasts(fields: Sequence[Field], scene: FingerScene, amplitudes: Floats) -> list[float]:
     """Of the weakest point, over the rms outside 10 mm of all."""
-    x, y, u = field.map()
-    outside = np.ones(u.shape, np.bool_)
+    maps = [field.map() for field in fields]
+    outside = np.ones(maps[0][2].shape, np.bool_)
     for x_m, y_m in scene.points:
-        outside &= np.hypot(x - x_m, (y - y_m)[:, None]) > field.scale.outside_m
-    rms = float(np.sqrt((u[outside] ** 2).mean())) if outside.any() else 0.0
-    return float(np.abs(amplitude).min()) / rms if rms else 0.0
+        outside &= np.hypot(maps[0][0] - x_m, (maps[0][1] - y_m)[:, None]) > fields[0].scale.outside_m
+    rms = [float(np.sqrt((u[outside] ** 2).mean())) if outside.any() else 0.0 for *_, u in maps]
+    return [float(weakest) / one if one else 0.0 for weakest, one in zip(np.abs(amplitudes).min(axis=1), rms, strict=True)]
 
 
 def _crest_m(field: Field, point: tuple[float, float]) -> float:

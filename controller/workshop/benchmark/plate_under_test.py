@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import zoom_fft
 
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
+from controller.workshop.bank_builder.methods.dual import farthest
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.benchmark.stage.power import resistor_loss_j
 from controller.workshop.physics.audible import AUDIBLE_HZ, REST_TAUS
@@ -28,8 +28,10 @@ Floats = NDArray[np.float64]
 Words = NDArray[np.uint32]
 
 POLARITIES = 8  # sets of polarities of which the bound is computed, the most promising first
-BOUND_STEPS = 400
+ROUGHLY = (1.0, 0.3)  # how exactly these are compared, before the best one's bound is
 LARGEST_BOUND = 12  # fingers: polarities are counted out
+AT_ONCE = 16  # emissions in one matrix product
+NEGLIGIBLE = 1e-9  # of the largest component of what is summed
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,7 @@ class Reference:
     """What the plate of a scene can give at its points."""
 
     alone_m: Floats  # (point,): A_ref of each point in m
+    whole: Floats  # (point, sample, 32): responses of all frequencies in drive order, m per V
     unfiltered_share: Floats  # (point,): A_ref over half the supply times the sum of |h| of the unfiltered response
     # (point, sample, 32): band-limited responses, each over the sum of its absolute values: the sum of one times bits of -1 and
     # 1 is a share of what the point could get alone, in the band
@@ -55,7 +58,7 @@ class PlateUnderTest:
         self._scale = FocusScale.of(board)
         self._sound = PlateSound(board, self.model.plate_modes)
         self._prediction = Prediction(board, self.model)
-        self._in_drive_order = np.ascontiguousarray(self.model.modal[:, ::-1])
+        self._in_drive_order = np.ascontiguousarray(self.model.modal[:, ::-1], np.float32)
         self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
 
     def volts(self, words: Words) -> Floats:
@@ -70,9 +73,18 @@ class PlateUnderTest:
         signs[len(signs) - len(words) :] = 2.0 * channel_bits(words) - 1
         return signs
 
-    def field(self, volts: Floats) -> Field:
-        """Displacement of the whole plate at T."""
-        modal: Floats = np.einsum("ms,ms->m", self._in_drive_order, self.model.forces @ volts.T)
+    def fields(self, volts: Floats) -> list[Field]:
+        """Displacement of the whole plate at T by emissions of some voltages, (emission, sample, 32), to seven digits."""
+        modal = np.empty((self.model.modes, len(volts)))
+        forces = self.model.forces[:, None].astype(np.float32)
+        for first in range(0, len(volts), AT_ONCE):
+            some = volts[first : first + AT_ONCE].transpose(1, 2, 0).astype(np.float32)
+            driven = self._in_drive_order @ some.reshape(len(some), -1)
+            modal[:, first : first + AT_ONCE] = np.matmul(forces, driven.reshape(len(driven), *some.shape[1:]))[:, 0]
+        return [self._field(level) for level in np.ascontiguousarray(modal.T)]
+
+    def _field(self, level: Floats) -> Field:
+        """Displacement of modes, (mode,), all of it: no time but T is asked for."""
         modes, step = self.model.plate_modes, self.model.step
         settled = np.zeros((modes.count, 2), np.complex128)
         return Field(
@@ -80,7 +92,7 @@ class PlateUnderTest:
             step=step,
             pole_amplitudes=np.zeros(step.poles.size, np.complex128),
             driver_amplitudes=settled,
-            level=modal,  # all of it: no time but T is asked for
+            level=level,
             near_s=np.zeros(0),
             near_force=np.zeros((modes.count, 0)),
             early_driver_amplitudes=settled,
@@ -98,7 +110,7 @@ class PlateUnderTest:
         most = 0.5 * self.board.driver.supply_v * np.abs(whole).sum(axis=(1, 2))
         sizes = np.abs(in_band).sum(axis=(1, 2), keepdims=True)
         unit = np.divide(in_band, sizes, out=np.zeros_like(in_band), where=sizes > 0)
-        return Reference(alone, alone / most, unit, bound(unit.reshape(len(points), -1)))
+        return Reference(alone, whole, alone / most, unit, bound(unit.reshape(len(points), -1)))
 
     def near_responses(self, place: tuple[float, float]) -> NDArray[np.floating[Any]]:
         """As `Prediction.near_responses`."""
@@ -117,14 +129,13 @@ class PlateUnderTest:
         heat: Floats = loss[driven].sum(axis=0)
         return heat
 
-    def audible(self, volts: Floats) -> float:
-        """Energy below 16 kHz: `physics.audible.surface_energy` of the same words."""
-        steps = np.diff(volts, axis=0, prepend=0, append=0)
-        frequency, step_hz, gram = self._audible_gram
-        slopes = zoom_fft(
-            steps, [frequency[0], frequency[-1] + step_hz], len(frequency), fs=self.board.waveform.bit_clock_hz, axis=0
-        )
-        return float(np.einsum("fi,fij,fj->f", slopes.conj(), gram, slopes, optimize=True).real.sum()) * step_hz
+    def audible(self, volts: Floats) -> Floats:
+        """Energy below 16 kHz, (emission,), of voltages (emission, sample, 32): `surface_energy` of `physics.audible`."""
+        waves, basis, gram = self._audible_gram
+        steps = np.diff(volts, axis=1, prepend=0, append=0).transpose(1, 2, 0)
+        slopes = (waves @ (basis @ steps.reshape(len(steps), -1))).reshape(2, len(gram), *steps.shape[1:])
+        energy: Floats = (slopes * np.matmul(gram, slopes)).sum(axis=(0, 1, 2))
+        return energy
 
     def sound_pa2_s(self, words: Words) -> float:
         """A-weighted sound exposure at 0.3 m: `physics.sound.PlateSound.exposure_pa2_s`."""
@@ -134,8 +145,11 @@ class PlateUnderTest:
         return self._sound.exposure_pa2_s(np.concatenate([resting, words]), self.board.idle_word)
 
     @cached_property
-    def _audible_gram(self) -> tuple[Floats, float, Floats]:
-        """Frequencies, their distance, and the energy density at each as a quadratic form of the channels' slopes of voltage."""
+    def _audible_gram(self) -> tuple[Floats, Floats, Floats]:
+        """What gives the channels' slopes of voltage at each frequency, and energy as a quadratic form of them.
+
+        Cosines and sines as a product, (2 frequency, few) and (few, step): an emission is too short for more.
+        """
         modes = self.model.plate_modes
         driver = DriverResponse.of(self.board.driver)
         slowest_s = 1 / float(np.min(-self.model.step.poles.real, initial=modes.decay_rate.min()))
@@ -150,14 +164,16 @@ class PlateUnderTest:
             stiffness = modes.mass_kg * (modes.angular_frequency**2 + 2 * modes.decay_rate * at + at**2)
             weight = modes.mean_square * 2 * passed[index] / np.abs(stiffness) ** 2  # both signs of frequency
             gram[index] = self.model.forces.T @ (weight[:, None] * self.model.forces)
-        return frequency, step_hz, gram
+        phase = 2 * np.pi * self.board.waveform.bit_period_s * np.outer(frequency, np.arange(self.model.samples + 1))
+        waves, sizes, basis = np.linalg.svd(np.concatenate([np.cos(phase), np.sin(phase)]), full_matrices=False)
+        kept = sizes > NEGLIGIBLE * sizes[0]
+        return waves[:, kept] * sizes[kept], basis[kept], step_hz * gram
 
 
 def bound(unit: Floats) -> float:
     """Share of its own maximum that every point can get at once: max over polarities of min over weights of |sum w s h|_1.
 
-    Weights are those of a simplex, found by multiplicative steps on the convex function; its value for any weights is an
-    upper bound for the words of these polarities.
+    Its value for any weights is an upper bound for the words of these polarities.
 
     `unit` (point, value) are responses in the band, each over the sum of its absolute values.
     """
@@ -170,18 +186,6 @@ def bound(unit: Floats) -> float:
     else:
         signs = np.array([(1, *rest) for rest in product((1, -1), repeat=count - 1)], np.float64)
         candidates = signs[np.argsort(-np.einsum("ki,ij,kj->k", signs, alike, signs))[:POLARITIES]]
-    return max(_least_sum(unit * polarity[:, None]) for polarity in candidates)
-
-
-def _least_sum(unit: Floats) -> float:
-    """Least |sum w h|_1 over weights of the simplex."""
-    count = len(unit)
-    weights = np.full(count, 1 / count)
-    best = float("inf")
-    for step in range(BOUND_STEPS):
-        total = weights @ unit
-        best = min(best, float(np.abs(total).sum()))
-        slope = unit @ np.sign(total)
-        weights *= np.exp(-(slope - slope.min()) * 2.0 / np.sqrt(1 + step))
-        weights /= weights.sum()
-    return best
+    both = np.concatenate([unit, -unit], axis=1)  # `farthest` adds up what is above zero: of both, all
+    best = max(candidates, key=lambda signs: farthest(both, signs, ROUGHLY)[1])
+    return farthest(both, best)[1]

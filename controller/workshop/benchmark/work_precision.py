@@ -48,7 +48,7 @@ class Effort:
     slow_methods: bool  # whether methods that take tenths of a second take part
 
 
-QUICK = Effort(each=2, random_scenes=4, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
+QUICK = Effort(each=8, random_scenes=8, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
 FULL = Effort(each=4, random_scenes=100, timed_scenes=3, turns=25, longest_s=0.5, slow_methods=True)
 
 

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Any
-
-import numpy as np
 
 from controller.device import kernel
 from controller.device.bank.reader import Bank
+from controller.device.fpga.frames import ReadyFrames, Waveform
 from controller.device.kernel import Point, unpack_loads, words_twin
 from controller.device.waveforms.composition import Composer
-from controller.device.waveforms.selection import Selection
-from controller.workshop.benchmark.methods.candidate import RESIDENT_WIRE_BYTES, Candidate, Place, Words, wire_bytes
+from controller.device.waveforms.selection import Key, Selection
+from controller.workshop.benchmark.methods.candidate import (
+    RESIDENT_WIRE_BYTES,
+    Candidate,
+    Place,
+    Words,
+    wire_bytes,
+    words_of_buffer,
+)
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 
 CELL_PITCHES_MM = (1.0, 2.5, 5.0, 10.0)
@@ -29,42 +34,34 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
         bank = laboratory.bank(pitch_mm * 1e-3)
         drive_bytes = bank.grid.cells * bank.sections["drive"].stride
         yield Candidate(
-            "nearest entry", f"{pitch_mm:g} mm", NearestEntry(bank), drive_bytes, wire_bytes(samples), 1, words_of=_unpacked
+            "nearest entry", f"{pitch_mm:g} mm", NearestEntry(bank), drive_bytes, wire_bytes(samples), 1, words_of=words_of
         )
     for pitch_mm in PITCHES_MM:
         bank = laboratory.bank(pitch_mm * 1e-3)
         memory = bank.grid.cells * (bank.sections["drive"].stride + bank.sections["response"].stride)
-        composer = Composer(bank, board.idle_word)
-        setting = f"{pitch_mm:g} mm"
-        if kernel.COMPILED:
-            yield Candidate("device, compiled kernel", setting, composer.compose, memory, wire_bytes(samples), free_polarity=True)
-        yield Candidate(
-            "device, NumPy twin", setting, TwinComposer(bank, board.idle_word), memory, wire_bytes(samples), free_polarity=True
+        selection, setting = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word), f"{pitch_mm:g} mm"
+        selected = partial(
+            Candidate, setting=setting, memory_bytes=memory, wire_bytes=wire_bytes(samples), free_polarity=True, words_of=words_of
         )
+        if kernel.COMPILED:
+            yield selected("device, compiled kernel", compose=Selected(selection))
+        yield selected("device, NumPy twin", compose=SelectedByTwin(selection, bank, board.idle_word))
         if pitch_mm == board.bank.pitch_mm:
-            for share in SHARES:
-                last = round(share * samples)
-                label = f"{1e3 * last / board.waveform.bit_clock_hz:g} ms"
-                compose = composer.compose if last == samples else Shorter(composer, last)
-                yield Candidate("device, shorter emission", label, compose, memory, wire_bytes(last), free_polarity=True)
-            yield Candidate(
-                "device, another finger still",
-                setting,
-                KeepingStill(composer),
-                memory,
-                wire_bytes(samples),
-                free_polarity=True,
-                keeps_nulls=True,
-            )
-            selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
-            yield Candidate(
+            for last in (round(share * samples) for share in SHARES):
+                yield selected(
+                    "device, shorter emission",
+                    setting=f"{1e3 * last / board.waveform.bit_clock_hz:g} ms",
+                    compose=Selected(selection),
+                    wire_bytes=wire_bytes(last),
+                    words_of=partial(_end_of, last),
+                )
+            yield selected("device, another finger still", compose=KeepingStill(selection), keeps_nulls=True)
+            yield selected(
                 "resident waveform",
-                f"{1e3 * selection.lattice_m:g} mm lattice",
-                Resident(selection, composer),
-                memory,
-                RESIDENT_WIRE_BYTES,
-                free_polarity=True,
-                words_of=partial(_of_lattice, selection.lattice_m),
+                setting=f"{1e3 * selection.lattice_m:g} mm lattice",
+                compose=Resident(selection),
+                wire_bytes=RESIDENT_WIRE_BYTES,
+                words_of=partial(_of_resident, selection),
             )
 
 
@@ -74,73 +71,80 @@ class NearestEntry:
     def __init__(self, bank: Bank) -> None:
         self._bank = bank
 
-    def __call__(self, points: Sequence[Point]) -> memoryview:
+    def __call__(self, points: Sequence[Point]) -> Waveform:
         """LOAD frames of the cell."""
         ((x_m, y_m, _),) = points
-        return self._bank.drive.frames(self._bank.grid.nearest(x_m, y_m)[0])[0]
+        return ReadyFrames(*self._bank.drive.frames(self._bank.grid.nearest(x_m, y_m)[0]))
 
 
-def _unpacked(frames: memoryview) -> Words:
-    samples = next(count for count in range(1, kernel.MAX_SAMPLES) if kernel.load_frames_bytes(4 * count) == len(frames))
-    words = bytearray(4 * samples)
-    unpack_loads(words, frames)
-    return np.frombuffer(words, "<u4").astype(np.uint32)
+class Selected:
+    """What the loop plays: places on the lattice, a lone finger near a cell that cell's entry."""
+
+    def __init__(self, selection: Selection) -> None:
+        self._selection = selection
+
+    def __call__(self, points: Sequence[Point]) -> Waveform:
+        """The bank's frames, or composed words."""
+        return self._selection.waveform(self._selection.key(points))
 
 
-class TwinComposer:
-    """`Composer` with the NumPy twin of the kernel, whether or not there is a compiled one."""
+class SelectedByTwin:
+    """The same with the NumPy twin of the kernel, whether or not there is a compiled one."""
 
-    def __init__(self, bank: Bank, idle_word: int) -> None:
-        self._bank, self._composer = bank, Composer(bank, idle_word)
+    def __init__(self, selection: Selection, bank: Bank, idle_word: int) -> None:
+        self._selection, self._bank, self._composer = selection, bank, Composer(bank, idle_word)
 
-    def __call__(self, points: Sequence[Point]) -> bytearray:
-        """Drive words as bytes."""
-        own, bank = self._composer, self._bank
+    def __call__(self, points: Sequence[Point]) -> Waveform:
+        """The bank's frames, or composed words."""
+        key = self._selection.key(points)
+        if isinstance(key, int):
+            return self._selection.waveform(key)
+        own, bank, points = self._composer, self._bank, self._selection.foci(key)
         buffers = own._buffers._replace(response=bank.responses.section)
         while (cell := words_twin.compose(own._words, own._room, buffers, points)) >= 0:  # what `Composer` gives to its kernel
             bank.responses.check(cell)
-        return own._words
+        return own._view
 
 
 class KeepingStill:
-    """`Composer` with a place that stays still near T, as for a finger that shall feel nothing."""
+    """What the loop plays for fingers beside others that shall feel nothing."""
 
-    def __init__(self, composer: Composer) -> None:
-        self._composer = composer
+    def __init__(self, selection: Selection) -> None:
+        self._selection = selection
 
-    def __call__(self, points: Sequence[Point], nulls: Sequence[Place]) -> memoryview:
-        """Drive words as bytes."""
-        words = self._composer.compose(points)
-        self._composer.keep_still(points, [(x_m, y_m, 1.0) for x_m, y_m in nulls])
-        return words
-
-
-class Shorter:
-    """Only the end of a composed waveform is sent: the waves have less time to build up."""
-
-    def __init__(self, composer: Composer, samples: int) -> None:
-        self._composer, self._from_byte = composer, -4 * samples
-
-    def __call__(self, points: Sequence[Point]) -> memoryview:
-        """Drive words as bytes."""
-        return self._composer.compose(points)[self._from_byte :]
+    def __call__(self, points: Sequence[Point], nulls: Sequence[Place]) -> Waveform:
+        """Composed words; the bank's frames where the others are too near."""
+        return self._selection.waveform(self._selection.null_key(points, nulls))
 
 
 class Resident:
     """The FPGA still holds the waveform of the same points on the lattice: only its key is found again."""
 
-    def __init__(self, selection: Selection, composer: Composer) -> None:
-        self._selection, self._composer = selection, composer
-        self._held: dict[Any, int] = {}
+    def __init__(self, selection: Selection) -> None:
+        self._selection = selection
+        self._held: dict[Key, int] = {}
 
-    def __call__(self, points: Sequence[Point]) -> tuple[Composer, Sequence[Point], int]:
-        """Slot of the waveform."""
+    def __call__(self, points: Sequence[Point]) -> tuple[Key, int]:
+        """Key and slot of the waveform."""
         key = self._selection.key(points)
-        return self._composer, points, self._held.setdefault(key, len(self._held))
+        return key, self._held.setdefault(key, len(self._held))
 
 
-def _of_lattice(lattice_m: float, found: tuple[Composer, Sequence[Point], int]) -> Words:
-    """Words that were composed for the lattice's points when they were uploaded."""
-    composer, points, _ = found
-    rounded = [(round(x_m / lattice_m) * lattice_m, round(y_m / lattice_m) * lattice_m, share) for x_m, y_m, share in points]
-    return np.frombuffer(composer.compose(rounded), "<u4").astype(np.uint32)
+def words_of(waveform: Waveform) -> Words:
+    """A copy of the drive words of a waveform."""
+    if not isinstance(waveform, ReadyFrames):
+        return words_of_buffer(waveform)
+    size = next(size for size in range(4, 4 * kernel.MAX_SAMPLES, 4) if kernel.load_frames_bytes(size) == len(waveform.frames))
+    words = bytearray(size)
+    unpack_loads(words, waveform.frames)
+    return words_of_buffer(words)
+
+
+def _end_of(samples: int, waveform: Waveform) -> Words:
+    """Only the end of a waveform is sent: the waves have less time to build up."""
+    return words_of(waveform)[-samples:]
+
+
+def _of_resident(selection: Selection, found: tuple[Key, int]) -> Words:
+    """Words that were sent when the waveform was uploaded."""
+    return words_of(selection.waveform(found[0]))

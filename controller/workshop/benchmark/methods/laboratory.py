@@ -56,14 +56,12 @@ class Laboratory:
     def prepare(self, places: Sequence[Place]) -> None:
         """Fill the tables for places, and for no others."""
         for pitch_m in {pitch_m for pitch_m, _, _ in self._tables.values()}:
-            here = [(table, some) for pitch, table, some in self._tables.values() if pitch == pitch_m]
-            wanted: set[int] = set()
-            for table, interpolations in here:
+            wanted = []
+            for table, interpolations in [(table, some) for pitch, table, some in self._tables.values() if pitch == pitch_m]:
                 table.forget()
-                for interpolation in interpolations:
-                    for x_m, y_m in places:
-                        wanted.update(interpolation(table.grid, x_m, y_m).cells.tolist())
-            fill(self.board, self.model, [table for table, _ in here], np.array(sorted(wanted), np.intp))
+                stencils = [interpolation(table.grid, *place).cells for interpolation in interpolations for place in places]
+                wanted.append((table, np.unique(np.concatenate(stencils)) if stencils else np.zeros(0, np.intp)))
+            fill(self.board, self.model, wanted)
 
     def close(self) -> None:
         """Close the banks."""

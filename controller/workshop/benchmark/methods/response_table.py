@@ -7,7 +7,7 @@ alike.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -80,19 +80,17 @@ class ResponseTable:
         return response
 
 
-def fill(board: Board, model: ResponseModel, tables: Iterable[ResponseTable], cells: NDArray[np.intp]) -> None:
-    """Compute the responses of cells once and give them to tables of one grid."""
-    some = list(tables)
-    if not len(cells):
-        return
-    places_m = some[0].grid.points()[cells]
+def fill(board: Board, model: ResponseModel, wanted: Sequence[tuple[ResponseTable, NDArray[np.intp]]]) -> None:
+    """Compute the responses of cells once and give them to tables of one grid: to each its cells, in ascending order."""
+    cells = np.unique(np.concatenate([some for _, some in wanted]))
     rising = decay(board)[::-1, None].astype(np.float32)
     for first in range(0, len(cells), CELLS_AT_ONCE):
-        part = slice(first, first + CELLS_AT_ONCE)
-        flat = model.drive_order_responses(places_m[part]) / rising
-        for table in some:
-            table.hold(cells[part], flat)
-    for table in some:
+        part = cells[first : first + CELLS_AT_ONCE]
+        flat = model.drive_order_responses(wanted[0][0].grid.points()[part]) / rising
+        for table, own in wanted:
+            here = np.isin(part, own)
+            table.hold(part[here], flat[here])
+    for table, _ in wanted:
         table.take()
 
 
