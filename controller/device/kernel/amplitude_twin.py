@@ -5,8 +5,8 @@ sets the ratio of the amplitudes; their common level is set by leaving bits at i
 absolute value in the same block of samples and the same channel. Both are found by measuring: the displacement at a point is
 linear in the bits, an inner product of them with the point's response, in the band and outside it.
 
-Full amplitude is the level that all points have together: the mean of their shares in the band, weighed as they are, which is
-next to the largest share that all can have. A point that differs from it by more than a sixteenth has its own, since its neighbours
+Full amplitude is the level that all points have together: the mean of their shares, weighed as they are, which is next to the
+largest share that all can have. A point whose share in the band differs by more than an eighth has its own, since its neighbours
 move it.
 
 Points that are near move together. Where responses are more than half alike (correlation of the sketches), points are one place,

@@ -42,10 +42,9 @@ enum {
     WEIGHT_SUM = 256,
     POINT_WEIGHT_SUM = 32767,
     STRENGTH_SHIFT = 8,
-    SKETCH_STEP = 2,
+    SKETCH_STEP = 4,
     SKETCH_SHIFT = 4,
     PRODUCT_BITS = 30,
-    BALANCING_ROUNDS = 2,
     THRESHOLD_BITS = 24,
     MAX_ROUNDS = 6,
     MAX_LOWERINGS = 3,
@@ -53,7 +52,7 @@ enum {
     RESTS = GROUP_SAMPLES / REST_SAMPLES * CHANNELS, /* and their rest outside the band */
     LINE_BYTES = 64,
 };
-static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 16;
+static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
@@ -85,8 +84,8 @@ struct work {
     int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
     int32_t *strength, *threshold; /* of each block and channel */
     int16_t *threshold_of_one;
-    int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response, as many rows as `before`, then 2, 6, 10, .. */
-    int64_t sketch_before, sketch_rows; /* rows of eight samples */
+    int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response */
+    int64_t sketch_rows; /* of eight samples */
     uint32_t *words;
     double divisor[MAX_FOCI], balance[MAX_FOCI], measured[MAX_FOCI], in_band[MAX_FOCI], wanted[MAX_FOCI];
 };
@@ -421,18 +420,15 @@ APART void sketch_line(int16_t *restrict to, const int16_t *restrict from) {
 static void take_sketch(struct work *work) {
     int64_t samples = work->values / CHANNELS;
     for (int i = 0; i < work->count; i++) {
-        int16_t *to = work->sketch[i], *behind = to + work->sketch_before * ROW, *end = to + work->sketch_rows * ROW;
-        for (int64_t n = 0; n < samples; n += 2 * SKETCH_STEP, to += CHANNELS) sketch_line(to, work->response[i] + n * CHANNELS);
-        memset(to, 0, (size_t)(behind - to) * sizeof *to);
-        for (int64_t n = SKETCH_STEP; n < samples; n += 2 * SKETCH_STEP, behind += CHANNELS)
-            sketch_line(behind, work->response[i] + n * CHANNELS);
-        memset(behind, 0, (size_t)(end - behind) * sizeof *behind);
+        int16_t *to = work->sketch[i], *end = to + work->sketch_rows * ROW;
+        for (int64_t n = 0; n < samples; n += SKETCH_STEP, to += CHANNELS) sketch_line(to, work->response[i] + n * CHANNELS);
+        memset(to, 0, (size_t)(end - to) * sizeof *to);
     }
 }
 
 static int64_t sketched_product(const struct work *work, int i, int j) {
     int64_t sum = 0;
-    for (int64_t at = 0; at < work->sketch_before * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
+    for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
     return sum;
 }
 
@@ -498,34 +494,37 @@ static void polarise(struct work *work, double *asked) {
     if (unlike) ask_alike(work, gram, asked);
 }
 
-/* Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had. */
-static void balance(struct work *work) {
-    int count = work->count;
-    double share[MAX_FOCI], moving = 0;
-    for (int i = 0; i < count; i++) moving += work->balance[i] = isfinite(work->divisor[i]);
-    if (moving == 0) moving = 1;
-    for (int round = 0; round < BALANCING_ROUNDS; round++) {
-        int16_t whole[MAX_FOCI], above[ROW];
-        int32_t sum[ROW];
-        int64_t got[MAX_FOCI] = {0};
-        double mean = 0;
-        whole_weights(work, ONES, whole);
-        for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
-            add_up(count, work->sketch, whole, at, sum);
-            compare_nothing(above, sum);
-            for (int i = 0; i < count; i++) got[i] -= inner_product(work->sketch[i] + at, above, ROW);
-        }
-        for (int i = 0; i < count; i++) {
-            share[i] = (double)got[i] / work->divisor[i];
-            mean += share[i];
-        }
-        mean /= moving;
-        for (int i = 0; i < count; i++) {
-            double correction = share[i] > 0 ? mean / share[i] : MAX_CORRECTION;
-            if (correction < 1 / MAX_CORRECTION) correction = 1 / MAX_CORRECTION;
-            work->balance[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
-        }
+/* Divide weights by what the points got. */
+static void correct_balance(struct work *work, const double *share) {
+    double mean = 0, moving = 0;
+    for (int i = 0; i < work->count; i++) {
+        mean += share[i];
+        moving += isfinite(work->divisor[i]);
     }
+    mean /= moving > 0 ? moving : 1;
+    for (int i = 0; i < work->count; i++) {
+        double correction = share[i] > 0 ? mean / share[i] : MAX_CORRECTION;
+        if (correction < 1 / MAX_CORRECTION) correction = 1 / MAX_CORRECTION;
+        work->balance[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
+    }
+}
+
+/* Weights with which all points get about the same share of their maximum in the sketch; 0 where there is nothing to be had. */
+static void balance_sketch(struct work *work) {
+    int count = work->count;
+    int16_t whole[MAX_FOCI], above[ROW];
+    int32_t sum[ROW];
+    int64_t got[MAX_FOCI] = {0};
+    double share[MAX_FOCI];
+    for (int i = 0; i < count; i++) work->balance[i] = isfinite(work->divisor[i]);
+    whole_weights(work, ONES, whole);
+    for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
+        add_up(count, work->sketch, whole, at, sum);
+        compare_nothing(above, sum);
+        for (int i = 0; i < count; i++) got[i] -= inner_product(work->sketch[i] + at, above, ROW);
+    }
+    for (int i = 0; i < count; i++) share[i] = (double)got[i] / work->divisor[i];
+    correct_balance(work, share);
 }
 
 /* Displacements at less than full amplitude, from those at full amplitude, which were measured. */
@@ -534,13 +533,15 @@ static void set_wanted(struct work *work, const double *asked) {
         work->wanted[0] = asked[0] * work->measured[0];
         return;
     }
-    double level = product(work->balance, work->in_band, work->count) / product(work->balance, ONES, work->count);
-    double nearly = level * OWN_LEVEL;
+    double in_band = product(work->balance, work->in_band, work->count);
+    if (!(in_band > 0)) in_band = INFINITY;
+    double more = product(work->balance, work->measured, work->count) / in_band;
+    double level = in_band / product(work->balance, ONES, work->count), nearly = level * OWN_LEVEL;
     for (int i = 0; i < work->count; i++) {
         double own = work->in_band[i] - level;
         if (own > nearly) own = nearly;
         if (own < -nearly) own = -nearly;
-        work->wanted[i] = asked[i] * (work->in_band[i] - own);
+        work->wanted[i] = work->in_band[i] > 0 ? asked[i] * (work->in_band[i] - own) * more : 0;
     }
 }
 
@@ -557,7 +558,6 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
         int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
         work->divisor[i] = norm ? (double)norm : INFINITY;
         memset(work->response[i] + work->values, 0, (size_t)(work->rows * ROW - work->values) * sizeof(int16_t));
-        if (full) continue;
         interpolate(work->idle_word, patches + i, work->values, work->rests, work->rest[i]);
         memset(work->rest[i] + work->rests, 0, (size_t)(work->rows * RESTS - work->rests) * sizeof(int16_t));
     }
@@ -568,18 +568,24 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
     if (work->count > 1) {
         take_sketch(work);
         polarise(work, asked);
-        balance(work);
+        balance_sketch(work);
     }
-    if (whole_weights(work, ONES, weight) == 0 || full) {
+    if (whole_weights(work, ONES, weight) == 0) {
         pass(work, weight, WRITE);
         return;
     }
     double unit = whole_weights(work, asked, weight_asked);
-    int alike = !memcmp(weight, weight_asked, (size_t)work->count * sizeof *weight);
-    pass(work, weight, alike ? MEASURE | STRENGTH : MEASURE);
-    set_wanted(work, asked);
-    if (!alike) pass(work, weight_asked, STRENGTH);
-    solve(work, asked, weight_asked, unit);
+    if (work->count == 1) {
+        pass(work, weight, MEASURE | STRENGTH);
+        set_wanted(work, asked);
+    } else {
+        pass(work, weight, MEASURE);
+        set_wanted(work, asked);
+        correct_balance(work, work->measured);
+        unit = whole_weights(work, asked, weight_asked);
+        pass(work, weight_asked, full ? WRITE : STRENGTH);
+    }
+    if (!full) solve(work, asked, weight_asked, unit);
 }
 
 /* Index of a row of cells and the distance beyond it, in pitches. */
@@ -696,9 +702,7 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
         work->rest[i] = work->response[i] + work->rows * ROW;
         room += work->rows * (ROW + RESTS) * (int64_t)sizeof(int16_t);
     }
-    int64_t before = (plan->samples + 2 * SKETCH_STEP - 1) / (2 * SKETCH_STEP), all = (plan->samples + SKETCH_STEP - 1) / SKETCH_STEP;
-    work->sketch_before = (before + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
-    work->sketch_rows = work->sketch_before + (all - before + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
+    work->sketch_rows = (plan->samples + SKETCH_STEP * GROUP_SAMPLES - 1) / (SKETCH_STEP * GROUP_SAMPLES);
     for (int i = 0; i < count; i++, room += work->sketch_rows * ROW * (int64_t)sizeof(int16_t)) work->sketch[i] = (int16_t *)room;
     work->strength = (int32_t *)room;
     work->threshold = work->strength + work->blocks * CHANNELS;

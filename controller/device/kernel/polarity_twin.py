@@ -1,6 +1,6 @@
 """Polarities of several points that are composed together, and their weights at full amplitude; a part of `words_twin`.
 
-Both are found from a sketch: every second sample of the responses, and for inner products every fourth.
+Polarities are found from a sketch, every fourth sample of the responses, and so are the first weights.
 """
 
 from __future__ import annotations
@@ -14,23 +14,21 @@ from numpy.typing import NDArray
 Numbers = NDArray[Any]
 
 POINT_WEIGHT_SUM: Final = 32767  # of the points
-SKETCH_STEP: Final = 2  # of all samples, one of this many is in the sketch from which polarities and weights are found
+SKETCH_STEP: Final = 4  # of all samples, one of this many is in the sketch from which polarities and weights are found
 SKETCH_SHIFT: Final = 4  # bits that responses lose there, so that 256 products add up to less than 2^31
 PRODUCT_BITS: Final = 30  # of the largest inner product of two responses
-BALANCING_ROUNDS: Final = 2
 MAX_CORRECTION: Final = 2.0  # of a weight in a round
 ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
 RATIO_SLOPE: Final = 30.0  # by which ratio amplitudes may differ, for each correlation below: 4 at 0.4, 3.1 mm
 
 
 class Sketch:
-    """Every second sample of the points' responses; inner products of responses are those of every fourth."""
+    """Every fourth sample of the points' responses, and their inner products."""
 
     def __init__(self, in_band: Numbers) -> None:
         count = len(in_band)
         self._rows = (in_band[:, ::SKETCH_STEP] >> SKETCH_SHIFT).reshape(count, -1)
-        coarse = (in_band[:, :: 2 * SKETCH_STEP] >> SKETCH_SHIFT).reshape(count, -1)
-        self._gram: Numbers = np.array([[(one * other).sum() for other in coarse] for one in coarse])
+        self._gram: Numbers = np.array([[(one * other).sum() for other in self._rows] for one in self._rows])
 
     def polarised(self, asked: list[float], norms: list[float]) -> tuple[list[float], list[float]]:
         """What can be asked for, and the norms, with the signs of the points for which the energy of the sum is largest."""
@@ -49,15 +47,9 @@ class Sketch:
     def balanced(self, norms: list[float]) -> list[float]:
         """Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had."""
         weights = [1.0 if math.isfinite(norm) else 0.0 for norm in norms]
-        moving = product(weights, weights) or 1.0
-        for _ in range(BALANCING_ROUNDS):
-            bits = sum(weight * row for weight, row in zip(whole_weights(weights, norms)[0], self._rows, strict=True)) > 0
-            shares = [int(np.sum(row, where=bits)) / norm for row, norm in zip(self._rows, norms, strict=True)]
-            mean = product(shares, [1.0] * len(norms)) / moving
-            for index, share in enumerate(shares):
-                correction = mean / share if share > 0 else MAX_CORRECTION
-                weights[index] *= min(max(correction, 1 / MAX_CORRECTION), MAX_CORRECTION)
-        return weights
+        bits = sum(weight * row for weight, row in zip(whole_weights(weights, norms)[0], self._rows, strict=True)) > 0
+        shares = [int(np.sum(row, where=bits)) / norm for row, norm in zip(self._rows, norms, strict=True)]
+        return corrected(weights, shares, norms)
 
     def _correlations(self) -> list[tuple[int, int, float]]:
         """Of the responses of each two points."""
@@ -67,6 +59,16 @@ class Sketch:
                 if sizes[i] > 0 and sizes[j] > 0:
                     found.append((i, j, float(self._gram[i, j]) / math.sqrt(sizes[i] * sizes[j])))
         return found
+
+
+def corrected(weights: list[float], shares: list[float], norms: list[float]) -> list[float]:
+    """Weights divided by what the points got with them."""
+    mean = product(shares, [1.0] * len(shares)) / (sum(map(math.isfinite, norms)) or 1)
+    found = []
+    for weight, share in zip(weights, shares, strict=True):
+        correction = mean / share if share > 0 else MAX_CORRECTION
+        found.append(weight * min(max(correction, 1 / MAX_CORRECTION), MAX_CORRECTION))
+    return found
 
 
 def _signs(count: int, products: list[tuple[int, int, float]], unit: float) -> list[int]:

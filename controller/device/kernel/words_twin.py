@@ -17,8 +17,8 @@ values, which is what the point would get alone; one of zeros has no part in the
 
 A kick is felt either way, so polarities are free. Those are taken for which the energy of the sum is largest (`s' G s`, G: inner
 products of the responses), so that responses that are opposite add up; of those and their opposites the one with fewer negative
-points. Then weights are balanced: twice, each is divided by what its point gets, so that all points get the same share of their
-own maximum, next to the largest that all can have. Inner products and shares are those of every fourth and every second sample.
+points. Then weights are balanced: twice, each is divided by what its point gets, first in every fourth sample, then with all that
+bits do, so that all points move by the same share of what each would get alone, next to the largest that all can have.
 How amplitudes below the full one are met: `amplitude_twin`.
 """
 
@@ -44,14 +44,14 @@ from controller.device.kernel.bank_twin import (
     Writable,
     checked_words,
 )
-from controller.device.kernel.polarity_twin import Sketch, product, whole_weights
+from controller.device.kernel.polarity_twin import Sketch, corrected, product, whole_weights
 
 Numbers = NDArray[Any]
 
 LEAST_AMPLITUDE: Final = 1 / 1024  # less is no displacement either, and quotients of it would leave the range of floats
 STRENGTH_SHIFT: Final = 8  # bits that absolute values of sums lose before they are added up
 THRESHOLD_BITS: Final = 24  # behind the point of a threshold
-OWN_LEVEL: Final = 1 / 16  # difference from the common level from which on a point has its own
+OWN_LEVEL: Final = 1 / 8  # difference from the common level from which on a point has its own
 
 
 def compose(
@@ -111,10 +111,15 @@ class _Composition:
             asked, divisors = sketch.polarised(asked, self.norms)
             balance = sketch.balanced(divisors)
         weighted, unit = self.weighted(balance, divisors)
-        bits = weighted > 0
-        if not unit or all(amplitude == 1 for amplitude in asked):
+        bits, full = weighted > 0, all(amplitude == 1 for amplitude in asked)
+        if not unit or (full and len(asked) == 1):
             return bits
-        return Solution(self, asked, divisors, balance).bits(self._wanted(bits, asked, divisors, balance))
+        measured, in_band = self.measured(bits, divisors)
+        if len(asked) == 1:
+            return Solution(self, asked, divisors, balance).bits([asked[0] * measured[0]])
+        wanted = _wanted(asked, balance, measured, in_band)
+        balance = corrected(balance, measured, divisors)
+        return self.weighted(balance, divisors)[0] > 0 if full else Solution(self, asked, divisors, balance).bits(wanted)
 
     def weighted(self, weights: list[float], divisors: list[float]) -> tuple[Numbers, float]:
         """Sum of the responses, each divided by its divisor, in whole multiples next to the weights times the unit."""
@@ -149,14 +154,14 @@ class _Composition:
         bits: Numbers = weighted > np.minimum(strength * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT), LARGEST)
         return bits
 
-    def _wanted(self, bits: Numbers, asked: list[float], divisors: list[float], balance: list[float]) -> list[float]:
-        """Displacements at less than full amplitude, from those at full amplitude, which the bits give.
 
-        Of several points from those in the band: what bits do outside it depends on all polarities, up to 8 % of a tenth point.
-        """
-        measured, in_band = self.measured(bits, divisors)
-        if len(asked) == 1:
-            return [asked[0] * measured[0]]
-        level = product(balance, in_band) / product(balance, [1.0] * len(balance))
-        nearly = level * OWN_LEVEL
-        return [share * (got - max(-nearly, min(nearly, got - level))) for share, got in zip(asked, in_band, strict=True)]
+def _wanted(asked: list[float], balance: list[float], measured: list[float], in_band: list[float]) -> list[float]:
+    """Displacements of several points at less than full amplitude, from those at nearly balanced weights: all, and in the band."""
+    in_sum, weights = product(balance, in_band), product(balance, [1.0] * len(balance))
+    in_sum = in_sum if in_sum > 0 else math.inf
+    level, more = in_sum / weights, product(balance, measured) / in_sum
+    nearly = level * OWN_LEVEL
+    return [
+        share * (got - max(-nearly, min(nearly, got - level))) * more if got > 0 else 0.0
+        for share, got in zip(asked, in_band, strict=True)
+    ]

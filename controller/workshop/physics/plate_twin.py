@@ -138,34 +138,22 @@ class PlateTwin:
         return float(self.exact_amplitudes(((x_m, y_m),))[0])
 
     def exact_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
-        """Amplitude in m of each of `points_m` when all are composed exactly at full amplitude: (point,).
+        """What amplitude 1 means at each of `points_m` when all are composed together, in m: (point,).
 
-        As `reference_amplitude`, with the sign of the sum of all points' responses with `balanced_weights`; the absolute
-        values of the displacements, since the polarities of points are free.
+        For one point its `reference_amplitude`. For several, the same share for all of what each gets alone in the band: that of
+        the sign of the sum of their responses with `balanced_weights`, whose whole displacements are weighed as the responses are.
         """
         if points_m not in self._exact:
             places = np.array(points_m)
             in_band = self.responses.drive_order_responses(places, dtype=np.float64)
             whole = self.responses.responses(places)[:, ::-1]
-            self._exact[points_m] = np.abs(self._amplitudes_of(in_band, balanced_weights(in_band), whole))
+            weights, sizes = balanced_weights(in_band), np.abs(in_band).sum(axis=(1, 2))
+            reached, most = np.abs(self._amplitudes_of(in_band, weights, whole)), np.abs(weights) @ sizes
+            self._exact[points_m] = sizes * (np.abs(weights) @ reached / most if most else 0.0)
             for index, point in enumerate(points_m):  # computing the responses takes the time, so keep each point alone too
                 alone = slice(index, index + 1)
                 self._exact.setdefault((point,), np.abs(self._amplitudes_of(in_band[alone], np.ones(1), whole[alone])))
         return self._exact[points_m]
-
-    def full_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
-        """What amplitude 1 means at each of `points_m` when less is asked of some, in m: (point,).
-
-        For one point its `reference_amplitude`. For several, the same share for all of what each gets alone in the band: the
-        largest that all can have. What bits do outside the band, which depends on the polarities of all points, is left out.
-        """
-        if len(points_m) == 1:
-            return self.exact_amplitudes(points_m)
-        in_band = self.responses.drive_order_responses(np.array(points_m), dtype=np.float64)
-        weights, sizes = balanced_weights(in_band), np.abs(in_band).sum(axis=(1, 2))
-        share = np.abs(np.tensordot(weights, in_band, 1)).sum() / (np.abs(weights) * sizes).sum()
-        levels: Floats = share * sizes * self.board.driver.supply_v / 2
-        return levels
 
     def _amplitudes_of(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
         """Displacement at each point by the words that weighted responses give, from rest at the idle word."""

@@ -72,14 +72,13 @@ def test_the_table_is_its_own_inverse_and_falls():
 
 @pytest.fixture
 def exactly(responses, reached):
-    """What amplitude 1 means: for one cell all that it gets alone, for several the largest share that all can have in the band."""
+    """What amplitude 1 means: for one cell all that it gets alone, for several the share that all can have."""
 
     def displacements(cells_m):
         here = np.array([responses[GRID.nearest(x_m, y_m)[0]] for x_m, y_m in cells_m])
         weights, sizes = balanced_weights(here), np.abs(here).sum(axis=(1, 2))
-        if len(cells_m) == 1:
-            return np.abs(reached(focus(here, weights.tolist(), IDLE_WORD), cells_m))
-        return sizes / 2 * np.abs(np.tensordot(weights, here, 1)).sum() / (np.abs(weights) * sizes).sum()
+        together = np.abs(reached(focus(here, weights.tolist(), IDLE_WORD), cells_m))
+        return sizes * (np.abs(weights) @ together) / (np.abs(weights) @ sizes)
 
     return displacements
 

@@ -37,18 +37,19 @@ def weighed(bank, points):
     """Responses, and for each its weight of either sign, straight from the definition.
 
     The polarities with which the sum of every fourth sample has most energy, as few of them negative as positive; then two rounds
-    in which weights are divided by what their points get in every second sample.
+    in which weights are divided by what their points get: in every fourth sample, and in all. This bank has nothing outside the band.
     """
     responses = [interpolated(bank, x_m, y_m) for x_m, y_m, _ in points]
     norms = np.array([float(np.abs(here).sum()) for here in responses])
     deviating = [here * (1 - 2 * channel_bits(np.uint32([IDLE_WORD])).astype(np.int64)) for here in responses]
-    fourth, second = (np.array([here[::step] >> 4 for here in deviating]).reshape(len(points), -1) for step in (4, 2))
+    fourth, each = np.array([here[::4] >> 4 for here in deviating]), np.array(deviating)
+    fourth, each = fourth.reshape(len(points), -1), each.reshape(len(points), -1)
     choices = np.array([(1, *rest) for rest in itertools.product((1, -1), repeat=len(points) - 1)])
     signs = choices[np.argmax([np.sum((choice / norms @ fourth) ** 2) for choice in choices])]
     signs = -signs if (signs < 0).sum() > len(points) / 2 else signs
     weights = np.ones(len(points))
-    for _ in range(2 if len(points) > 1 else 0):
-        got = (whole(signs * weights / norms) @ second > 0) @ second.T * signs / norms
+    for looked_at in (fourth, each) if len(points) > 1 else ():
+        got = (whole(signs * weights / norms) @ looked_at > 0) @ looked_at.T * signs / norms
         weights *= np.clip(got.mean() / got, 0.5, 2)
     return np.array(responses), signs * weights / norms
 

@@ -15,6 +15,7 @@ import msgspec
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from controller.device.bank.grid import Grid
 from controller.device.bank.packing import channel_bits
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board, load_board
@@ -23,12 +24,13 @@ from controller.device.scene.scene import load_scene
 from controller.device.touch.recordings.recording import Recording
 from controller.device.waveforms.composition import Composer
 from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
 from controller.workshop.bank_builder.methods.dual import farthest
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition, best_bits
 from controller.workshop.bank_builder.methods.nulls import ExactNulls, independent
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import Prediction
-from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.bank_builder.request import BankRequest, cells_around
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.simulation.simulated_run import Run, play
 
@@ -82,34 +84,48 @@ def full(points: np.ndarray) -> list[tuple[float, float, float]]:
 
 
 def compositions(board: Board, model: ResponseModel, seed: int, scenes: int) -> None:
-    """Worst point over the bound, equality and amplitudes."""
+    """Worst point over the bound and equality, of the plain sum, the device and exact composition; and amplitudes of the last."""
     plain, exact = SignOfSum(board, model), ExactComposition(board, model)
-    print("points: worst over the bound: plain median, worst; exact median, worst; largest difference; amplitudes off; ms")
+    print(
+        "points: worst over the bound: plain, device, exact: median, least; largest difference: device, exact; amplitudes off; ms"
+    )
     for foci in (1, 2, 4, 10):
         rng = np.random.default_rng(seed)
-        rows, times = [], []
-        for _ in range(scenes):
-            points, _ = scene(rng, board, foci, 0)
-            begun = time.process_time()
-            reached = exact.design(full(points)).displacement_m
-            times.append(time.process_time() - begun)
-            in_band = exact.deviations(model.drive_order_responses(points, dtype=np.float64))
-            _, bound = farthest(in_band, np.sign(reached))
-            size = np.abs(reached)
-            asked = rng.uniform(0.25, 1, foci)
-            got = np.abs(
-                exact.design([(*point, share) for point, share in zip(points.tolist(), asked.tolist(), strict=True)]).displacement_m
-            )
-            before = plain.design(full(points)).displacement_m
-            rows.append(
-                (before.min() / bound, size.min() / bound, np.ptp(size) / size.mean(), np.abs(got / size / asked - 1).max())
-            )
+        drawn = [scene(rng, board, foci, 0)[0] for _ in range(scenes)]
+        times, rows = [], []
+        with tempfile.TemporaryDirectory() as folder:
+            path, grid = Path(folder) / "bank", Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
+            build_bank(BankRequest(board, path, grid.pitch_m, cells_around(grid, np.concatenate(drawn).tolist())))
+            with Bank.open(path, board) as bank:
+                device = DeviceComposition(board, bank)
+                for points in drawn:
+                    begun = time.process_time()
+                    best = exact.design(full(points))
+                    times.append(time.process_time() - begun)
+                    in_band = exact.deviations(model.drive_order_responses(points, dtype=np.float64))
+                    sizes = np.abs(in_band).sum(axis=1)
+                    _, bound = farthest(in_band / sizes[:, None], np.sign(best.displacement_m))
+                    said = Prediction(board, model)
+                    before, live, size = (
+                        np.abs(said.at_focus(some.words, points)) / sizes
+                        for some in (plain.design(full(points)), device.design(full(points)), best)
+                    )
+                    asked = rng.uniform(0.25, 1, foci)
+                    less = [(*point, share) for point, share in zip(points.tolist(), asked.tolist(), strict=True)]
+                    off = np.abs(np.abs(exact.design(less).displacement_m) / sizes / size / asked - 1).max()
+                    rows.append([*(some.min() / bound for some in (before, live, size)), *map(_spread, (live, size)), off])
         found = np.array(rows)
-        medians, worst = np.median(found, axis=0), [found[:, 0].min(), found[:, 1].min(), found[:, 2].max(), found[:, 3].max()]
+        medians, least, most = np.median(found, axis=0), found.min(axis=0), found.max(axis=0)
         print(
-            f"{foci:3}: {medians[0]:.3f} {worst[0]:.3f}; {medians[1]:.3f} {worst[1]:.3f}; {100 * worst[2]:.2f} %; "
-            f"{100 * worst[3]:.2f} %; {1e3 * np.median(times):.0f}"
+            f"{foci:3}: "
+            + "; ".join(f"{medians[i]:.3f} {least[i]:.3f}" for i in range(3))
+            + f"; {100 * most[3]:.2f}, {100 * most[4]:.2f} %; {100 * most[5]:.2f} %; {1e3 * np.median(times):.0f}",
+            flush=True,
         )
+
+
+def _spread(shares: np.ndarray) -> float:
+    return float(np.ptp(shares) / shares.mean())
 
 
 def nulls(board: Board, model: ResponseModel, seed: int, scenes: int) -> None:

@@ -57,7 +57,7 @@ def test_every_finger_gets_the_amplitude_it_asks_for_of_what_exact_composition_g
     for scene in scenes:
         places = tuple((x_m, y_m) for x_m, y_m, _ in scene)
         words = np.frombuffer(composer.compose(scene), "<u4").copy()
-        found.extend(np.abs(emit(twin, words).at(places)) / twin.full_amplitudes(places))
+        found.extend(np.abs(emit(twin, words).at(places)) / twin.exact_amplitudes(places))
         asked.extend(amplitude for _, _, amplitude in scene)
     assert found == pytest.approx(asked, rel=0.05)
     assert found != pytest.approx(0.94 * np.array(asked), rel=0.05)  # 5 % is not much more than is needed
@@ -85,7 +85,7 @@ def test_a_lone_finger_gets_the_least_amplitude_within_5_percent(scenes, board, 
             continue
         words = np.frombuffer(composer.compose([(x_m, y_m, MIN_AMPLITUDE)]), "<u4").copy()
         (reached_m,) = np.abs(emit(twin, words).at([(x_m, y_m)]))
-        assert reached_m / twin.full_amplitudes(((x_m, y_m),))[0] == pytest.approx(MIN_AMPLITUDE, rel=0.05)
+        assert reached_m / twin.exact_amplitudes(((x_m, y_m),))[0] == pytest.approx(MIN_AMPLITUDE, rel=0.05)
 
 
 @pytest.mark.slow

@@ -48,7 +48,7 @@ def coarse(small_board):
 def hasty():
     """Neither the bounds of many fingers nor the machine's best rate are the subject here, and both take long."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(plate_under_test, "bound", lambda unit: 1.0)
+        patched.setattr(plate_under_test, "bound", lambda _unit: 1.0)
         patched.setattr(baselines, "best_sgemm_rate", lambda: 1e10)
         yield
 

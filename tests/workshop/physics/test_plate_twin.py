@@ -199,12 +199,13 @@ def test_a_focus_is_where_it_was_aimed_at_and_evaluated_as_defined():
 
 
 def test_what_points_can_have_together_is_what_they_have_when_composed_exactly(model, twin):
-    """Against the twin's own way from pins to displacement."""
+    """Against the twin's own way from pins to displacement: the mean of their shares, weighed as their responses are."""
     responses = model.drive_order_responses(POINTS, dtype=np.float64)
-    words = focus(responses, balanced_weights(responses).tolist(), IDLE)
-    field = next(twin.fields(capture_of_words(words, BIT, IDLE, LONG_AGO), CLOCK_HZ))
+    weights, sizes = balanced_weights(responses), np.abs(responses).sum(axis=(1, 2))
+    field = next(twin.fields(capture_of_words(focus(responses, weights.tolist(), IDLE), BIT, IDLE, LONG_AGO), CLOCK_HZ))
     together = twin.exact_amplitudes(tuple(POINTS))
-    assert np.abs(field.at(POINTS)) == pytest.approx(together, rel=1e-9)
+    level = np.average(np.abs(field.at(POINTS)) / sizes, weights=np.abs(weights) * sizes)
+    assert together == pytest.approx(level * sizes, rel=1e-9)
     alone = [float(PlateTwin(BOARD, HIGHEST_HZ).exact_amplitudes((point,))[0]) for point in POINTS]
     assert [twin.reference_amplitude(*point) for point in POINTS] == pytest.approx(alone, rel=1e-12)
     assert together != pytest.approx(alone, rel=0.1)

@@ -3,7 +3,8 @@
 `max over directions s of min over weights w of ||sum(w s h)||_1`, computed by its dual (`dual.py`): for scenes that are known
 beforehand, such as spots that always play. Each point is pushed up or down, whichever lets all of them move farther: a finger feels
 either. The bits are the sign of a weighted sum of band-limited responses; the weights are chosen so that the whole displacements,
-not only those in the band, are in the proportions that were asked for.
+not only those in the band, are in the proportions that were asked for, each relative to what its point would move alone: the sum of
+the absolute values of its response in the band. The device equalises the same.
 """
 
 from __future__ import annotations
@@ -98,6 +99,8 @@ def best_bits(in_band: Floats, whole: Floats, asked: Floats, nulls: Floats, bloc
     still = nulls / sizes  # of one size
     left = in_band - (in_band @ still.T) @ still
     _require_independent(in_band, left, asked)
+    alone = np.abs(in_band).sum(axis=1, keepdims=True)  # next to what each point moves alone: all get the same share of it
+    in_band, whole, left = (some * (alone.mean() / alone) for some in (in_band, whole, left))
     rows = np.concatenate([in_band, still * float(np.linalg.norm(in_band, axis=1).mean())])
     signs = _polarities(left, rows)
 

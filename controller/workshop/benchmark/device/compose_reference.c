@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { CHANNELS = 32, SAMPLES = 1000, VALUES = SAMPLES * CHANNELS, POINTS = 10 };
+enum { CHANNELS = 32, SAMPLES = 1000, VALUES = SAMPLES * CHANNELS, RESTS = VALUES / 4, POINTS = 10 };
 
 struct bank {
     const int8_t *response;
@@ -17,7 +17,7 @@ struct bank {
     uint32_t idle_word;
 };
 
-static int16_t response_of[POINTS][VALUES], sketch_of[POINTS][VALUES / 2]; /* a sketch: samples 0, 4, 8, .., then 2, 6, 10, .. */
+static int16_t response_of[POINTS][VALUES], rest_of[POINTS][RESTS], sketch_of[POINTS][VALUES / 4]; /* a sketch: samples 0, 4, 8, .. */
 static int32_t sum_of[VALUES];
 static uint8_t bits[VALUES];
 
@@ -32,8 +32,8 @@ static double along(double distance_m, double pitch_m, int64_t last, int64_t *in
     return 0;
 }
 
-/* Response of a point; the sum of its absolute values. */
-static int64_t interpolate(const struct bank *b, double x_m, double y_m, int16_t *out)
+/* Values of a response of a point; the sum of their absolute values. */
+static int64_t interpolate(const struct bank *b, double x_m, double y_m, int first, int values, int16_t *out)
 {
     int64_t ix, iy, norm = 0;
     double right = along(x_m - b->x0_m, b->pitch_m, b->nx - 1, &ix), up = along(y_m - b->y0_m, b->pitch_m, b->ny - 1, &iy);
@@ -44,7 +44,7 @@ static int64_t interpolate(const struct bank *b, double x_m, double y_m, int16_t
     for (int corner = 0; corner < 4; corner++) {
         if (share[corner] == 0) continue;
         int32_t entry = b->entry_of[(iy + (corner >> 1)) * b->nx + ix + (corner & 1)];
-        from[cells] = b->response + entry * b->stride;
+        from[cells] = b->response + entry * b->stride + first;
         share[cells] = share[corner] * b->scale_of[entry];
         total += share[cells++];
     }
@@ -52,13 +52,13 @@ static int64_t interpolate(const struct bank *b, double x_m, double y_m, int16_t
     if (cells == 1) weight[0] = 256;
     const int8_t *p = from[0], *q = from[1 % cells], *r = from[2 % cells], *s = from[3 % cells];
     if (cells == 1)
-        for (int v = 0; v < VALUES; v++) out[v] = (int16_t)(p[v] * weight[0]);
+        for (int v = 0; v < values; v++) out[v] = (int16_t)(p[v] * weight[0]);
     else if (cells == 2)
-        for (int v = 0; v < VALUES; v++) out[v] = (int16_t)(p[v] * weight[0]) + (int16_t)(q[v] * weight[1]);
+        for (int v = 0; v < values; v++) out[v] = (int16_t)(p[v] * weight[0]) + (int16_t)(q[v] * weight[1]);
     else
-        for (int v = 0; v < VALUES; v++)
+        for (int v = 0; v < values; v++)
             out[v] = (int16_t)(p[v] * weight[0]) + (int16_t)(q[v] * weight[1]) + (int16_t)(r[v] * weight[2]) + (int16_t)(s[v] * weight[3]);
-    for (int n = 0; n < SAMPLES; n++) {
+    for (int n = 0; n < values / CHANNELS; n++) {
         int32_t part = 0;
         for (int c = 0; c < CHANNELS; c++) part += abs(out[n * CHANNELS + c]);
         norm += part;
@@ -67,14 +67,19 @@ static int64_t interpolate(const struct bank *b, double x_m, double y_m, int16_t
 }
 
 /* Negated in channels that idle high: a bit deviates from idle where the sum is positive. */
-static void sketch(const int16_t *response, const int16_t *idles_high, int16_t *out)
+static void turn(int16_t *response, int rows, const int16_t *idles_high)
 {
-    for (int first = 0; first < 4; first += 2)
-        for (int n = first; n < SAMPLES; n += 4, out += CHANNELS)
-            for (int c = 0; c < CHANNELS; c++) out[c] = ((response[n * CHANNELS + c] ^ -idles_high[c]) + idles_high[c]) >> 4;
+    for (int n = 0; n < rows; n++, response += CHANNELS)
+        for (int c = 0; c < CHANNELS; c++) response[c] = (response[c] ^ -idles_high[c]) + idles_high[c];
 }
 
-/* Polarities with the largest energy of the sum, from the first half of the sketches. */
+static void sketch(const int16_t *response, int16_t *out)
+{
+    for (int n = 0; n < SAMPLES; n += 4, out += CHANNELS)
+        for (int c = 0; c < CHANNELS; c++) out[c] = response[n * CHANNELS + c] >> 4;
+}
+
+/* Polarities with the largest energy of the sum, from the sketches. */
 static void find_polarities(const int64_t *norm, int count, int *sign)
 {
     double product[POINTS][POINTS], largest = 0;
@@ -114,28 +119,67 @@ static void weigh(const double *divisor, const double *weight, int count, int16_
     for (int i = 0; i < count; i++) whole[i] = (int16_t)rint(weight[i] / divisor[i] * (32767 / total));
 }
 
-/* Twice divide weights by what the points get. */
+static void add_up(const int16_t (*response)[VALUES], const int16_t *whole, int count)
+{
+    for (int i = 0; i < count; i++) {
+        int16_t weight = whole[i];
+        if (i == 0)
+            for (int v = 0; v < VALUES; v++) sum_of[v] = weight * response[0][v];
+        else
+            for (int v = 0; v < VALUES; v++) sum_of[v] += weight * response[i][v];
+    }
+    for (int v = 0; v < VALUES; v++) bits[v] = sum_of[v] > 0;
+}
+
+/* Divide weights by what the points got. */
+static void correct(const double *share, int count, double *weight)
+{
+    double mean = 0;
+    for (int i = 0; i < count; i++) mean += share[i];
+    mean /= count;
+    for (int i = 0; i < count; i++) weight[i] *= share[i] > 0 ? fmin(fmax(mean / share[i], 0.5), 2) : 2;
+}
+
+/* Balance weights in the sketches, then with all that bits do. */
 static void balance(const double *divisor, int count, double *weight)
 {
-    for (int round = 0; round < 2; round++) {
-        int16_t whole[POINTS], above[VALUES / 2];
-        double share[POINTS], mean = 0;
-        weigh(divisor, weight, count, whole);
-        for (int i = 0; i < count; i++)
-            if (i == 0)
-                for (int v = 0; v < VALUES / 2; v++) sum_of[v] = whole[i] * sketch_of[i][v];
-            else
-                for (int v = 0; v < VALUES / 2; v++) sum_of[v] += whole[i] * sketch_of[i][v];
-        for (int v = 0; v < VALUES / 2; v++) above[v] = sum_of[v] > 0;
-        for (int i = 0; i < count; i++) {
-            int32_t got = 0; /* 16,000 values of 11 bits */
-            for (int v = 0; v < VALUES / 2; v++) got += sketch_of[i][v] * above[v];
-            share[i] = got / divisor[i];
-            mean += share[i];
-        }
-        mean /= count;
-        for (int i = 0; i < count; i++) weight[i] *= share[i] > 0 ? fmin(fmax(mean / share[i], 0.5), 2) : 2;
+    int16_t whole[POINTS], above[VALUES / 4], counted[RESTS];
+    double share[POINTS];
+    weigh(divisor, weight, count, whole);
+    for (int i = 0; i < count; i++)
+        if (i == 0)
+            for (int v = 0; v < VALUES / 4; v++) sum_of[v] = whole[i] * sketch_of[i][v];
+        else
+            for (int v = 0; v < VALUES / 4; v++) sum_of[v] += whole[i] * sketch_of[i][v];
+    for (int v = 0; v < VALUES / 4; v++) above[v] = sum_of[v] > 0;
+    for (int i = 0; i < count; i++) {
+        int32_t got = 0; /* 8,000 values of 11 bits */
+        for (int v = 0; v < VALUES / 4; v++) got += sketch_of[i][v] * above[v];
+        share[i] = got / divisor[i];
     }
+    correct(share, count, weight);
+    weigh(divisor, weight, count, whole);
+    add_up(response_of, whole, count);
+    for (int n = 0; n < SAMPLES / 4; n++)
+        for (int c = 0; c < CHANNELS; c++) {
+            const uint8_t *four = bits + 4 * n * CHANNELS + c;
+            counted[n * CHANNELS + c] = four[0] + four[CHANNELS] + four[2 * CHANNELS] + four[3 * CHANNELS];
+        }
+    for (int i = 0; i < count; i++) {
+        int64_t got = 0;
+        for (int n = 0; n < SAMPLES; n++) {
+            int32_t part = 0;
+            for (int v = n * CHANNELS; v < (n + 1) * CHANNELS; v++) part += response_of[i][v] * bits[v];
+            got += part;
+        }
+        for (int n = 0; n < SAMPLES / 4; n++) {
+            int32_t part = 0;
+            for (int v = n * CHANNELS; v < (n + 1) * CHANNELS; v++) part += rest_of[i][v] * counted[v];
+            got += part;
+        }
+        share[i] = (double)got / divisor[i];
+    }
+    correct(share, count, weight);
 }
 
 static void compose(const struct bank *b, const double (*points)[2], int count, uint32_t *words)
@@ -144,39 +188,32 @@ static void compose(const struct bank *b, const double (*points)[2], int count, 
     double divisor[POINTS], weight_of[POINTS];
     int16_t whole[POINTS], idles_high[CHANNELS];
     int sign[POINTS] = {1};
-    int32_t least[CHANNELS]; /* that plays high: a sum of zero leaves the channel idle */
-    for (int c = 0; c < CHANNELS; c++) least[c] = b->idle_word >> c & 1 ? 0 : 1;
     for (int c = 0; c < CHANNELS; c++) idles_high[c] = b->idle_word >> c & 1;
     for (int i = 0; i < count; i++) {
-        norm[i] = interpolate(b, points[i][0], points[i][1], response_of[i]);
-        if (count > 1) sketch(response_of[i], idles_high, sketch_of[i]);
+        norm[i] = interpolate(b, points[i][0], points[i][1], 0, VALUES, response_of[i]);
+        turn(response_of[i], SAMPLES, idles_high);
+        if (count == 1) continue;
+        interpolate(b, points[i][0], points[i][1], VALUES, RESTS, rest_of[i]);
+        turn(rest_of[i], SAMPLES / 4, idles_high);
+        sketch(response_of[i], sketch_of[i]);
     }
     if (count > 1) find_polarities(norm, count, sign);
     for (int i = 0; i < count; i++) {
         divisor[i] = sign[i] * (double)norm[i];
         weight_of[i] = 1;
     }
-    if (count > 1) balance(divisor, count, weight_of);
-    for (int i = 0; i < count; i++) divisor[i] /= weight_of[i];
-    for (int i = 0; i < count; i++) weight_of[i] = 1;
-    weigh(divisor, weight_of, count, whole);
-    for (int i = 0; i < count; i++) {
-        int16_t weight = whole[i];
-        if (count == 1)
-            for (int v = 0; v < VALUES; v++) sum_of[v] = response_of[0][v];
-        else if (i == 0)
-            for (int v = 0; v < VALUES; v++) sum_of[v] = weight * response_of[i][v];
-        else
-            for (int v = 0; v < VALUES; v++) sum_of[v] += weight * response_of[i][v];
-    }
-    for (int n = 0; n < SAMPLES; n++)
-        for (int c = 0; c < CHANNELS; c++) bits[n * CHANNELS + c] = sum_of[n * CHANNELS + c] >= least[c];
+    if (count > 1) {
+        balance(divisor, count, weight_of);
+        weigh(divisor, weight_of, count, whole);
+        add_up(response_of, whole, count);
+    } else
+        for (int v = 0; v < VALUES; v++) bits[v] = response_of[0][v] > 0;
     for (int n = 0; n < SAMPLES; n++) {
         uint64_t eights[4];
         uint32_t word = 0;
         memcpy(eights, bits + n * CHANNELS, sizeof eights);
         for (int k = 0; k < 4; k++) word |= (uint32_t)(eights[k] * 0x0102040810204080ULL >> 56) << 8 * k;
-        words[n] = word;
+        words[n] = word ^ b->idle_word;
     }
 }
 

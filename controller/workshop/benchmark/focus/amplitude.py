@@ -95,7 +95,7 @@ def _mixed(composer: DesignMethod, twin: PlateTwin, scenes: list[list[tuple[floa
     got: list[float] = []
     for scene in scenes:
         places = tuple((x_m, y_m) for x_m, y_m, _ in scene)
-        got.extend(np.abs(emit(twin, _words(composer, scene)).at(places)) / twin.full_amplitudes(places))
+        got.extend(np.abs(emit(twin, _words(composer, scene)).at(places)) / twin.exact_amplitudes(places))
         asked.extend(amplitude for _, _, amplitude in scene)
     error = 100 * np.abs(np.array(got) / asked - 1)
     percent = spread(error.tolist()) | {"p95": float(np.quantile(error, 0.95))}

@@ -89,7 +89,8 @@ def fill(board: Board, model: ResponseModel, wanted: Sequence[tuple[ResponseTabl
         flat = model.drive_order_responses(wanted[0][0].grid.points()[part]) / rising
         for table, own in wanted:
             here = np.isin(part, own)
-            table.hold(part[here], flat[here])
+            if here.any():
+                table.hold(part[here], flat[here])
     for table, _ in wanted:
         table.take()
 
