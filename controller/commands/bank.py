@@ -67,7 +67,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         command.set_defaults(command=action)
         if name == "info":
             command.add_argument(
-                "--power", action="store_true", help="edges, loss and power of the driver stages, and the limits that follow"
+                "--power",
+                action="store_true",
+                help="edges, loss and power of the driver stages, and the limits that follow; dB(A) and stress by the model",
             )
 
 
@@ -122,14 +124,16 @@ def _choices_table(choice: dict[str, Any]) -> str:
 
 
 def bank_describe(options: argparse.Namespace) -> int:
-    """Describe what a bank holds and what it was computed from; with --power, the load on the driver stages."""
+    """Describe what a bank holds and what it was computed from; with --power, the load on the driver stages, sound and stress."""
     if options.power:
         from controller.commands.common.tables import power_table
+        from controller.workshop.benchmark.focus.bank_emissions import bank_emissions
         from controller.workshop.benchmark.stage.power import power_report
 
         board = load_board(find_board(options.board))
         with Bank.open(_bank_file(options).path, board) as bank:
-            show(options, power_report(board, bank, progress=progress_bar("losses")), power_table)
+            report = power_report(board, bank, progress=progress_bar("losses"))
+            show(options, report | bank_emissions(board, bank), power_table)
         return 0
     from controller.commands.common.tables import plain_table
 

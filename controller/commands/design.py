@@ -57,6 +57,7 @@ ROWS = {  # what is printed of each figure; numbers in brackets are those of the
     "kinetic_share": "of that kinetic, estimate",
     "energy_decay_ms": "decay of energy (ms)",
     "mechanical_power_mw": "mechanical power in T (mW)",
+    "stress": "stress (MPa), field (MV/m)",
     "resistors_w": "resistors, all emitting (W)",
     "resistors_repeated_w": "resistors, every Tr (W)",
     "supply_ma": "supply current, every Tr (mA)",

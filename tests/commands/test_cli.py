@@ -392,6 +392,9 @@ def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file, tmp_p
     table = printed(capsys, "bank", "info", bank_file, "--power").out
     assert "a resistor of 1.5 W, derated to 0.5, may burn 0.75 W: holds at max_duty" in table
     assert f"{figures['full_duty_w']['all']['median']:.4g}" in table
+    assert 40 < figures["sound"]["exposure_db"]["median"] < figures["sound"]["exposure_db"]["max"] < 55
+    assert 10 < figures["stress"]["plate_mpa"] < 40
+    assert figures["warnings"] == []
     text = (find_board("simulated") / "board.toml").read_text()
     small = text.replace("resistor_rating_w = 1.5", "resistor_rating_w = 0.5")
     (tmp_path / "board.toml").write_text(small.replace("max_channel_edge_rate_hz = 150e3", "max_channel_edge_rate_hz = 53e3"))

@@ -157,7 +157,7 @@ def amplitude_table(figures: dict[str, Any]) -> str:
 
 
 def power_table(figures: dict[str, Any]) -> str:
-    """Table of the load of a bank's waveforms on the driver stages."""
+    """Table of the load of a bank's waveforms on the driver stages, of their sound and of stress."""
     duty, resistor, limits = figures["max_duty"], figures["resistor"], figures["limits"]
     rows = [
         ("edges of an emission", figures["edges"]),
@@ -184,6 +184,9 @@ def power_table(figures: dict[str, Any]) -> str:
         f"limits for that: max_duty {_number(limits['max_duty'])} for these emissions; whatever plays, "
         f"{_number(limits['max_channel_edge_rate_hz'])} edges per second of one channel, "
         f"{_number(limits['max_total_edge_rate_hz'])} of all",
+        "",
+        plain_table({name: figures[name] for name in ("sound", "stress")}),
+        *(f"warning: {warning}" for warning in figures["warnings"]),
     ]
     return "\n".join(lines)
 

@@ -128,6 +128,8 @@ class OnPlate:
         lever_m = whole.thickness_m - disc.ceramic_thickness_mm * 1e-3 / 2 - whole.axis_m
         pull = disc.piezo_constant_m_per_v * disc.ceramic_modulus_pa / (1 - disc.ceramic_poisson_ratio)
         passed = 2 * stiffness / ((1 + plate.poisson_ratio) * together + (1 - plate.poisson_ratio) * stiffness)
+        self.passed = passed  # share of its moment that the bare plate feels; and of a plate's curvature that it takes part in
+        self.face_m = whole.thickness_m - whole.axis_m  # height of the ceramic's face above the neutral axis of both
         self.mass_kg_m2 = mass_kg_m2  # what it adds to the plate, per area
         self.stiffness_ratio = together / stiffness  # bending stiffness of plate and disc together, over the plate's
         # Bending moment per length of edge and volt on plate and disc together

@@ -52,8 +52,8 @@ class Judge:
         / A_ref of the worst one over the best that any of `words` reaches. `amplitude_over_unfiltered`: A over half the supply
         times sum |h|, mean. `quiet`: largest displacement of the finger that shall feel nothing within 25 us of T, over the mean
         |A|. `contrast`: of the worst point, over the rms outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz
-        (`physics.audible`), `sound_pa2_s`: what is heard (`physics.sound`). `crest_m`: distance of the crest, largest of the points.
-        `stage_j`: heat in the drivers' series resistors.
+        (`physics.audible`), `sound_pa2_s`: what is heard (`physics.sound`). `crest_m`: distance of the crest, largest of the
+        points. `stage_j`: heat in the drivers' series resistors.
         """
         plate = self._plates[scene.detuning]
         reference = plate.reference(scene.points)

@@ -118,6 +118,11 @@ class FocalSpectrum:
         time_s: Floats = np.linspace(0, 0.5 / self.frequency_hz[0], SAMPLED)
         return 2 * _falls_to(0.5, time_s, self._sum(np.cos(np.multiply.outer(time_s, 2 * np.pi * self.frequency_hz))))
 
+    @cached_property
+    def curvature_per_m2(self) -> float:
+        """Curvature of the spot at its crest along any direction, over its amplitude."""
+        return float(self._sum(_wavenumber(self.plate, self.frequency_hz) ** 2)) / 2
+
     def share_within(self, radius_m: float) -> float:
         """Share of the spot's mean square, over the infinite plate, that lies within `radius_m` of it."""
         radii: Floats = np.linspace(0, radius_m, SAMPLED)

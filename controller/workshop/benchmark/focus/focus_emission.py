@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import make_interp_spline
 
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
@@ -31,13 +30,12 @@ from controller.workshop.physics.memory import focus_bytes, require
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.modal_history import Energy, ModalMotion, modal_energy
 from controller.workshop.physics.sound import PlateSound
+from controller.workshop.physics.stress import CELLS_A_WAVE, curvatures, focal_stress
 from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 
 PULSE: Floats = np.linspace(-0.6, 0.6, 81)  # times around T at which the pulse is looked at, in periods of the band's middle
-DEGREE = 5  # of the splines through a map of the energy, which are differentiated
-CELLS_A_WAVE = 12
 ELSEWHERE = 9  # places of a finger beside the foci
 FAR_WAVELENGTHS = 2.0  # of the band's middle: nearer to a focus it is on the spot's rim
 TIMES = 201  # within half a period of the band's middle before and after T
@@ -130,6 +128,7 @@ def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
 
     `energy_uj` by modes and `energy_integrated_uj` by a map; `stages_uj` of one emission, to idle and back included, and of each
     channel under `channels`. `sound` as in `sound_figures`; `audible_m2_per_s` is the energy at the surface below 16 kHz.
+    `stress` as in `focal_stress`.
     """
     twin, field = emission.twin, emission.field
     board = twin.board
@@ -156,6 +155,7 @@ def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
         "stages_w": float(heat_uj[used].sum()) * 1e-6 / period_s,
         "period_ms": period_s * 1e3,
         "sound": sound_figures(board, PlateSound(board, twin.modes), emission.words),
+        "stress": focal_stress(board, twin.modes, field.modal, emission.points_m),
         "audible_m2_per_s": surface_energy(board, emission.words, board.idle_word, modes=twin.modes),
         "in_wavelengths": {"length": plate.length_m / middle_m, "width": plate.width_m / middle_m, "middle_mm": middle_m * 1e3},
         "channels": [{"channel": q, "edges": int(edges[q]), "energy_uj": float(heat_uj[q])} for q in used],
@@ -173,12 +173,8 @@ def mapped_energy(plate: Plate, field: Field, shortest_m: float) -> Energy:
     step_m = min(shortest_m / CELLS_A_WAVE, plate.length_m / 16, plate.width_m / 16)
     x_m, y_m = map_axis(plate.length_m, step_m), map_axis(plate.width_m, step_m)
     cell_m2 = (x_m[1] - x_m[0]) * (y_m[1] - y_m[0])
-    u = field.modes.on_grid(field.modal, x_m, y_m)
     velocity = field.modes.on_grid(field.modal_velocity, x_m, y_m)
-    along_x = make_interp_spline(x_m, u, DEGREE, axis=1)
-    xx = along_x(x_m, 2)
-    yy = make_interp_spline(y_m, u, DEGREE, axis=0)(y_m, 2)
-    xy = make_interp_spline(y_m, along_x(x_m, 1), DEGREE, axis=0)(y_m, 1)
+    xx, yy, xy = curvatures(field.modes, field.modal, x_m, y_m)
     bent = xx**2 + yy**2 + 2 * plate.poisson_ratio * xx * yy + 2 * (1 - plate.poisson_ratio) * xy**2
     kinetic_j = plate.density_kg_m3 * plate.thickness_m / 2 * float((velocity**2).sum()) * cell_m2
     potential_j = bending_stiffness(plate) / 2 * float(bent.sum()) * cell_m2

@@ -36,7 +36,7 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None, par
     foam with a dashpot or layers, if it has them, on the band as a whole. Raises ConfigError if a number is not possible.
     """
     changes = {**_decay_of(board), **(changes or {})}
-    estimate = PanelEstimate(board, inputs_of(board, changes, parts))
+    estimate = PanelEstimate(board, inputs_of(board, changes, parts), parts)
     figures: Figures = {
         "inputs": msgspec.to_builtins(estimate.given),
         **_felt(estimate),
@@ -44,6 +44,7 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None, par
         **_modes(board, estimate),
         **_waves(estimate),
         **_amplitude_and_energy(estimate),
+        "stress": estimate.stress,
         **_stages(estimate),
         **_learning(estimate),
     }

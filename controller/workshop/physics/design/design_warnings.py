@@ -8,6 +8,7 @@ from typing import Any
 from controller.device.board.panel import CHANNELS, Plate
 from controller.device.board.relations.plate import FEWEST_MODES, FEWEST_WAVES, LONGEST_DECAYS, THICKEST
 from controller.workshop.physics.design.design import energy_j
+from controller.workshop.physics.stress import stress_warnings
 
 Figures = dict[str, Any]
 
@@ -23,7 +24,7 @@ COUPLED = 1.0  # modal overlap below which single modes ring
 
 def design_warnings(figures: Figures, plate: Plate) -> list[str]:
     """Warnings of the figures of `design_figures` of a plate, each a line that says what to read instead."""
-    found = list(_warnings(figures, figures["inputs"]))
+    found = [*_warnings(figures, figures["inputs"]), *stress_warnings(**figures["stress"])]
     if all(not _differ(figures["inputs"][name], value, 1e-3) for name, value in PAPERS.items()):
         found += _slips(figures, plate)
     return found

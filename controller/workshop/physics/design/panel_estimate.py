@@ -15,6 +15,7 @@ from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.errors import ConfigError
 from controller.workshop.physics.design.design_inputs import DesignInputs, inputs_of, plate_of
 from controller.workshop.physics.focal_spectrum import FocalSpectrum
+from controller.workshop.physics.stress import ceramic_stress_pa, field_v_m, plate_stress_pa
 
 STEP: Final = 1.1  # of a number, to see what it adds
 STEPPED: Final = ("supply_v", "channels", "size_mm", "thickness_mm", "decay_time_ms", "duration_ms", "band_low_hz", "band_high_hz")
@@ -23,9 +24,9 @@ STEPPED: Final = ("supply_v", "channels", "size_mm", "thickness_mm", "decay_time
 class PanelEstimate:
     """A panel's plate, stage and spectrum, and what follows."""
 
-    def __init__(self, board: Board, given: DesignInputs) -> None:
+    def __init__(self, board: Board, given: DesignInputs, parts: Parts | None = None) -> None:
         numbers = msgspec.structs.asdict(given)
-        self.given = given
+        self.given, self.parts = given, parts or board.parts
         self.plate = plate_of(board.plate, numbers)
         self.driver = msgspec.structs.replace(board.driver, **{name: numbers[name] for name in Driver.__struct_fields__})
         band_hz = given.band_low_hz, given.band_high_hz
@@ -52,6 +53,16 @@ class PanelEstimate:
     def under_finger_m(self) -> float:
         """Amplitude under the finger."""
         return self.amplitude_m * self.left
+
+    @cached_property
+    def stress(self) -> dict[str, float]:
+        """Stress at the focus on the bare plate, as `focal_stress` finds it."""
+        curvature = self.amplitude_m * self.spectrum.curvature_per_m2
+        found = {"plate_mpa": float(plate_stress_pa(self.plate, curvature, curvature, 0.0)) * 1e-6}
+        if self.parts is not None:
+            found["ceramic_mpa"] = ceramic_stress_pa(self.parts, self.plate, curvature, self.given.supply_v) * 1e-6
+            found["field_mv_m"] = field_v_m(self.parts, self.given.supply_v) * 1e-6
+        return found
 
     @cached_property
     def resistor_w(self) -> float:
