@@ -35,6 +35,7 @@ Complex = NDArray[np.complex128]
 WINDOW_LENGTHS = 2.0  # of the window, in times from the start to the last that is asked for
 DYING = 12.0  # sigma W
 MODES_AT_ONCE = 256  # 16 MB of resonances
+RINGS, PER_RING = 3, 12  # points of a pad
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,18 @@ class PointMotion:
         time = self.end_s + np.atleast_1d(np.asarray(after_s, np.float64))
         if time.max() > self.window_s / WINDOW_LENGTHS * (1 + 1e-9):
             raise ValueError(f"{time.max() - self.end_s:g} s after T is later than the motion was computed for")
+        found: Floats = (np.exp(np.outer(time, self.s)) @ self._spectrum(fingers)).real
+        return found
+
+    def history(self, fingers: Mapping[int, Finger]) -> Floats:
+        """The same at every bit period from the start of the emission on, as far as it was computed for: (time, point) in m."""
+        bits = len(self.s)
+        grown = np.exp(self.s[0].real * self.window_s / bits * np.arange(int(bits / WINDOW_LENGTHS) + 1))
+        found: Floats = np.fft.ifft(self._spectrum(fingers), axis=0).real[: len(grown)] * (bits * grown[:, None])
+        return found
+
+    def _spectrum(self, fingers: Mapping[int, Finger]) -> Complex:
+        """Weights of exp(s t) in the displacement, (frequency, point): its real part is the displacement."""
         moved = self.free
         if fingers:
             under = list(fingers)
@@ -78,10 +91,9 @@ class PointMotion:
             loop = np.eye(len(under)) + yielding[:, under] * stiffness[:, None, :]
             held = np.linalg.solve(loop, self.free[:, under, None])[..., 0]
             moved = self.free - np.einsum("fpq,fq->fp", yielding, stiffness * held)
-        weights = np.full(len(self.s), 2 / self.window_s)
-        weights[0] /= 2
-        found: Floats = ((np.exp(np.outer(time, self.s)) * weights) @ moved).real
-        return found
+        weighted: Complex = moved * (2 / self.window_s)
+        weighted[0] /= 2
+        return weighted
 
 
 def point_motion(
@@ -91,6 +103,8 @@ def point_motion(
     points_m: ArrayLike,  # (point, 2): x and y in m: where fingers are, and where displacements are wanted
     *,
     after_s: float = 20e-6,  # last time after T that will be asked for
+    # Diameter of the pads by which fingers touch: forces are spread over them and displacements are means over them, by pressure
+    pad_m: float = 0.0,
     # Whether points under a finger yield by the modes above the highest of `modes` too. A point within half a wavelength of the
     # highest mode to an edge is taken to yield as others do
     modes_above: bool = True,
@@ -106,7 +120,7 @@ def point_motion(
     volts = np.fft.fft(steps * dying[:, None], bits, axis=0)
     volts *= (DriverResponse.of(board.driver).transfer(s) / s)[:, None]  # on the piezo
     forces = channel_forces(board, modes)
-    shapes = np.asarray(modes.shapes(points_m), np.float64)
+    shapes = _pad_shapes(modes, points_m, pad_m)
     count = len(shapes)
     free: Complex = np.zeros((len(s), count), np.complex128)
     pairs: Complex = np.zeros((len(s), count * count), np.complex128)
@@ -117,9 +131,37 @@ def point_motion(
         free += (gives * (volts @ forces[some].T)) @ shapes[:, some].T
         pairs += gives @ (shapes[:, None, some] * shapes[None, :, some]).reshape(count * count, -1).T
     receptance = pairs.reshape(len(s), count, count)
-    if modes_above:
+    if modes_above and not pad_m:  # waves much shorter than the pad
         receptance[:, range(count), range(count)] += _of_modes_above(board, modes, s)[:, None]
     return PointMotion(s=s, free=free, receptance=receptance, window_s=window_s, end_s=len(words) * period_s)
+
+
+def pad_points(diameter_m: float) -> tuple[Floats, Floats]:
+    """Points of a pad from its middle, (point, 2) in m, and the share of the pressure that each stands for, (point,).
+
+    The pressure is an inverted paraboloid (Pawluk and Howe, J. Biomech. Eng. 121, 1999).
+    """
+    squares, of_ring = np.polynomial.legendre.leggauss(RINGS)
+    squares = (squares + 1) / 2  # of the radius over the pad's
+    of_ring = of_ring * (1 - squares)
+    turns = 2 * np.pi * (np.arange(PER_RING) + np.arange(RINGS)[:, None] / RINGS) / PER_RING
+    radii = diameter_m / 2 * np.sqrt(squares)[:, None]
+    offsets: Floats = np.stack([radii * np.cos(turns), radii * np.sin(turns)], axis=-1).reshape(-1, 2)
+    shares: Floats = np.repeat(of_ring / of_ring.sum() / PER_RING, PER_RING)
+    return offsets, shares
+
+
+def _pad_shapes(modes: Modes, points_m: ArrayLike, pad_m: float) -> Floats:
+    """Means of mode shapes over pads around points, (point, mode); what of a pad is off the plate rests on nothing."""
+    points = np.asarray(points_m, np.float64).reshape(-1, 2)
+    if not pad_m:
+        return np.asarray(modes.shapes(points), np.float64)
+    offsets, shares = pad_points(pad_m)
+    places = points[:, None] + offsets
+    there = np.all((places >= 0) & (places <= (modes.length_m, modes.width_m)), axis=2)
+    shapes = np.asarray(modes.shapes(places.reshape(-1, 2)), np.float64).reshape(*there.shape, -1)
+    found: Floats = np.einsum("pom,po->pm", shapes, there * shares)
+    return found
 
 
 def point_receptance(board: Board, modes: Modes, points_m: ArrayLike, s: Complex) -> Complex:

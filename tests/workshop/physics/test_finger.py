@@ -4,17 +4,15 @@ import dataclasses
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
 from small_plate import WHOLE, small_board
 from tables import each_row
+from workshop.physics.loaded_plate import stepped
 
-from controller.device.bank.packing import channel_bits
 from controller.workshop.benchmark.focus.focus_emission import emission_at, finger_figures
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-from controller.workshop.physics.responses.step_response import channel_forces
 
 BOARD = small_board()
 FOCUS_M, ASIDE_M = (0.031, 0.022), (0.052, 0.037)
@@ -26,42 +24,6 @@ FULL = Finger(40e-6, 3.0, 5e5)  # all three matter: w M = 11, c = 3, k / w = 1.8
 def words():
     responses = ResponseModel(BOARD).drive_order_responses([FOCUS_M], dtype=np.float64)
     return focus(responses, [1.0], BOARD.idle_word)
-
-
-def stepped(modes, words, points_m, fingers, after_s):
-    """Displacement at bit periods from T on: mass, damping and stiffness of the fingers in the plate's own matrices (the mass
-    matrix is then no longer diagonal), drivers as circuits, exact steps of a bit period."""
-    shapes = np.asarray(modes.shapes(points_m))
-    mass, damping, stiffness = (
-        np.diag(d) for d in (modes.mass_kg, 2 * modes.mass_kg * modes.decay_rate, modes.mass_kg * modes.angular_frequency**2)
-    )
-    for at, finger in fingers.items():
-        dyad = np.outer(shapes[at], shapes[at])
-        mass = mass + finger.mass_kg * dyad
-        damping = damping + finger.damping_n_s_m * dyad
-        stiffness = stiffness + finger.stiffness_n_m * dyad
-    driver, n, q = BOARD.driver, modes.count, 32
-    forces = np.linalg.solve(mass, channel_forces(BOARD, modes))
-    gain = 1 / (driver.inductance_h * driver.capacitance_f)
-    zero, one = np.zeros, np.eye
-    state = np.block(
-        [
-            [zero((n, n)), one(n), zero((n, 2 * q))],
-            [-np.linalg.solve(mass, stiffness), -np.linalg.solve(mass, damping), forces, zero((n, q))],
-            [zero((q, 2 * n + q)), one(q)],
-            [zero((q, 2 * n)), -gain * one(q), -driver.resistance_ohm / driver.inductance_h * one(q)],
-        ]
-    )
-    given = np.vstack([zero((2 * n + q, q)), gain * one(q)])
-    both = expm(np.block([[state, given], [zero((q, len(state) + q))]]) * BOARD.waveform.bit_period_s)
-    over, drive = both[: len(state), : len(state)], both[: len(state), len(state) :]
-    idle = channel_bits(np.array([BOARD.idle_word], "<u4")).astype(float)
-    volts = (channel_bits(words.astype("<u4")) - idle) * driver.supply_v
-    now, found = zero(len(state)), []
-    for played in [*volts, *zero((len(after_s), q))]:
-        found.append(shapes @ now[:n])
-        now = over @ now + drive @ played
-    return np.array(found[len(words) :])
 
 
 def test_the_free_motion_is_that_of_the_twin(words):
@@ -78,7 +40,10 @@ def test_loaded_motion_is_that_of_a_plate_with_the_fingers_in_its_matrices(words
     modes = modes_of(BOARD, 60e3)
     points = [FOCUS_M, ASIDE_M, (0.012, 0.041)]
     motion = point_motion(BOARD, modes, words, points, modes_above=False)
-    found, exact = motion.displacement(fingers, AFTER_S), stepped(modes, words, points, fingers, AFTER_S)
+    found, exact = (
+        motion.displacement(fingers, AFTER_S),
+        stepped(BOARD, modes, words, modes.shapes(points), fingers, len(AFTER_S))[len(words) :],
+    )
     largest = abs(exact).max()
     free_um = motion.displacement({})[0, 0] * 1e6
     print(f"largest difference {abs(found - exact).max() / largest:.1e} of {largest * 1e6:.2f} um, free {free_um:.2f}")
