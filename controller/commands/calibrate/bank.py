@@ -66,6 +66,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from controller.workshop.bank_builder.own_bank import SMALLEST_PITCH_MM, pitch_of
     from controller.workshop.calibration.decay_fit import fit_decays
     from controller.workshop.calibration.drift_fit import fit_drift
+    from controller.workshop.calibration.duration import foreseen
     from controller.workshop.calibration.interpolate import interpolate
     from controller.workshop.calibration.stage_fit import stage_notes
     from controller.workshop.physics.modes.plate_modes import modes_of
@@ -80,6 +81,8 @@ def calibrate_bank(options: argparse.Namespace) -> int:
         bars.setdefault(what, progress_bar(what))(done, total)
 
     with threadpool_limits(1, "blas"):  # many small matrices
+        if work := foreseen(board, Path(options.folder), pitch_of(board, options.pitch_mm) * 1e-3):
+            tell(work.in_words())
         found, dead = _learn(board, Path(options.folder), options)
         learned, findings = found.responses, [finding.message for finding in found.findings]
         drift = fit_drift(board, learned, _learn(board, Path(options.also), options)[0].responses) if options.also else None

@@ -64,7 +64,7 @@ def interpolate(
         prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
         found = _between_cells(board, lattice, (points_m, spectra, known, bins), prior, progress)
     else:
-        if FITTED_SHARE * scattered_count(board) <= len(points_m) <= MOST_FITTED:
+        if errors_looked_for(board, len(points_m)):
             responses = learned.responses[used]
             errors = fit_points(board, points_m, responses, known, bins, waves, lambda *done: progress("errors of points", *done))
         if errors is not None and errors.corrected:
@@ -84,6 +84,11 @@ def interpolate(
         learned.provenance, kind=found.kind, model=found.words, points=len(points_m), kept=(median, least)
     )
     return InterpolatedResponses(board, bins, found.field, provenance, found.leave_out, found.reach, points_m, errors), waves
+
+
+def errors_looked_for(board: Board, points: int) -> bool:
+    """Whether errors of single points are looked for among so many that are no grid."""
+    return FITTED_SHARE * scattered_count(board) <= points <= MOST_FITTED
 
 
 class _Interpolation(NamedTuple):

@@ -19,7 +19,7 @@ from controller.workshop.calibration.spectra import Bins
 Floats = NDArray[np.float64]
 
 LEAST_SHARE = 0.8  # foreseen from the places of the points; farther from them nothing is estimated, and no scene may ask for it
-POINTS_AT_ONCE = 64  # transforms of 64 points take some 70 MB
+POINTS_AT_ONCE = 128  # transforms of 128 points take some 140 MB
 BINS_ASKED = 8
 
 

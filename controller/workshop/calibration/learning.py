@@ -14,6 +14,7 @@ from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.checks import FATAL, NOISY_COHERENCE, Objection, raise_fatal
 from controller.workshop.calibration.checking.findings import findings_of, remarks_on
 from controller.workshop.calibration.checking.wiring import Wiring
+from controller.workshop.calibration.cores import on_all_cores
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
 from controller.workshop.calibration.frame import MeasuringFrame, locate, middle_m
@@ -182,25 +183,29 @@ def _transfers(
     """Of every point that is there, the hashes of all files, and how many points were learned again."""
     hashes = {file: sha256_of(file) for file in measurement.common_files}
     kept = PointCache(cache, [*hashes.values(), board.digest().hex(), f"{clock.ppm:.2f} {deconvolution.bins.length}"])
-    results: dict[int, Transfers] = {}
-    again = 0
-    for done, point in enumerate(there):
-        progress(done, len(there))
+
+    def learned(point: int) -> tuple[Transfers, bool]:
         files = measurement.files(point)
-        hashes |= {file: sha256_of(file) for file in files if file not in hashes}
+        hashes.update({file: sha256_of(file) for file in files if file not in hashes})
         own = [hashes[file] for file in files]
         found = kept.find(measurement.names[point], own)
-        if found is None:
-            records = measurement.records(point)
-            if records.values.shape[2] != deconvolution.length:
-                raise CalibrationError(
-                    f"{files[0]}: point {measurement.names[point]}: {records.values.shape[2]:,} samples, and point"
-                    f" {measurement.names[there[0]]} has {deconvolution.length:,}: all records are of one length"
-                )
-            found = deconvolution.learn(records, clock.ppm)
-            kept.keep(measurement.names[point], own, found)
-            again += 1
+        if found is not None:
+            return found, False
+        records = measurement.records(point)
+        if records.values.shape[2] != deconvolution.length:
+            raise CalibrationError(
+                f"{files[0]}: point {measurement.names[point]}: {records.values.shape[2]:,} samples, and point"
+                f" {measurement.names[there[0]]} has {deconvolution.length:,}: all records are of one length"
+            )
+        found = deconvolution.learn(records, clock.ppm)
+        kept.keep(measurement.names[point], own, found)
+        return found, True
+
+    results: dict[int, Transfers] = {}
+    again = 0
+    for point, (found, anew) in zip(there, on_all_cores(learned, there), strict=True):
         results[point] = found
-    progress(len(there), len(there))
+        again += anew
+        progress(len(results), len(there))
     kept.forget_others()
     return results, hashes, again

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations
 from typing import Final
 
@@ -20,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
+from controller.workshop.calibration.cores import on_all_cores
 from controller.workshop.calibration.kriging import Waves, inverse
 from controller.workshop.calibration.spectra import Bins, Spectra
 from controller.workshop.calibration.wave_fit import WaveFit, of_one_pattern
@@ -33,6 +35,7 @@ LIMITS: Final = np.array([0.4e-3, 0.4e-3, 0.3, 2e-3])  # of a step
 SPREAD: Final = np.array([1e-3, 1e-3, 0.5, 5e-3])  # among points, before anything is known
 KINDS: Final = {"places": slice(0, 2), "sensitivity": slice(2, 3), "frequencies": slice(3, 4)}  # of errors
 SUBSETS: Final = tuple(kinds for count in range(len(KINDS) + 1) for kinds in combinations(KINDS, count))
+SOLVES: Final = BINS * (STEPS + len(SUBSETS))  # frequencies, over all steps of a fit
 BETTER: Final = 0.9  # of the energy not foreseen: a kind of error that explains less is not corrected
 
 
@@ -108,8 +111,9 @@ class _Records:
         places_m, (spectra, slopes) = self.points_m + errors[:, :2], self._spectra(errors)
         prior = self._prior()
         among, toward = prior.between(places_m, places_m), prior.slopes(places_m)
-        normal, right = np.zeros((len(errors), 4, 4)), np.zeros((len(errors), 4))
-        for bin_, frequency_hz in enumerate(self.bins.frequency_hz[self.chosen].tolist()):
+
+        def of_bin(bin_: int) -> tuple[Floats, Floats]:
+            frequency_hz = float(self.bins.frequency_hz[self.chosen[bin_]])
             whole = among(bin_)
             whole[np.diag_indices_from(whole)] += noise
             solved = inverse(whole)
@@ -121,8 +125,10 @@ class _Records:
             moved = [one @ weights - np.einsum("pj,jp->p", one, solved)[:, None] * unknown for one in toward(bin_)]
             by = np.stack([*moved, foreseen[:, :channels], -frequency_hz * foreseen[:, channels:]], axis=1)
             scale = float((np.abs(unknown) ** 2).mean())
-            normal += np.einsum("pac,pbc->pab", by.conj(), by, optimize=True).real / scale
-            right += np.einsum("pac,pc->pa", by.conj(), unknown, optimize=True).real / scale
+            normal: Floats = np.einsum("pac,pbc->pab", by.conj(), by, optimize=True).real / scale
+            return normal, np.einsum("pac,pc->pa", by.conj(), unknown, optimize=True).real / scale
+
+        normal, right = map(sum, zip(*on_all_cores(of_bin, range(len(self.chosen))), strict=True))
         covariance = np.linalg.inv(normal + np.diag(SPREAD**-2))
         found: Floats = np.einsum("pab,pb->pa", covariance, right)
         return found, np.sqrt(np.median(np.einsum("paa->pa", covariance), axis=0))
@@ -130,12 +136,14 @@ class _Records:
     def unforeseen(self, errors: Floats) -> float:
         """Share of the energy that is not foreseen."""
         among, spectra = self._prior().between(*[self.points_m + errors[:, :2]] * 2), self._spectra(errors)[0]
-        shares = []
-        for bin_, values in enumerate(spectra):
+
+        def share(bin_: int) -> float:
+            values = spectra[bin_]
             solved = inverse(among(bin_) + NOISE[1] * np.eye(len(values)))
             left = (solved @ values) / np.diag(solved)[:, None]
-            shares.append(float((np.abs(left) ** 2).sum() / (np.abs(values) ** 2).sum()))
-        return float(np.mean(shares))
+            return float((np.abs(left) ** 2).sum() / (np.abs(values) ** 2).sum())
+
+        return float(np.mean(list(on_all_cores(share, range(len(spectra))))))
 
     def without_common(self, errors: Floats) -> Floats:
         """Errors without what all points have in common."""
@@ -152,11 +160,22 @@ class _Records:
 
     def _spectra(self, errors: Floats) -> tuple[Spectra, Spectra]:
         """Corrected spectra and their slopes df, (bin, point, channel) both."""
-        period_s = self.board.waveform.bit_period_s
-        time_s = np.arange(self.responses.shape[1]) * period_s
-        found = np.empty((2, len(self.chosen), len(errors), self.responses.shape[2]), np.complex64)
-        for point, (response, (_, _, gain, higher)) in enumerate(zip(self.responses, errors.tolist(), strict=True)):
-            turn = np.exp(-2j * np.pi * np.outer(self.bins.frequency_hz[self.chosen], time_s * (1 + higher) + period_s * higher))
-            found[0, :, point] = turn.astype(np.complex64) @ response * np.exp(-gain)
-            found[1, :, point] = (-2j * np.pi * time_s * turn).astype(np.complex64) @ response * np.exp(-gain)
+        found = self._transformed(errors[:, 3].tobytes()) * np.exp(-errors[:, 2:3]).astype(np.float32)
         return found[0], found[1]
+
+    @lru_cache(maxsize=2)  # noqa: B019 - records live as long as the fit
+    def _transformed(self, all_higher: bytes) -> Spectra:
+        """Spectra and slopes where frequencies were higher, (2, bin, point, channel)."""
+        period_s, higher = self.board.waveform.bit_period_s, np.frombuffer(all_higher)
+        time_s = np.arange(self.responses.shape[1]) * period_s
+        found = np.empty((2, len(self.chosen), len(higher), self.responses.shape[2]), np.complex64)
+
+        def transform(point: int) -> None:
+            late_s = time_s * (1 + higher[point]) + period_s * higher[point]
+            turn = np.exp(-2j * np.pi * np.outer(self.bins.frequency_hz[self.chosen], late_s))
+            turns = np.stack([turn, -2j * np.pi * time_s * turn])
+            found.real[:, :, point] = turns.real.astype(np.float32) @ self.responses[point]
+            found.imag[:, :, point] = turns.imag.astype(np.float32) @ self.responses[point]
+
+        list(on_all_cores(transform, range(len(higher))))
+        return found

@@ -15,6 +15,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
+from controller.workshop.calibration.cores import cores
 from controller.workshop.calibration.records.drives import transform
 from controller.workshop.physics.responses.modal_response import band_gain, edge_width_hz
 
@@ -81,7 +82,7 @@ class Bins:
 
     def whole(self, spectra: Spectra) -> NDArray[np.float32]:
         """The same with all that lies below the band."""
-        times: NDArray[np.float32] = irfft(spectra, self.length, axis=0)[: self.samples].swapaxes(0, 1)
+        times: NDArray[np.float32] = irfft(spectra, self.length, axis=0, workers=cores())[: self.samples].swapaxes(0, 1)
         return times
 
     def rest(self, spectra: Spectra) -> NDArray[np.float32]:

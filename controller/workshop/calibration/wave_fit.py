@@ -32,6 +32,7 @@ EDGE_WAVES = 0.75  # nearer to an edge than this many wavelengths a point does n
 EDGE_VARIANCES = (0.0, 0.3)
 COARSE: Floats = np.linspace(0.93, 1.07, 15)
 FINE: Floats = np.linspace(-0.0075, 0.0075, 7)
+SOLVES = PARTS * (len(COARSE) + len(NOISES) + (len(EDGE_VARIANCES) + BINS) * len(FINE))  # frequencies, over all errors of a fit
 
 
 @dataclass(frozen=True)
