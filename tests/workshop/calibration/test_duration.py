@@ -44,7 +44,7 @@ def banked(points_m, monkeypatch, number):
 
 
 def test_it_counts_the_work_that_is_done_and_any_number_of_cores_does_the_same(tmp_path, monkeypatch):
-    """By a clock that shows 1 s more at each look, all that is timed takes a second. Wavelengths are fitted again if places were."""
+    """By a clock that shows 1 s more at each look all takes a second. Wavelengths are fitted again if places were."""
     points_m = scattered_points(BOARD, 90, 2e-3)
     folder = measured(tmp_path, points_m)
     found = duration.foreseen(BOARD, folder, PITCH_M, count().__next__)
