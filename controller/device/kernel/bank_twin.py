@@ -5,14 +5,29 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.kernel import compact_twin
+from controller.device.kernel.compact_twin import Tables
 from controller.device.kernel.polarity_twin import SKETCH_STEP
+
+Numbers = NDArray[Any]
 
 Readable = bytes | bytearray | memoryview
 Writable = bytearray | memoryview
 Point = tuple[float, float, float]  # x_m, y_m, amplitude
-Patch = list[tuple[int, int]]  # response and weight of up to four cells
+Cells = list[tuple[int, int]]  # number and weight of each
+
+
+class Patch(NamedTuple):
+    """What serves a place: responses, and cells of a compact bank's rest, with their weights."""
+
+    responses: Cells
+    rest: Cells = []
+
 
 CHANNELS: Final = 32
 REST_SAMPLES: Final = 4  # samples to a row of the rest outside the band
@@ -38,6 +53,7 @@ class BankBuffers(NamedTuple):
     scales: Readable  # m per V of one level of each response
     good: Readable  # for each response whether it may be used; zero if not yet
     response: Readable  # the responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each
+    tables: Readable = b""  # of a compact bank, whose responses are weights (`compact_twin`): what all of them have in common
 
 
 def room_bytes(samples: int) -> int:
@@ -74,7 +90,7 @@ class Responses:
     """The responses of a bank, in buffers that are as long as the plan says."""
 
     def __init__(self, bank: BankBuffers) -> None:
-        plan, entries, scales, good, response = bank
+        plan, entries, scales, good, response, tables = bank
         if memoryview(plan).nbytes != PLAN.size:
             raise ValueError(f"a plan has {PLAN.size} bytes, not {memoryview(plan).nbytes}")
         samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m = PLAN.unpack(plan)
@@ -83,10 +99,14 @@ class Responses:
         if not GROUP_SAMPLES <= block <= MAX_BLOCK_SAMPLES or block % GROUP_SAMPLES:
             raise ValueError(f"blocks of {block} samples: not {GROUP_SAMPLES} to {MAX_BLOCK_SAMPLES}, in eights")
         values = (samples + rest_rows(samples)) * CHANNELS
+        self.tables = Tables(tables, samples, rest_rows(samples)) if len(tables) else None
+        across = self.tables.in_band.across if self.tables else 1
+        if self.tables:
+            values = compact_twin.row_bytes(self.tables.in_band.weights, self.tables.in_band.block_rows)
         if not (
             0 <= idle_word < 1 << CHANNELS
-            and 1 <= nx <= LARGEST
-            and 1 <= ny <= LARGEST
+            and across <= nx <= LARGEST
+            and across <= ny <= LARGEST
             and 0 <= count <= LARGEST
             and values <= stride <= LARGEST
             and 0 < pitch_m < math.inf
@@ -104,6 +124,8 @@ class Responses:
 
     def patch(self, x_m: float, y_m: float) -> tuple[Patch, int]:
         """Responses around a point that have a weight, with their weights; and -1, or the first cell without one."""
+        if self.tables:
+            return self._stencil(self.tables, x_m, y_m)
         ix, right = self._along(x_m - self.x0_m, self.nx - 1)
         iy, up = self._along(y_m - self.y0_m, self.ny - 1)
         corner = iy * self.nx + ix
@@ -116,21 +138,71 @@ class Responses:
                 cells.append((corner + self.nx + 1, up * right))
         numbers, shares, total = [], [], 0.0
         for cell, share in cells:
-            (entry,) = ENTRY.unpack_from(self.entries, 4 * cell)
-            if not 0 <= entry < self.count or not self.good[entry]:
-                return [], cell
-            if entry * self.stride + self.values > self.response.nbytes:
-                raise ValueError("the responses are too short for the plan")
-            (scale,) = SCALE.unpack_from(self.scales, 4 * entry)
-            if not 0 <= scale < math.inf:
-                raise ValueError(f"the scale of response {entry} is not finite, or below 0")
+            entry, scale = self._entry(cell)
+            if entry < 0:
+                return Patch([]), cell
             numbers.append(entry)
             shares.append(share * scale)
             total += share * scale
         if len(cells) == 1:
-            return [(numbers[0], WEIGHT_SUM)], -1
-        unit = WEIGHT_SUM / total if total > 0 else 0.0
-        return [(entry, round(share * unit)) for entry, share in zip(numbers, shares, strict=True)], -1
+            return Patch([(numbers[0], WEIGHT_SUM)]), -1
+        return Patch(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0)), -1
+
+    def _entry(self, cell: int) -> tuple[int, float]:
+        """Number and scale of the response of a cell; below 0 if it has none, or one that may not be used."""
+        (entry,) = ENTRY.unpack_from(self.entries, 4 * cell)
+        if not 0 <= entry < self.count or not self.good[entry]:
+            return -1, 0.0
+        if entry * self.stride + self.values > self.response.nbytes:
+            raise ValueError("the responses are too short for the plan")
+        (scale,) = SCALE.unpack_from(self.scales, 4 * entry)
+        if not 0 <= scale < math.inf:
+            raise ValueError(f"the scale of response {entry} is not finite, or below 0")
+        return entry, scale
+
+    def _stencil(self, tables: Tables, x_m: float, y_m: float) -> tuple[Patch, int]:
+        """The same of a compact bank, whose weights are shares."""
+        layer, numbers, shares, totals = tables.in_band, [], [], [0.0, 0.0]
+        ix, right = compact_twin.along(x_m - self.x0_m, self.pitch_m, self.nx, layer)
+        iy, up = compact_twin.along(y_m - self.y0_m, self.pitch_m, self.ny, layer)
+        for (y, x), share in np.ndenumerate(compact_twin.shares(tables.stencil, layer, right, up)):
+            cell = (iy + y) * self.nx + ix + x
+            entry, scale = self._entry(cell)
+            if entry < 0:
+                return Patch([]), cell
+            numbers.append(entry)
+            shares.append(float(share) * scale)
+            totals[0] += abs(shares[-1])
+        layer, cells, parts = tables.rest, [], []
+        ix, right = compact_twin.along(x_m - tables.x0_m, tables.pitch_m, tables.rest_nx, layer)
+        iy, up = compact_twin.along(y_m - tables.y0_m, tables.pitch_m, tables.rest_ny, layer)
+        for (y, x), share in np.ndenumerate(compact_twin.shares(tables.rest_stencil, layer, right, up)):
+            cells.append((iy + y) * tables.rest_nx + ix + x)
+            parts.append(float(share) * float(tables.rest_scales[cells[-1]]))
+            totals[1] += abs(parts[-1])
+        unit = compact_twin.SHARE_SUM / max(totals) if 0 < max(totals) < math.inf else 0.0
+        return Patch(_whole(numbers, shares, unit), _whole(cells, parts, unit)), -1
+
+    def turned(self, patch: Patch) -> Numbers:
+        """Response of a patch and its rest, (row, 32) in 16 bits, negated in channels that idle high."""
+        turned = np.array([self.idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
+        if self.tables:
+            return self._from_weights(self.tables, patch, turned)
+        levels, short = np.frombuffer(self.response, np.int8), np.zeros(self.values, np.int16)
+        for entry, share in patch.responses:
+            start = entry * self.stride
+            short += np.multiply(levels[start : start + self.values], share, dtype=np.int16)
+        found: Numbers = short.reshape(-1, CHANNELS) * (1 - 2 * turned)
+        return found
+
+    def _from_weights(self, tables: Tables, patch: Patch, turned: Numbers) -> Numbers:
+        levels = np.frombuffer(self.response, np.uint8)
+        rows = [(levels[entry * self.stride :][: self.values], share) for entry, share in patch.responses]
+        even = compact_twin.outputs(rows, tables.in_band, tables.pulses, turned)
+        rests = [(tables.rest_rows[cell], share) for cell, share in patch.rest]
+        rest = compact_twin.outputs(rests, tables.rest, tables.rest_pulses, turned)
+        samples = compact_twin.samples_of(even, self.samples, tables.odd_near, tables.odd_far)
+        return np.concatenate([samples, rest]).astype(np.int16)
 
     def _along(self, distance_m: float, last: int) -> tuple[int, float]:
         """Index of a row of cells and the distance beyond it, in pitches; 0 outside the grid.
@@ -144,6 +216,10 @@ class Responses:
             return last, 0.0
         index, beyond = divmod(round(millionths), 1_000_000)
         return index, beyond * 1e-6
+
+
+def _whole(numbers: list[int], shares: list[float], unit: float) -> Cells:
+    return [(number, round(share * unit)) for number, share in zip(numbers, shares, strict=True)]
 
 
 def rest_rows(samples: int) -> int:

@@ -1,6 +1,6 @@
 /* The compiled kernel: points to drive words, drive words to LOAD frames.
 
-   Its specification is words_twin.py and twin.py, which do the same in NumPy and Python: the same whole numbers, to the bit, and where
+   Its specification is words_twin.py, compact_twin.py and twin.py, which do the same in NumPy and Python: the same whole numbers, to the bit, and where
    weights and thresholds are set the same IEEE double arithmetic in the same order (so: no contraction to fused operations, no library
    functions). Buffers are the caller's; nothing is allocated, no Python object is touched in loops. Plain loops of a fixed length and
    vectors of 128 bits, of which compilers make SSE2 and NEON alike. */
@@ -10,6 +10,11 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#elif defined __ARM_NEON
+#include <arm_neon.h>
+#endif
 #if defined __aarch64__ && defined __linux__
 #include <sys/auxv.h>
 #define MACHINE_HAS_CRC (getauxval(AT_HWCAP) >> 7 & 1) /* HWCAP_CRC32: every Raspberry Pi of 64 bits */
@@ -64,16 +69,51 @@ struct plan {
     double pitch_m, x0_m, y0_m;
 };
 
+/* ---- words: numbers of compact_twin.py ---- */
+
+enum {
+    TABLES_AT = 128,
+    LOUDEST = 15,
+    SHARE_SUM = 2160,
+    TAP_BITS = 15,
+    EVEN_BEYOND = 2,
+    MIN_ACROSS = 2,
+    MAX_ACROSS = 6,
+    MAX_CELLS = MAX_ACROSS * MAX_ACROSS,
+    MAX_WEIGHTS = 1024,
+    MAX_TAPS = 16,
+    MAX_STEPS = 64,
+    MAX_EVEN = MAX_SAMPLES / 2 + EVEN_BEYOND,
+};
+
+/* Of the band, or of what it leaves out: how cells are summed around a place, and their sum becomes outputs. */
+struct layer {
+    int32_t across, steps, weights, block_rows, taps;
+    int64_t outputs, half, row_bytes; /* samples, or rows of the rest; steps of a stencil up to its middle */
+    const uint8_t *stencil, *pulses;  /* 16 bits each, of any alignment */
+};
+
+struct tables {
+    int there; /* whether the bank is a compact one */
+    struct layer in_band, rest;
+    int32_t odd_near, odd_far, rest_nx, rest_ny;
+    double pitch_m, x0_m, y0_m; /* of the rest */
+    const uint8_t *rest_scales, *rest_rows;
+};
+
 struct bank {
     struct plan plan;
+    struct tables tables;
     Py_ssize_t response_bytes;
     const uint8_t *entries, *scales, *good, *response;
 };
 
+/* Cells around a point. Of a compact bank, they are `across` to a row, and their shares in place of weights. */
 struct patch {
-    const uint8_t *levels[4];
-    int16_t weight[4];
+    const uint8_t *levels[MAX_CELLS], *rest[MAX_CELLS];
+    int16_t weight[MAX_CELLS], rest_weight[MAX_CELLS];
     int cells;
+    const struct tables *tables; /* of a compact bank, else 0 */
 };
 
 /* Values lie in the order of channels 0, 2, .., 14, 1, 3, .., 15 and the same from 16 on: as 16 bytes fall into halves of 16 bits. */
@@ -178,7 +218,146 @@ INLINE int64_t interpolate_cells(uint32_t idle_word, const struct patch *patch, 
     return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
 }
 
+/* ---- words: responses of a compact bank ---- */
+
+INLINE int16_t read_16(const uint8_t *from, int64_t index) {
+    int16_t read;
+    memcpy(&read, from + 2 * index, sizeof read);
+    return read;
+}
+
+/* Products with a tap of less than 2^14, 15 bits of which are dropped. */
+INLINE ushorts high(ushorts value, int16_t tap) {
+#ifdef __SSE2__
+    return (ushorts)_mm_mulhi_epi16((__m128i)value, _mm_set1_epi16((int16_t)(2 * tap)));
+#elif defined __ARM_NEON
+    return (ushorts)vqdmulhq_n_s16((int16x8_t)value, tap);
+#else
+    shorts product;
+    for (int lane = 0; lane < 8; lane++) product[lane] = (int16_t)((int32_t)(int16_t)value[lane] * tap >> TAP_BITS);
+    return (ushorts)product;
+#endif
+}
+
+/* Weights of a cell's numbers in a block, doubled, as numbers are half of the level above the lowest; their sums. */
+APART void block_weights(int16_t *restrict weight, int16_t *restrict sum, const uint8_t *restrict scale, const int16_t *restrict turn, int16_t share) {
+    int16_t shifted = (int16_t)(share * 8);
+    for (int i = 0; i < CHANNELS; i++) {
+        int16_t one = (int16_t)((int32_t)shifted * (int16_t)(scale[i] << 5) >> 16);
+        one = (int16_t)((one ^ turn[i]) - turn[i]);
+        sum[i] = (int16_t)(sum[i] + one);
+        weight[i] = (int16_t)(2 * one);
+    }
+}
+
+INLINE void add_cells(ushorts *sum, int rows, const uint8_t *const *levels, int64_t at, const int16_t (*weight)[CHANNELS], int cells) {
+    ushorts fifteen = (ushorts){0} + 15;
+    for (int row = 0; row < rows; row++, at += CHANNELS / 2, sum += 4) {
+        ushorts a = sum[0], b = sum[1], c = sum[2], d = sum[3];
+        for (int cell = 0; cell < cells; cell++) {
+            ushorts numbers = load(levels[cell] + at);
+            a += (numbers & fifteen) * load(weight[cell]);
+            b += (numbers >> 4 & fifteen) * load(weight[cell] + 8);
+            c += (numbers >> 8 & fifteen) * load(weight[cell] + 16);
+            d += (numbers >> 12) * load(weight[cell] + 24);
+        }
+        sum[0] = a, sum[1] = b, sum[2] = c, sum[3] = d;
+    }
+}
+
+APART void add_row_of_cells(ushorts *sum, int rows, const uint8_t *const *levels, int64_t at, const int16_t (*weight)[CHANNELS], int cells) {
+    switch (cells) {
+    case 4: add_cells(sum, rows, levels, at, weight, 4); break;
+    case 5: add_cells(sum, rows, levels, at, weight, 5); break;
+    default: add_cells(sum, rows, levels, at, weight, cells);
+    }
+}
+
+/* Weights of a place: the sum of its cells'. */
+static void sum_weights(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, ushorts *sum) {
+    int cells = layer->across * layer->across;
+    int16_t weight[MAX_CELLS][CHANNELS], turn[CHANNELS];
+    for (int half = 0; half < 2; half++) {
+        ushorts even, odd;
+        turned(idle_word, 16 * half, &even, &odd);
+        store(turn + 16 * half, even);
+        store(turn + 16 * half + 8, odd);
+    }
+    for (int block = 0, row = 0; row < layer->weights; block++, row += layer->block_rows) {
+        int left = layer->weights - row, rows = left < layer->block_rows ? left : layer->block_rows;
+        int16_t together[CHANNELS] = {0};
+        for (int cell = 0; cell < cells; cell++)
+            block_weights(weight[cell], together, levels[cell] + (layer->weights * (CHANNELS / 2) + block * CHANNELS), turn, share[cell]);
+        for (int part = 0; part < 4; part++) {
+            ushorts lowest = (ushorts){0} - load(together + 8 * part) * LOUDEST;
+            for (int i = 0; i < rows; i++) sum[4 * (row + i) + part] = lowest;
+        }
+        for (int cell = 0; cell < cells; cell += layer->across)
+            add_row_of_cells(sum + 4 * row, rows, levels + cell, row * (CHANNELS / 2), (const int16_t(*)[CHANNELS])weight + cell, layer->across);
+    }
+}
+
+INLINE void outputs_of(const struct layer *layer, const ushorts *sum, ushorts *out, int taps) {
+    for (int64_t output = 0; output < layer->outputs; output++, out += 4) {
+        const uint8_t *pulse = layer->pulses + 2 * output * (1 + taps);
+        int first = read_16(pulse, 0), last = layer->weights - taps;
+        const ushorts *from = sum + 4 * (first < 0 ? 0 : first < last ? first : last);
+        ushorts a = {0}, b = {0}, c = {0}, d = {0};
+        for (int tap = 0; tap < taps; tap++, from += 4) {
+            int16_t by = read_16(pulse, 1 + tap);
+            a += high(from[0], by), b += high(from[1], by), c += high(from[2], by), d += high(from[3], by);
+        }
+        out[0] = a, out[1] = b, out[2] = c, out[3] = d;
+    }
+}
+
+static void outputs(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, ushorts *out) {
+    ushorts sum[4 * MAX_WEIGHTS];
+    sum_weights(idle_word, layer, levels, share, sum);
+    switch (layer->taps) {
+    case 4: outputs_of(layer, sum, out, 4); break;
+    case 8: outputs_of(layer, sum, out, 8); break;
+    default: outputs_of(layer, sum, out, layer->taps);
+    }
+}
+
+/* A sample's part of 8 channels, from even ones. */
+INLINE ushorts sample_of(const struct tables *tables, const ushorts *even, int64_t sample, int part) {
+    const ushorts *here = even + sample / 2 * 4 + part;
+    if (sample % 2 == 0) return *here;
+    ushorts inner = here[0] + here[4], outer = here[8];
+    if (sample > 1) outer += here[-4];
+    return (ushorts)((shorts)inner >> 1) + high(inner, (int16_t)tables->odd_near) - high(outer, (int16_t)tables->odd_far);
+}
+
+APART void compose_one_compact(struct work *work, const struct patch *patch) {
+    ushorts even[4 * MAX_EVEN];
+    outputs(work->idle_word, &patch->tables->in_band, patch->levels, patch->weight, even);
+    for (int64_t sample = 0; sample < work->values / CHANNELS; sample++) {
+        ushorts part[4];
+        for (int i = 0; i < 4; i++) part[i] = positive(sample_of(patch->tables, even, sample, i));
+        work->words[sample] = (bits_of(part[0], part[1]) | bits_of(part[2], part[3]) << 16) ^ work->idle_word;
+    }
+}
+
+/* As `interpolate`: the samples of a point, or the rest behind them. */
+APART int64_t from_compact(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+    ushorts even[4 * MAX_EVEN];
+    uints sum = {0};
+    int rest = from != 0;
+    const struct layer *layer = rest ? &patch->tables->rest : &patch->tables->in_band;
+    outputs(idle_word, layer, rest ? patch->rest : patch->levels, rest ? patch->rest_weight : patch->weight, even);
+    for (int64_t row = 0; row < values / CHANNELS; row++)
+        for (int i = 0; i < 4; i++) {
+            ushorts value = rest ? even[4 * row + i] : sample_of(patch->tables, even, row, i);
+            store(out + row * CHANNELS + 8 * i, value);
+            sum = add_absolute(sum, value);
+        }
+    return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
+}
+
 APART int64_t interpolate(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+    if (patch->tables) return from_compact(idle_word, patch, from, values, out);
     switch (patch->cells) {
     case 1: return interpolate_cells(idle_word, patch, 1, from, values, out);
     case 2: return interpolate_cells(idle_word, patch, 2, from, values, out);
@@ -187,6 +366,10 @@ APART int64_t interpolate(uint32_t idle_word, const struct patch *patch, int64_t
 }
 
 APART void compose_one(struct work *work, const struct patch *patch) {
+    if (patch->tables) {
+        compose_one_compact(work, patch);
+        return;
+    }
     switch (patch->cells) {
     case 1: sign_of(work, patch, 1); break;
     case 2: sign_of(work, patch, 2); break;
@@ -599,6 +782,78 @@ static int64_t along(double distance_m, double pitch_m, int64_t last, double *be
     return whole / 1000000;
 }
 
+/* First cell of a stencil along an axis, and the steps of the place beyond it. */
+static int64_t first_of(double distance_m, double pitch_m, int64_t count, const struct layer *layer, int64_t *beyond) {
+    double steps = distance_m / pitch_m * layer->steps;
+    int64_t last = (count - 1) * layer->steps, whole = 0;
+    if (steps > 0) whole = steps >= (double)last ? last : (int64_t)nearest(steps);
+    int64_t first = (whole + (layer->across % 2 ? layer->steps / 2 : 0)) / layer->steps - (layer->across - 1) / 2;
+    if (first < 0) first = 0;
+    if (first > count - layer->across) first = count - layer->across;
+    *beyond = whole - first * layer->steps;
+    return first;
+}
+
+/* The shares of the cells of a stencil around a place. */
+static void stencil_shares(const struct layer *layer, int64_t x_steps, int64_t y_steps, double *share) {
+    int64_t all = (layer->across - 1) * layer->steps;
+    int left = 2 * x_steps > all, down = 2 * y_steps > all, across = layer->across;
+    int64_t at = ((down ? all - y_steps : y_steps) * layer->half + (left ? all - x_steps : x_steps)) * across * across;
+    for (int y = 0; y < across; y++)
+        for (int x = 0; x < across; x++)
+            share[y * across + x] = read_16(layer->stencil, at + (down ? across - 1 - y : y) * across + (left ? across - 1 - x : x));
+}
+
+static double scaled(const uint8_t *scales, int64_t number, double *share, double *total) {
+    float scale;
+    memcpy(&scale, scales + 4 * number, sizeof scale);
+    *share *= (double)scale;
+    *total += fabs(*share);
+    return (double)scale;
+}
+
+/* As `find_patch`, of a compact bank. */
+static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, struct patch *patch) {
+    const struct plan *plan = &bank->plan;
+    const struct tables *tables = &bank->tables;
+    double share[MAX_CELLS], rest_share[MAX_CELLS], total = 0, rest_total = 0;
+    int64_t right, up, across = tables->in_band.across;
+    int64_t ix = first_of(x_m - plan->x0_m, plan->pitch_m, plan->nx, &tables->in_band, &right);
+    int64_t iy = first_of(y_m - plan->y0_m, plan->pitch_m, plan->ny, &tables->in_band, &up);
+    stencil_shares(&tables->in_band, right, up, share);
+    patch->tables = tables;
+    patch->cells = (int)(across * across);
+    for (int i = 0; i < patch->cells; i++) {
+        int64_t cell = (iy + i / across) * plan->nx + ix + i % across;
+        int32_t entry;
+        memcpy(&entry, bank->entries + 4 * cell, sizeof entry);
+        if (entry < 0 || entry >= plan->entries || !bank->good[entry]) return cell;
+        if (entry * plan->stride + tables->in_band.row_bytes > bank->response_bytes) {
+            PyErr_SetString(PyExc_ValueError, "the responses are too short for the plan");
+            return -2;
+        }
+        patch->levels[i] = bank->response + entry * plan->stride;
+        double scale = scaled(bank->scales, entry, share + i, &total);
+        if (!(scale >= 0 && scale < INFINITY)) {
+            PyErr_Format(PyExc_ValueError, "the scale of response %d is not finite, or below 0", (int)entry);
+            return -2;
+        }
+    }
+    across = tables->rest.across;
+    ix = first_of(x_m - tables->x0_m, tables->pitch_m, tables->rest_nx, &tables->rest, &right);
+    iy = first_of(y_m - tables->y0_m, tables->pitch_m, tables->rest_ny, &tables->rest, &up);
+    stencil_shares(&tables->rest, right, up, rest_share);
+    for (int i = 0; i < across * across; i++) {
+        int64_t cell = (iy + i / across) * tables->rest_nx + ix + i % across;
+        patch->rest[i] = tables->rest_rows + cell * tables->rest.row_bytes;
+        scaled(tables->rest_scales, cell, rest_share + i, &rest_total);
+    }
+    double most = total > rest_total ? total : rest_total, unit = most > 0 && most < INFINITY ? SHARE_SUM / most : 0;
+    for (int i = 0; i < patch->cells; i++) patch->weight[i] = (int16_t)nearest(share[i] * unit);
+    for (int i = 0; i < across * across; i++) patch->rest_weight[i] = (int16_t)nearest(rest_share[i] * unit);
+    return -1;
+}
+
 /* Responses around a point, with their weights. Returns -1; or the first cell without a response; or -2, with an exception. */
 static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struct patch *patch) {
     const struct plan *plan = &bank->plan;
@@ -606,7 +861,9 @@ static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struc
     int64_t ix = along(x_m - plan->x0_m, plan->pitch_m, plan->nx - 1, &right);
     int64_t iy = along(y_m - plan->y0_m, plan->pitch_m, plan->ny - 1, &up);
     int64_t needed = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
+    if (bank->tables.there) return find_stencil(bank, x_m, y_m, patch);
     patch->cells = 0;
+    patch->tables = NULL;
     for (int corner = 0; corner < 4; corner++) {
         int to_right = corner & 1, upwards = corner >> 1;
         if ((to_right && right == 0) || (upwards && up == 0)) continue;
@@ -636,7 +893,62 @@ static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struc
 
 /* ---- words: from Python ---- */
 
-static int valid(const struct plan *plan) {
+static int valid_layer(const struct layer *layer) {
+    return layer->across >= MIN_ACROSS && layer->across <= MAX_ACROSS && layer->steps >= 2 && layer->steps <= MAX_STEPS && layer->steps % 2 == 0 &&
+           layer->weights >= 1 && layer->weights <= MAX_WEIGHTS && layer->taps >= 1 && layer->taps <= MAX_TAPS && layer->taps <= layer->weights &&
+           layer->block_rows >= 1 && layer->block_rows <= layer->weights;
+}
+
+/* The next part of tables; 0 if there is none as long as that. */
+static const uint8_t *take_part(const Py_buffer *buffer, int64_t *at, int64_t size) {
+    if (size > buffer->len - *at) return NULL;
+    const uint8_t *part = (const uint8_t *)buffer->buf + *at;
+    *at += (size + LINE_BYTES - 1) / LINE_BYTES * LINE_BYTES;
+    return part;
+}
+
+static int take_layer(struct layer *layer, int64_t outputs, const Py_buffer *buffer, int64_t *at) {
+    layer->outputs = outputs;
+    layer->half = (layer->across - 1) * layer->steps / 2 + 1;
+    layer->row_bytes = layer->weights * (CHANNELS / 2) + (layer->weights + layer->block_rows - 1) / layer->block_rows * CHANNELS;
+    layer->stencil = take_part(buffer, at, 2 * layer->half * layer->half * layer->across * layer->across);
+    layer->pulses = layer->stencil ? take_part(buffer, at, 2 * outputs * (1 + layer->taps)) : NULL;
+    return layer->pulses != NULL;
+}
+
+/* The tables of a compact bank, whose numbers of pulses were checked by `compact_twin.Tables`; 0 with an exception. */
+static int take_tables(const Py_buffer *buffer, int64_t samples, struct tables *tables) {
+    int32_t number[14];
+    double place[3];
+    int64_t at = TABLES_AT;
+    tables->there = buffer->len > 0;
+    if (!tables->there) return 1;
+    if (buffer->len < TABLES_AT) {
+        PyErr_SetString(PyExc_ValueError, "the tables of a compact bank are too short");
+        return 0;
+    }
+    memcpy(number, buffer->buf, sizeof number);
+    memcpy(place, (const uint8_t *)buffer->buf + sizeof number, sizeof place);
+    tables->in_band = (struct layer){.across = number[0], .steps = number[1], .weights = number[2], .block_rows = number[3], .taps = number[4]};
+    tables->rest = (struct layer){.across = number[5], .steps = number[6], .weights = number[7], .block_rows = number[8], .taps = number[9]};
+    tables->odd_near = number[10], tables->odd_far = number[11], tables->rest_nx = number[12], tables->rest_ny = number[13];
+    tables->pitch_m = place[0], tables->x0_m = place[1], tables->y0_m = place[2];
+    int64_t rest = tables->rest.across, cells = (int64_t)tables->rest_nx * tables->rest_ny;
+    if (!(valid_layer(&tables->in_band) && valid_layer(&tables->rest) && number[10] >= 0 && number[10] < 1 << 14 && number[11] >= 0 &&
+          number[11] < 1 << 14 && number[12] >= rest && number[12] < 1 << 15 && number[13] >= rest && number[13] < 1 << 15 &&
+          place[0] > 0 && place[0] < INFINITY && isfinite(place[1]) && isfinite(place[2]))) {
+        PyErr_SetString(PyExc_ValueError, "a number of the compact bank's tables is beyond its range");
+        return 0;
+    }
+    if (take_layer(&tables->in_band, samples / 2 + EVEN_BEYOND, buffer, &at) &&
+        take_layer(&tables->rest, (samples + REST_SAMPLES - 1) / REST_SAMPLES, buffer, &at) &&
+        (tables->rest_scales = take_part(buffer, &at, 4 * cells)) && (tables->rest_rows = take_part(buffer, &at, cells * tables->rest.row_bytes)))
+        return 1;
+    PyErr_SetString(PyExc_ValueError, "the tables of a compact bank are too short");
+    return 0;
+}
+
+static int valid(const struct plan *plan, const struct tables *tables) {
     if (plan->samples < 1 || plan->samples > MAX_SAMPLES) {
         PyErr_Format(PyExc_ValueError, "%lld samples to compose, not 1 to %d", (long long)plan->samples, (int)MAX_SAMPLES);
         return 0;
@@ -648,8 +960,10 @@ static int valid(const struct plan *plan) {
         return 0;
     }
     int64_t values = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
+    if (tables->there) values = tables->in_band.row_bytes;
     if (plan->idle_word >= 0 && plan->idle_word <= UINT32_MAX && plan->nx >= 1 && plan->nx <= INT32_MAX && plan->ny >= 1 &&
         plan->ny <= INT32_MAX && plan->entries >= 0 && plan->entries <= INT32_MAX && values <= plan->stride && plan->stride <= INT32_MAX &&
+        (!tables->there || (plan->nx >= tables->in_band.across && plan->ny >= tables->in_band.across)) &&
         plan->pitch_m > 0 && plan->pitch_m < INFINITY && isfinite(plan->x0_m) && isfinite(plan->y0_m))
         return 1;
     PyErr_SetString(PyExc_ValueError, "a number of the plan is beyond its range");
@@ -709,7 +1023,7 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
     work->threshold_of_one = (int16_t *)(work->threshold + work->blocks * CHANNELS);
 }
 
-enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS };
+enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, TABLES, BUFFERS };
 enum { BANK = PLAN, POINTS, NULLS }; /* arguments: words, room, the bank's buffers as a tuple, points, nulls */
 
 /* Calls `use` with the buffers of the arguments, all of which it may read, and words and room it may write. */
@@ -738,7 +1052,10 @@ static int take_bank(const Py_buffer *buffer, struct bank *bank) {
         return 0;
     }
     memcpy(plan, buffer[PLAN].buf, sizeof *plan);
-    if (!valid(plan)) return 0;
+    bank->tables.there = 0;
+    int possible = plan->samples >= 1 && plan->samples <= MAX_SAMPLES;
+    if (possible && !take_tables(buffer + TABLES, plan->samples, &bank->tables)) return 0;
+    if (!valid(plan, &bank->tables)) return 0;
     if (buffer[ENTRIES].len / 4 / plan->nx < plan->ny || buffer[SCALES].len / 4 < plan->entries || buffer[GOOD].len < plan->entries) {
         PyErr_SetString(PyExc_ValueError, "the tables are too short for the plan");
         return 0;

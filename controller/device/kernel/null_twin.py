@@ -100,26 +100,15 @@ class _Nulls:
         self._block, self._blocks = bank.block_samples, -(-bank.samples // bank.block_samples)
         self._step = max(bank.block_samples // STEPS_PER_BLOCK, 1)
         self._idle_word = bank.idle_word
-        idle = np.array([bank.idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
-        self._turned = 1 - 2 * idle
         self._words = np.frombuffer(words, "<u4", bank.samples)
         as_bytes = (self._words ^ np.uint32(bank.idle_word)).view(np.uint8).reshape(-1, 4)
         self._padded_bits = np.zeros((self._rows * REST_SAMPLES, CHANNELS))
         self._bits = self._padded_bits.reshape(-1)[: bank.samples * CHANNELS]  # where they deviate from idle
         self._bits[:] = np.unpackbits(as_bytes, axis=1, bitorder="little").reshape(-1)
-        levels = np.frombuffer(bank.response, np.int8)
-        both = [self._interpolated(levels, bank.stride, patch) for patch in patches]
+        turned = [bank.turned(patch) for patch in patches]
+        both = [(response[: self._samples], response[self._samples :]) for response in turned]
         self._points, self._still = [in_band for in_band, _ in both[:points]], both[points:]
         self._spent = 0
-
-    def _interpolated(self, levels: Numbers, stride: int, patch: Patch) -> tuple[Numbers, Numbers]:
-        """Response of a place in the band, (sample, 32), and its rest, (row, 32), negated in channels that idle high."""
-        values = (self._samples + self._rows) * CHANNELS
-        short = np.zeros(values, np.int16)
-        for entry, share in patch:
-            short += np.multiply(levels[entry * stride : entry * stride + values], share, dtype=np.int16)
-        short = short.reshape(-1, CHANNELS) * self._turned
-        return short[: self._samples], short[self._samples :]
 
     def keep_still(self) -> None:
         """Change the words."""

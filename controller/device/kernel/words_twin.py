@@ -88,15 +88,7 @@ class _Composition:
     """Responses of some points, in whole numbers."""
 
     def __init__(self, bank: Responses, patches: list[Patch]) -> None:
-        levels = np.frombuffer(bank.response, np.int8)
-        idle_high = np.array([bank.idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
-        short = np.zeros((len(patches), bank.values // CHANNELS, CHANNELS), np.int16)
-        for response, patch in zip(short, patches, strict=True):
-            for entry, share in patch:
-                start = entry * bank.stride
-                part = np.multiply(levels[start : start + bank.values].reshape(-1, CHANNELS), share, dtype=np.int16)
-                np.add(response, part, out=response)
-        responses = (short * (1 - 2 * idle_high)).astype(np.int32)
+        responses = np.array([bank.turned(patch) for patch in patches], np.int32)
         # (points, rows, 32): the rest outside the band, a mean over `REST_SAMPLES` samples each
         self.in_band, self.outside = responses[:, : bank.samples], responses[:, bank.samples :]  # (points, samples, 32)
         # Sums of their absolute values in the band; inf for a response of zeros, which has no part in any sum

@@ -1,0 +1,184 @@
+"""Responses of a compact bank, in NumPy: the specification of the compiled kernel, as `words_twin` is.
+
+A cell has weights of pulses in place of samples, in four bits, with a scale for each block of weights and channel. A place is
+served by `across` x `across` cells, whose shares are tabulated. Sums of weights times pulses ("taps") are even samples; odd ones
+lie between four of these. What the band leaves out has cells, weights and pulses of its own.
+
+All that reaches a sample is whole numbers; shifts round down.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Numbers = NDArray[Any]
+
+CHANNELS: Final = 32
+# in the band and beside it: cells across a stencil, its steps a pitch, weights, weights of a block, taps; then taps of odd samples;
+# cells of the rest along x and y; their pitch, x and y of the first in m
+HEAD: Final = struct.Struct("<14i3d")
+TABLES_AT: Final = 128
+LINE: Final = 64
+LOUDEST: Final = 15  # levels are the odd numbers from -15 to 15
+SHARE_SUM: Final = 2160  # of all cells' absolute shares: times 15, and some rounding, it is within 16 bits
+TAP_BITS: Final = 15
+EVEN_BEYOND: Final = 2  # even samples beyond the last, between which odd ones lie
+MIN_ACROSS: Final = 2
+MAX_ACROSS: Final = 6
+MAX_WEIGHTS: Final = 1024
+MAX_TAPS: Final = 16
+MAX_STEPS: Final = 64
+# Channels in the order in which they are kept: as 16 bytes of four-bit numbers fall into four vectors of 16 bits
+ORDER: Final = np.array([first + 2 * lane for first in (0, 1, 16, 17) for lane in range(8)])
+
+
+def row_bytes(weights: int, block_rows: int) -> int:
+    """Bytes of the weights of a cell, and their scales."""
+    return weights * CHANNELS // 2 + -(-weights // block_rows) * CHANNELS
+
+
+def packed(numbers: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Numbers of 0 to 15 (weight, 32) as bytes: each 16 bits have channels 2 n, 2 n + 1, 16 + 2 n, 17 + 2 n, lowest first."""
+    four = numbers[:, ORDER].reshape(-1, 4, 8).astype("<u2")
+    found: NDArray[np.uint8] = np.ascontiguousarray(four[:, 0] | four[:, 1] << 4 | four[:, 2] << 8 | four[:, 3] << 12).view(np.uint8).ravel()
+    return found
+
+
+def unpacked(levels: NDArray[np.uint8]) -> NDArray[np.int32]:
+    """The reverse of `packed`, as levels (weight, 32)."""
+    fours = levels.view("<u2").reshape(-1, 1, 8) >> np.array([0, 4, 8, 12], "<u2")[:, None] & 15
+    numbers = np.empty((len(fours), CHANNELS), np.int32)
+    numbers[:, ORDER] = fours.reshape(-1, CHANNELS)
+    return 2 * numbers - LOUDEST
+
+
+class Layer(NamedTuple):
+    """What is said of the band, or of what it leaves out."""
+
+    across: int
+    steps: int
+    weights: int
+    block_rows: int
+    taps: int
+
+
+class Tables:
+    """What a compact bank has for all its cells. Raises ValueError if it is not as it should be."""
+
+    def __init__(self, given: bytes | bytearray | memoryview, samples: int, rest_rows: int) -> None:
+        view = memoryview(given).cast("B")
+        if view.nbytes < TABLES_AT:
+            raise ValueError("the tables of a compact bank are too short")
+        numbers = HEAD.unpack_from(view)
+        self.in_band, self.rest = Layer(*numbers[:5]), Layer(*numbers[5:10])
+        self.odd_near, self.odd_far, self.rest_nx, self.rest_ny = numbers[10:14]
+        self.pitch_m, self.x0_m, self.y0_m = numbers[14:]
+        even = samples // 2 + EVEN_BEYOND
+        if not (
+            all(_possible(layer) for layer in (self.in_band, self.rest))
+            and all(0 <= tap < 1 << 14 for tap in (self.odd_near, self.odd_far))
+            and self.rest.across <= min(self.rest_nx, self.rest_ny)
+            and max(self.rest_nx, self.rest_ny) < 1 << 15
+            and 0 < self.pitch_m < math.inf
+            and math.isfinite(self.x0_m)
+            and math.isfinite(self.y0_m)
+        ):
+            raise ValueError("a number of the compact bank's tables is beyond its range")
+        self._view, self._at = view, TABLES_AT
+        self.stencil, self.pulses = self._layer(self.in_band, even)
+        self.rest_stencil, self.rest_pulses = self._layer(self.rest, rest_rows)
+        cells = self.rest_nx * self.rest_ny
+        self.rest_scales = self._take("<f4", cells)
+        self.rest_row_bytes = row_bytes(self.rest.weights, self.rest.block_rows)
+        self.rest_rows = self._take("u1", cells * self.rest_row_bytes).reshape(cells, -1)
+        if not (np.isfinite(self.rest_scales) & (self.rest_scales >= 0)).all():
+            raise ValueError("a scale of the compact bank's rest is not finite, or below 0")
+
+    def _layer(self, layer: Layer, outputs: int) -> tuple[Numbers, Numbers]:
+        half = (layer.across - 1) * layer.steps // 2 + 1
+        stencil = self._take("<i2", half * half * layer.across**2).reshape(half, half, layer.across, layer.across)
+        pulses = self._take("<i2", outputs * (1 + layer.taps)).reshape(outputs, -1)
+        if (pulses[:, 0] < 0).any() or (pulses[:, 0] > layer.weights - layer.taps).any():
+            raise ValueError("a pulse of the compact bank is beyond its weights")
+        if (np.abs(pulses[:, 1:].astype(np.int32)).sum(axis=1) >= 1 << (TAP_BITS - 1)).any():
+            raise ValueError("the taps of the compact bank are too large")
+        return stencil, pulses
+
+    def _take(self, kind: str, count: int) -> Numbers:
+        size = count * np.dtype(kind).itemsize
+        if self._at + size > self._view.nbytes:
+            raise ValueError("the tables of a compact bank are too short")
+        found = np.frombuffer(self._view, kind, count, self._at)
+        self._at += -(-size // LINE) * LINE
+        return found
+
+
+def tables_bytes(layers: tuple[Layer, Layer], outputs: tuple[int, int], rest_cells: int) -> int:
+    """Bytes of the tables."""
+    total = TABLES_AT
+    for layer, count in zip(layers, outputs, strict=True):
+        half = (layer.across - 1) * layer.steps // 2 + 1
+        for size in (2 * half * half * layer.across**2, 2 * count * (1 + layer.taps)):
+            total += -(-size // LINE) * LINE
+    rest = row_bytes(layers[1].weights, layers[1].block_rows)
+    return total + sum(-(-size // LINE) * LINE for size in (4 * rest_cells, rest * rest_cells))
+
+
+def _possible(layer: Layer) -> bool:
+    return (
+        MIN_ACROSS <= layer.across <= MAX_ACROSS
+        and 2 <= layer.steps <= MAX_STEPS
+        and layer.steps % 2 == 0
+        and 1 <= layer.taps <= min(layer.weights, MAX_TAPS)
+        and layer.weights <= MAX_WEIGHTS
+        and 1 <= layer.block_rows <= layer.weights
+    )
+
+
+def along(distance_m: float, pitch_m: float, count: int, layer: Layer) -> tuple[int, int]:
+    """First cell of a stencil along one axis, and how many steps beyond it the place is; places beyond the grid are moved into it."""
+    steps = distance_m / pitch_m * layer.steps
+    last = (count - 1) * layer.steps
+    whole = 0 if not steps > 0 else last if steps >= last else round(steps)
+    first = (whole + (layer.steps // 2 if layer.across % 2 else 0)) // layer.steps - (layer.across - 1) // 2
+    first = min(max(first, 0), count - layer.across)
+    return first, whole - first * layer.steps
+
+
+def shares(stencil: Numbers, layer: Layer, x_steps: int, y_steps: int) -> Numbers:
+    """Shares of the cells around a place, (across, across)."""
+    all_steps = (layer.across - 1) * layer.steps
+    found = stencil[min(y_steps, all_steps - y_steps), min(x_steps, all_steps - x_steps)]
+    found = found[::-1] if 2 * y_steps > all_steps else found
+    return found[:, ::-1] if 2 * x_steps > all_steps else found
+
+
+def outputs(rows: list[tuple[Numbers, int]], layer: Layer, pulses: Numbers, turned: Numbers) -> Numbers:
+    """Sums of the pulses of some cells, (output, 32), each cell's row of bytes with its whole share; negated where turned."""
+    level_bytes = layer.weights * CHANNELS // 2
+    total = np.zeros((layer.weights, CHANNELS), np.int32)
+    for row, share in rows:
+        scales = np.empty((-(-layer.weights // layer.block_rows), CHANNELS), np.int32)
+        scales[:, ORDER] = row[level_bytes:].reshape(-1, CHANNELS)
+        weight = (share * scales >> 8) * (1 - 2 * turned)
+        total += np.repeat(weight, layer.block_rows, axis=0)[: layer.weights] * unpacked(row[:level_bytes])
+    found = np.zeros((len(pulses), CHANNELS), np.int32)
+    for tap in range(layer.taps):
+        found += total[pulses[:, 0] + tap] * pulses[:, 1 + tap : 2 + tap].astype(np.int32) >> TAP_BITS
+    return found
+
+
+def samples_of(even: Numbers, samples: int, near: int, far: int) -> Numbers:
+    """Samples (sample, 32) from even ones."""
+    found = np.zeros((samples, CHANNELS), np.int32)
+    found[::2] = even[: (samples + 1) // 2]
+    count = samples // 2
+    before = np.concatenate([np.zeros((1, CHANNELS), np.int32), even])
+    inner, outer = even[:count] + even[1 : count + 1], before[:count] + even[2 : count + 2]
+    found[1::2] = (inner >> 1) + (inner * near >> TAP_BITS) - (outer * far >> TAP_BITS)
+    return found

@@ -1,0 +1,137 @@
+"""What a compact bank of a board is made of: pulses and stencils, learned from responses at some places; then rows of all cells."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.device.bank.file_format import REST_SAMPLES
+from controller.device.bank.grid import Grid
+from controller.device.bank.packing import CHANNELS
+from controller.device.board.board import Board
+from controller.device.kernel import compact_twin
+from controller.errors import ConfigError
+from controller.workshop.bank_builder.compact.pulses import Pulses, in_band_pulses, rest_pulses
+from controller.workshop.bank_builder.compact.rounding import rounded
+from controller.workshop.bank_builder.compact.stencils import STEPS, Stencil, stencil
+from controller.workshop.physics.responses.response_source import ResponseSource
+
+PLACES: Final = 48  # from whose responses pulses are learned
+SEED: Final = 1
+ACROSS: Final = 4  # cells of a stencil
+REST_ACROSS: Final = 4
+BLOCK: Final = 16  # weights that have a scale in common
+REST_BLOCK: Final = 32
+REST_PITCH: Final = 2.0  # of the grid of the rest, in pitches
+BEYOND_BAND: Final = 0.1  # of the band's width, above and below
+CELLS_AT_ONCE: Final = 128
+
+
+@dataclass(frozen=True, eq=False)
+class CompactDesign:
+    """Pulses and stencils in the band, and of the rest beside it."""
+
+    grid: Grid
+    rest_grid: Grid
+    pulses: Pulses
+    rest_pulses: Pulses
+    stencil: Stencil
+    rest_stencil: Stencil
+    samples: int
+
+    @classmethod
+    def of(cls, board: Board, source: ResponseSource, grid: Grid) -> CompactDesign:
+        """Design for a grid; ConfigError if the plate or the bit clock is too small for it."""
+        waveform, plate = board.waveform, board.plate
+        rest_grid = _rest_grid(board, grid)
+        random = np.random.default_rng(SEED)
+        points_m = random.uniform((0, 0), (plate.length_m, plate.width_m), (PLACES, 2))
+        rows = waveform.samples + math.ceil(waveform.samples / REST_SAMPLES)
+        responses = source.entry_responses(points_m, out=np.empty((PLACES, rows, CHANNELS), np.float32)).astype(np.float64)
+        in_band, rest = responses[:, : waveform.samples], responses[:, waveform.samples :]
+        beyond_hz = BEYOND_BAND * (waveform.band_high_hz - waveform.band_low_hz)
+        power, hz = _spectrum(in_band, waveform.bit_period_s)
+        inside = (hz > waveform.band_low_hz - beyond_hz) & (hz < waveform.band_high_hz + beyond_hz)
+        rest_power, rest_hz = _spectrum(rest, waveform.bit_period_s * REST_SAMPLES)
+        below = (rest_hz > 0) & (rest_hz < waveform.band_low_hz + beyond_hz)
+        return cls(
+            grid,
+            rest_grid,
+            in_band_pulses(waveform, in_band),
+            rest_pulses(waveform, rest),
+            stencil(plate, grid.pitch_m, ACROSS, power[inside], hz[inside]),
+            stencil(plate, rest_grid.pitch_m, REST_ACROSS, rest_power[below], rest_hz[below]),
+            waveform.samples,
+        )
+
+    @property
+    def layers(self) -> tuple[compact_twin.Layer, compact_twin.Layer]:
+        """Numbers of the band, and of the rest."""
+        made = []
+        for pulses, own, block in ((self.pulses, self.stencil, BLOCK), (self.rest_pulses, self.rest_stencil, REST_BLOCK)):
+            made.append(compact_twin.Layer(own.across, STEPS, pulses.weights, min(block, pulses.weights), pulses.taps.shape[1]))
+        return made[0], made[1]
+
+    @property
+    def row_bytes(self) -> int:
+        """Bytes of a cell."""
+        layer = self.layers[0]
+        return compact_twin.row_bytes(layer.weights, layer.block_rows)
+
+    @property
+    def tables_bytes(self) -> int:
+        """Bytes of `tables`."""
+        outputs = len(self.pulses.first), len(self.rest_pulses.first)
+        return compact_twin.tables_bytes(self.layers, outputs, self.rest_grid.cells)
+
+    def rows(self, source: ResponseSource) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+        """Bytes of all cells (cell, byte), and m per V of a level of each."""
+        weights = np.empty((self.grid.cells, self.pulses.weights, CHANNELS), np.float32)
+        points_m = self.grid.points()
+        for first in range(0, len(points_m), CELLS_AT_ONCE):
+            some = slice(first, first + CELLS_AT_ONCE)
+            weights[some] = np.matmul(self.pulses.analysis, source.drive_order_responses(points_m[some]))
+        return rounded(weights, self.grid.nx, self.layers[0].block_rows, self.stencil)
+
+    def tables(self, source: ResponseSource) -> bytes:
+        """What all cells have in common, and the rest beside the band (`compact_twin.Tables`)."""
+        points_m, count = self.rest_grid.points(), self.samples + math.ceil(self.samples / REST_SAMPLES)
+        weights = np.empty((len(points_m), self.rest_pulses.weights, CHANNELS), np.float32)
+        for first in range(0, len(points_m), CELLS_AT_ONCE):
+            some = points_m[first : first + CELLS_AT_ONCE]
+            whole = source.entry_responses(some, out=np.empty((len(some), count, CHANNELS), np.float32))
+            weights[first : first + len(some)] = np.matmul(self.rest_pulses.analysis, whole[:, self.samples :])
+        rows, scales = rounded(weights, self.rest_grid.nx, self.layers[1].block_rows, self.rest_stencil)
+        grid = self.rest_grid
+        head = compact_twin.HEAD.pack(
+            *self.layers[0], *self.layers[1], *self.pulses.odd, grid.nx, grid.ny, grid.pitch_m, grid.x0_m, grid.y0_m
+        )
+        parts: list[NDArray[Any]] = []
+        for pulses, own in ((self.pulses, self.stencil), (self.rest_pulses, self.rest_stencil)):
+            parts += [own.table.astype("<i2"), np.column_stack([pulses.first, pulses.taps]).astype("<i2")]
+        made = bytearray(head.ljust(compact_twin.TABLES_AT, b"\0"))
+        for part in (*parts, scales.astype("<f4"), rows):
+            made += part.tobytes()
+            made += bytes(-len(made) % compact_twin.LINE)
+        return bytes(made)
+
+
+def _rest_grid(board: Board, grid: Grid) -> Grid:
+    """The grid of the rest; ConfigError if a stencil is larger than a grid."""
+    rest = Grid.of(board.plate, REST_PITCH * grid.pitch_m)
+    if min(grid.nx, grid.ny) < ACROSS or min(rest.nx, rest.ny) < REST_ACROSS:
+        raise ConfigError(
+            f"board {board.name!r}: {grid.nx} x {grid.ny} cells of {1e3 * grid.pitch_m:g} mm are too few for a compact bank: build a"
+            " plain one"
+        )
+    return rest
+
+
+def _spectrum(responses: NDArray[np.float64], period_s: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Power of all responses together at each frequency in Hz."""
+    power = (np.abs(np.fft.rfft(responses, axis=1)) ** 2).sum(axis=(0, 2))
+    return power, np.fft.rfftfreq(responses.shape[1], period_s)
