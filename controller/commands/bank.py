@@ -52,6 +52,11 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         choices=("contrast", "quiet", "balanced"),
         help="optimise every entry: more contrast, less sound, or both; about half a second of a core a cell (default: neither)",
     )
+    build.add_argument(
+        "--compact",
+        action="store_true",
+        help="a twentieth of the size: responses in four bits, all waveforms composed (default: as compose.method says)",
+    )
     build.add_argument("--workers", type=int, metavar="N", help="processes that optimise (default: one for each core)")
     build.add_argument("--dask", metavar="ADDRESS", help="optimise on the workers of this dask scheduler, tcp://HOST:PORT")
     build.set_defaults(command=bank_build)
@@ -84,7 +89,7 @@ def bank_build(options: argparse.Namespace) -> int:
         from controller.workshop.bank_builder.methods.descent import AIMS
         from controller.workshop.bank_builder.optimised import ALONE, Workers
         from controller.workshop.bank_builder.own_bank import order, warn_of_pitch
-    wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm)
+    wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm, compact=options.compact)
     path = Path(options.out) if options.out else wanted.own_path
     if measured_at(path):
         tell(f"{path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}")

@@ -12,7 +12,6 @@ import numpy as np
 from controller.commands.calibrate.check import calibration_cache, declare_accept
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.console import tell
-from controller.device.bank.grid import Grid
 from controller.device.bank.lookup import find_bank
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
@@ -47,6 +46,7 @@ def add(step: argparse.ArgumentParser) -> None:
     step.add_argument(
         "--pitch-mm", type=float, metavar="P", help="distance of the cells in mm (default: the board's bank.pitch_mm)"
     )
+    step.add_argument("--compact", action="store_true", help="a compact bank, of some MB (default: as compose.method says)")
     step.add_argument("--memory-mb", type=float, metavar="M", help="memory that the bank's build may take, in MB (default: 1500)")
     step.add_argument(
         "--model",
@@ -107,18 +107,21 @@ def calibrate_bank(options: argparse.Namespace) -> int:
 
 def _build(board: Board, source: InterpolatedResponses, options: argparse.Namespace) -> tuple[Path, NDArray[np.bool_], BuildReport]:
     """Build the bank of what was measured: its path, and the cells that are near enough to measured points."""
+    from controller.workshop.bank_builder.compact.design import compact_pitch_m
     from controller.workshop.bank_builder.interpolation_error import refuse_coarse
     from controller.workshop.bank_builder.own_bank import Order, chosen, pitch_of
 
-    pitch_mm, choice = pitch_of(board, options.pitch_mm), None
+    pitch_mm, choice, compact = pitch_of(board, options.pitch_mm), None, options.compact
+    if compact and options.pitch_mm is None:
+        pitch_mm = 1e3 * compact_pitch_m(board)
     refuse_coarse(board, pitch_mm * 1e-3)
-    if board.compose.method == "auto" and options.pitch_mm is None:
+    if board.compose.method != "bank" and not compact and options.pitch_mm is None:
         scene_file = find_scene(board)
         choice = chosen(board, load_scene(scene_file, board), scene_file, source)
-        pitch_mm = choice["pitch_mm"]
+        pitch_mm, compact = choice["pitch_mm"], choice["compact"]
         tell(f"{scene_file.name}: {choice['why']}")
-    wanted = Order(board, pitch_mm * 1e-3, choice=choice)
-    cells = source.near_enough(Grid.of(board.plate, wanted.pitch_m).points())
+    wanted = Order(board, pitch_mm * 1e-3, choice=choice, compact=compact)
+    cells = source.near_enough(wanted.grid.points())
     if not cells.any():
         raise CalibrationError(f"{options.folder}: no cell of the bank lies near the measured points")
     path = Path(options.out) if options.out else wanted.own_path

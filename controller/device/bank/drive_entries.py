@@ -37,6 +37,8 @@ class DriveEntries:
         """
         self._file.counters.lookups += 1
         entry = self._file.entry_of(cell)
+        if self._file.header.compact:
+            raise self._file.unusable("is compact: it holds no waveforms of cells, all are composed")
         if self._mapped is None:
             self._mapped = self._file.map("drive")
         start = entry * self._stride
@@ -83,6 +85,8 @@ class DriveEntries:
         Raises BankError if one is damaged, or cannot be read.
         """
         self._file.require_open()
+        if self._file.header.compact:
+            return
         row = memoryview(bytearray(self._row_bytes))
         offset = self._file.sections["drive"].offset
         for cell in cells:

@@ -1,6 +1,6 @@
 """The format of a bank file in `struct`, as README.md specifies it.
 
-A header of one or more pages, then seven sections, each starting at a page; all other bytes are
+A header of one or more pages, then seven sections, of a compact bank eight, each starting at a page; all other bytes are
 zero. Tables are covered by a CRC-32 in the header, entries by one each.
 """
 
@@ -22,12 +22,14 @@ from controller.errors import BankError
 
 MAGIC = b"HPNLBANK"
 VERSION = 4
+COMPACT_VERSION = 5  # of compact banks
 PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean
 LEAST_WAVE_SCALE = 1e-3  # 10 um
 SAMPLES_MAX = 1000  # what LOAD frames can carry
 MAX_HEADER = 1 << 20
+MAX_COMPACT = 1 << 28  # bytes of a row, and of the tables
 
 # magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
 # nx, ny, samples, channels, entries, parameters bytes, sections, compositions
@@ -73,12 +75,25 @@ class Header:
     @property
     def header_bytes(self) -> int:
         """Bytes of the header: whole pages."""
-        return round_up(FIXED.size + SECTIONS * SECTION.size + len(self._json()) + CRC.size, PAGE)
+        return round_up(FIXED.size + (SECTIONS + (self.compact is not None)) * SECTION.size + len(self._json()) + CRC.size, PAGE)
 
     @property
     def composes(self) -> bool:
         """Whether there are responses, from which other places, less amplitude and several points at once are composed."""
         return self.parameters.get("composes") is not False
+
+    @property
+    def compact(self) -> dict[str, int] | None:
+        """Bytes of a cell's row and of the tables of a compact bank, by name; None for others, and what cannot be."""
+        reported = self.parameters.get("compact")
+        if not isinstance(reported, dict) or not all(type(reported.get(name)) is int for name in ("row_bytes", "tables_bytes")):
+            return None
+        return reported if all(0 < reported[name] <= MAX_COMPACT for name in ("row_bytes", "tables_bytes")) else None
+
+    @property
+    def version(self) -> int:
+        """Of the format."""
+        return VERSION if self.compact is None else COMPACT_VERSION
 
     @property
     def choice(self) -> dict[str, Any] | None:
@@ -113,16 +128,20 @@ class Header:
     def sections(self) -> tuple[Section, ...]:
         """Section table without CRCs: offsets follow from the numbers of cells, entries, samples and compositions."""
         drive_bytes, response_bytes = load_frames_bytes(4 * self.samples), CHANNELS * (self.samples + self.rest_rows)
+        compact, tables = self.compact, []
+        if compact is not None:
+            response_bytes, tables = compact["row_bytes"], [("tables", 1, compact["tables_bytes"], compact["tables_bytes"])]
         offset = self.header_bytes
         placed = []
         for name, rows, row_bytes, stride in (
             ("index", self.grid.cells, 4, 4),
             ("checksums", self.entries, 8, 8),
             ("scale", self.entries, 4, 4),
-            ("drive", self.entries, drive_bytes, round_up(drive_bytes, PAGE)),
+            ("drive", 0 if compact else self.entries, drive_bytes, round_up(drive_bytes, PAGE)),
             ("response", self.entries if self.composes else 0, response_bytes, round_up(response_bytes, LINE)),
             ("points", self.compositions, COMPOSITION.size, COMPOSITION.size),
             ("composed", self.compositions, drive_bytes, round_up(drive_bytes, PAGE)),
+            *tables,
         ):
             placed.append(Section(name, offset, rows, row_bytes, stride))
             offset = round_up(offset + placed[-1].size, PAGE)
@@ -146,7 +165,7 @@ class Header:
             raise ValueError(f"parameters of {len(parameters)} bytes do not fit a header of {MAX_HEADER} bytes")
         grid = self.grid
         body = FIXED.pack(
-            *(MAGIC, VERSION, self.header_bytes, self.file_bytes, maker, self.board_digest),
+            *(MAGIC, self.version, self.header_bytes, self.file_bytes, maker, self.board_digest),
             *(grid.pitch_m, grid.x0_m, grid.y0_m, self.bit_clock_hz, grid.nx, grid.ny),
             *(self.samples, CHANNELS, self.entries, len(parameters), len(sections), self.compositions),
         )
@@ -191,8 +210,10 @@ def header_length(start: bytes, file_bytes: int) -> int:
     if len(start) < 16:
         raise BankError(f"is truncated: {file_bytes} bytes, less than a header")
     _, version, length, *_ = struct.unpack("<8sII", start[:16])
-    if version != VERSION:
-        raise BankError(f"has format version {version}; this program reads version {VERSION}")
+    if version not in (VERSION, COMPACT_VERSION):
+        raise BankError(
+            f"has format version {version}; this program reads version {VERSION}, and {COMPACT_VERSION} of compact banks"
+        )
     if not PAGE <= length <= MAX_HEADER or length % PAGE:
         raise BankError(f"is damaged: header of {length} bytes")
     if file_bytes < length:
@@ -217,7 +238,8 @@ def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
             f"{'is truncated' if file_bytes < reported_bytes else 'has grown'}: {file_bytes} bytes instead of {reported_bytes}"
         )
     at = FIXED.size + section_count * SECTION.size
-    counts_fit = section_count == SECTIONS and compositions <= COMPOSITIONS_MAX and 1 <= samples <= SAMPLES_MAX
+    compact = fixed[1] == COMPACT_VERSION
+    counts_fit = section_count == SECTIONS + compact and compositions <= COMPOSITIONS_MAX and 1 <= samples <= SAMPLES_MAX
     if channels != CHANNELS or not counts_fit or at + parameters_bytes > len(body):
         raise BankError("has a header that this version of the format does not allow")
     if not all(map(math.isfinite, (pitch_m, x0_m, y0_m, bit_clock_hz))) or pitch_m <= 0 or bit_clock_hz <= 0 or entries > nx * ny:
@@ -230,6 +252,8 @@ def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
         raise BankError(f"has unreadable build parameters or creator ({error})") from None
     if not isinstance(parameters, dict):
         raise BankError("has build parameters that are no table")
+    if header.version != fixed[1] or (compact and not header.composes):
+        raise BankError("has build parameters that do not fit its version of the format")
     if body[at + parameters_bytes :].strip(b"\0"):
         raise BankError("has padding in its header that is not zero")
     rows = [SECTION.unpack_from(body, FIXED.size + i * SECTION.size) for i in range(section_count)]

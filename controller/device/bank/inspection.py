@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from controller.device.bank.file_format import VERSION, Header, Section, header_length, parse
+from controller.device.bank.file_format import Header, Section, header_length, parse
 from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
@@ -29,7 +29,7 @@ def bank_info(path: Path) -> dict[str, Any]:
         return {
             "path": str(path),
             "bytes": bank.file.size,
-            "format": VERSION,
+            "format": header.version,
             "creator": header.creator,
             "board": header.parameters.get("board"),
             "board_digest": header.board_digest.hex(),
@@ -64,6 +64,7 @@ def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) 
             end = section.offset + section.size
             if section.name in {"drive", "response", "composed"}:
                 _check_rows(bank, section, progress or (lambda _done, _all: None))
+        _ = bank.responses.common  # the tables of a compact bank
         _check_padding(bank, end, bank.file.size)
         if progress:
             progress(bank.file.size, bank.file.size)
@@ -128,16 +129,19 @@ def header_of(path: Path) -> Header:
 
 def bounds_of(board: Board) -> dict[str, Any]:
     """The bounds of a board whose bank is chosen."""
-    return {"max_error": board.compose.max_error, "max_time_us": board.compose.max_time_us}
+    bounds: dict[str, Any] = {"max_error": board.compose.max_error, "max_time_us": board.compose.max_time_us}
+    return bounds | ({"method": "compact"} if board.compose.method == "compact" else {})
 
 
 def wrong_pitch(bank: Bank, board: Board) -> str:
     """How the grid of a bank differs from that of a board, or the bounds it was chosen for from the board's; empty: they do not."""
-    if board.compose.method == "auto":
+    if board.compose.method != "bank":
         choice = bank.header.choice
         if choice and bounds_of(board).items() <= choice["asked"].items():
             return ""
-        return f"it was not chosen for {', '.join(f'compose.{name} = {value:g}' for name, value in bounds_of(board).items())}"
+        return f"it was not chosen for {', '.join(f'compose.{name} = {value}' for name, value in bounds_of(board).items())}"
+    if bank.header.compact:
+        return "it is compact, as compose.method chose"
     if not bank.composes:
         return "it holds no responses, as compose.method = auto chose"
     if bank.grid == Grid.of(board.plate, board.bank.pitch_mm * 1e-3):

@@ -97,9 +97,12 @@ class Bank:
     def snap_m(self, board: Board) -> float:
         """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says.
 
-        A bank without responses has nothing else to play: its cells are played as far as was chosen with it in any case.
+        A bank without responses has nothing else to play: its cells are played as far as was chosen with it in any case. A compact
+        bank has none to play: below 0.
         """
-        choice = self.header.choice if board.compose.method == "auto" or not self.composes else None
+        if self.header.compact:
+            return -1.0
+        choice = self.header.choice if board.compose.method != "bank" or not self.composes else None
         if choice is None and not self.composes:
             return math.inf
         return float(choice["snap_mm"] if choice else board.bank.snap_mm) * 1e-3

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from controller.device.bank.bank_file import BankFile
 from controller.device.bank.packing import CHANNELS
+from controller.device.kernel.compact_twin import Layer, Tables, along
 
 AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
 
@@ -23,7 +24,8 @@ class ResponseEntries:
         self._file = file
         self._grid, self._samples = file.header.grid, file.header.samples
         self._entries, self._crcs, self._scales = file.tables.entries, file.tables.crcs, file.tables.scales
-        self._mapped = memoryview(b"")
+        self._mapped = self._common = memoryview(b"")
+        self._layer = Layer(1, 1, 1, 1, 1)  # of a compact bank, with `common`
         self._good = memoryview(mmap.mmap(-1, max(file.header.entries, 1)))  # shared with forked processes (`verify`)
         self._stride = file.sections["response"].stride
         self._row_bytes = file.sections["response"].row_bytes
@@ -31,8 +33,10 @@ class ResponseEntries:
     def response(self, cell: int) -> tuple[NDArray[np.int8], float]:
         """Response of a cell: levels (samples, 32) in drive order, a read-only view of the file; and m per V of one level.
 
-        Raises BankError if the cell has no entry, or a damaged one.
+        Raises BankError if the cell has no entry, or a damaged one, or the bank is compact.
         """
+        if self._file.header.compact:
+            raise self._file.unusable("is compact: it holds no samples of responses")
         entry = self._checked(cell)
         start = entry * self._stride
         levels: NDArray[np.int8] = np.frombuffer(self.section, np.int8, self._samples * CHANNELS, start)
@@ -45,6 +49,24 @@ class ResponseEntries:
             self._mapped = self._file.map("response")
         return self._mapped
 
+    @property
+    def common(self) -> memoryview:
+        """What all cells of a compact bank have in common, mapped and checked when it is first asked for; empty for others.
+
+        Raises BankError if it is damaged.
+        """
+        if not self._file.header.compact or self._common:
+            return self._common
+        mapped = self._file.map("tables")
+        if zlib.crc32(mapped) != self._file.sections["tables"].crc:
+            raise self._file.damaged("section 'tables'")
+        try:
+            self._layer = Tables(mapped, self._samples, self._file.header.rest_rows).in_band
+        except ValueError as error:
+            raise self._file.unusable(f"cannot be used: {error}") from error
+        self._common = mapped
+        return mapped
+
     def tables(self) -> tuple[list[int], list[float], memoryview]:
         """What is needed to find responses in their section.
 
@@ -55,6 +77,12 @@ class ResponseEntries:
 
     def has(self, x_m: float, y_m: float) -> bool:
         """Whether the cells around the point (x_m, y_m) have entries."""
+        if self.common:
+            grid, layer = self._grid, self._layer
+            ix, _ = along(x_m - grid.x0_m, grid.pitch_m, grid.nx, layer)
+            iy, _ = along(y_m - grid.y0_m, grid.pitch_m, grid.ny, layer)
+            rows = range(iy * grid.nx + ix, (iy + layer.across) * grid.nx + ix, grid.nx)
+            return all(entry >= 0 for row in rows for entry in self._entries[row : row + layer.across])
         cells, weights = self._grid.corners(x_m, y_m)
         return all(not weight or self._entries[cell] >= 0 for cell, weight in zip(cells, weights, strict=True))
 

@@ -301,13 +301,14 @@ class Compose(Record, frozen=True):
 
     Attributes:
     method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: `bank build` chooses both, and whether the bank holds
-        responses at all, so that the bank is the smallest that keeps the two bounds.
+        responses at all, or is compact, so that the bank is the smallest that keeps the two bounds; `compact`: a compact bank, a
+        twentieth of the size, whatever the scene: for boards of little memory.
     max_error: Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
     max_time_us: Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel
         on the machine of the benchmark.
     """
 
-    method: Literal["bank", "auto"] = "bank"
+    method: Literal["bank", "auto", "compact"] = "bank"
     max_error: Annotated[float, Meta(gt=0, le=1)] = 0.1
     max_time_us: Annotated[float, Meta(gt=0, le=10e3)] = 500.0
 

@@ -26,7 +26,7 @@ class Patch(NamedTuple):
     """What serves a place: responses, and cells of a compact bank's rest, with their weights."""
 
     responses: Cells
-    rest: Cells = []
+    rest: Cells
 
 
 CHANNELS: Final = 32
@@ -140,13 +140,13 @@ class Responses:
         for cell, share in cells:
             entry, scale = self._entry(cell)
             if entry < 0:
-                return Patch([]), cell
+                return Patch([], []), cell
             numbers.append(entry)
             shares.append(share * scale)
             total += share * scale
         if len(cells) == 1:
-            return Patch([(numbers[0], WEIGHT_SUM)]), -1
-        return Patch(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0)), -1
+            return Patch([(numbers[0], WEIGHT_SUM)], []), -1
+        return Patch(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0), []), -1
 
     def _entry(self, cell: int) -> tuple[int, float]:
         """Number and scale of the response of a cell; below 0 if it has none, or one that may not be used."""
@@ -169,7 +169,7 @@ class Responses:
             cell = (iy + y) * self.nx + ix + x
             entry, scale = self._entry(cell)
             if entry < 0:
-                return Patch([]), cell
+                return Patch([], []), cell
             numbers.append(entry)
             shares.append(float(share) * scale)
             totals[0] += abs(shares[-1])

@@ -45,7 +45,9 @@ def row_bytes(weights: int, block_rows: int) -> int:
 def packed(numbers: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Numbers of 0 to 15 (weight, 32) as bytes: each 16 bits have channels 2 n, 2 n + 1, 16 + 2 n, 17 + 2 n, lowest first."""
     four = numbers[:, ORDER].reshape(-1, 4, 8).astype("<u2")
-    found: NDArray[np.uint8] = np.ascontiguousarray(four[:, 0] | four[:, 1] << 4 | four[:, 2] << 8 | four[:, 3] << 12).view(np.uint8).ravel()
+    found: NDArray[np.uint8] = (
+        np.ascontiguousarray(four[:, 0] | four[:, 1] << 4 | four[:, 2] << 8 | four[:, 3] << 12).view(np.uint8).ravel()
+    )
     return found
 
 
@@ -141,7 +143,7 @@ def _possible(layer: Layer) -> bool:
 
 
 def along(distance_m: float, pitch_m: float, count: int, layer: Layer) -> tuple[int, int]:
-    """First cell of a stencil along one axis, and how many steps beyond it the place is; places beyond the grid are moved into it."""
+    """First cell of a stencil along one axis, and steps of the place beyond it; places outside the grid are moved into it."""
     steps = distance_m / pitch_m * layer.steps
     last = (count - 1) * layer.steps
     whole = 0 if not steps > 0 else last if steps >= last else round(steps)
@@ -154,8 +156,9 @@ def shares(stencil: Numbers, layer: Layer, x_steps: int, y_steps: int) -> Number
     """Shares of the cells around a place, (across, across)."""
     all_steps = (layer.across - 1) * layer.steps
     found = stencil[min(y_steps, all_steps - y_steps), min(x_steps, all_steps - x_steps)]
-    found = found[::-1] if 2 * y_steps > all_steps else found
-    return found[:, ::-1] if 2 * x_steps > all_steps else found
+    rows, columns = (slice(None, None, -1 if 2 * steps > all_steps else 1) for steps in (y_steps, x_steps))
+    mirrored: Numbers = found[rows, columns]
+    return mirrored
 
 
 def outputs(rows: list[tuple[Numbers, int]], layer: Layer, pulses: Numbers, turned: Numbers) -> Numbers:

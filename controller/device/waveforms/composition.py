@@ -31,6 +31,7 @@ class Composer:
             raise ValueError(f"idle word {idle_word:#x} is not {CHANNELS} bits")
         if bank.samples > MAX_SAMPLES:
             raise BankError(f"{bank.path}: waveforms of {bank.samples} samples cannot be composed, at most {MAX_SAMPLES}")
+        common = bank.responses.common
         grid = bank.grid
         eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.GROUP_SAMPLES)
         block_samples = min(max(kernel.GROUP_SAMPLES * eights, kernel.GROUP_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
@@ -49,7 +50,7 @@ class Composer:
             grid.y0_m,
         )
         tables = memoryview(array("i", entries)), memoryview(array("f", scales))
-        self._buffers = kernel.BankBuffers(plan, *tables, good, b"")  # the responses follow once their section is mapped
+        self._buffers = kernel.BankBuffers(plan, *tables, good, b"", common)  # the responses follow once their section is mapped
         self._room = bytearray(kernel.room_bytes(bank.samples))
         self._words = bytearray(4 * bank.samples)
         self._view = memoryview(self._words).toreadonly()

@@ -68,10 +68,10 @@ class Selection:
             return
         if self._composer is None:
             self._composer = Composer(self._bank, self._idle_word)
-        cells = self._bank.cells.nonzero()[0]
-        if cells.size:
-            x_m, y_m = self._bank.grid.points()[cells[0]].tolist()
-            self._composer.compose([(x_m, y_m, 1.0), (x_m, y_m, 0.5)])
+        for x_m, y_m in self._bank.grid.points()[self._bank.cells].tolist():
+            if self._bank.responses.has(x_m, y_m):
+                self._composer.compose([(x_m, y_m, 1.0), (x_m, y_m, 0.5)])
+                break
 
     def key(self, points: Sequence[Point]) -> Key:
         """Name of the waveform for these points (x_m, y_m, amplitude); equal keys have equal words.

@@ -20,6 +20,8 @@ from controller.device.bank.packing import CHANNELS, channel_bits, drive_words, 
 from controller.device.board.board import Board
 from controller.device.board.paths import make_folder
 from controller.errors import ConfigError
+from controller.workshop.bank_builder.compact.design import CompactDesign
+from controller.workshop.bank_builder.compact.loss import loss
 from controller.workshop.bank_builder.interpolation_error import interpolation_error
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
@@ -66,14 +68,18 @@ def build_bank(request: BankRequest) -> BuildReport:
     ):
         entries = _Entries(plan.board, plan.header, writer)
         optimised = _optimised(request, plan) if aim else None
-        _write_cells(plan, entries, optimised, path.name, progress=request.progress)
+        if plan.design:
+            error = _write_compact(plan, plan.design, entries)
+        else:
+            _write_cells(plan, entries, optimised, path.name, progress=request.progress)
+            error = interpolation_error(plan.board, source, plan.header.grid, plan.wanted).summary()
         for key, words in plan.composed:
             entries.add_composition(key, words)
         results = plan.header.parameters
         results["content_sha256"] = entries.content.hexdigest()
         if optimised is not None:
             results["amplitude_of_plain"] = _amplitude_of_plain(plan.board, source, plan.points_m, optimised)
-        results["interpolation_error"] = interpolation_error(plan.board, source, plan.header.grid, plan.wanted).summary()
+        results["interpolation_error"] = error
     remove_kept(path)
     return BuildReport(
         path=str(path),
@@ -109,10 +115,22 @@ def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, nam
                 plain = drive_words(response[: header.samples], plan.board.idle_word)
                 entries.add_cell(int(plan.numbers[index]), plain if optimised is None else optimised[index], response)
             bar.update(len(block))
-    if not entries.moves:
-        raise ConfigError(
-            f"board {plan.board.name!r}: no channel moves any of the {len(plan.numbers)} cells: a bank of nothing is not written"
-        )
+    entries.require_motion(len(plan.numbers))
+
+
+def _write_compact(plan: BankPlan, design: CompactDesign, entries: _Entries) -> dict[str, Any]:
+    """Compute and write rows and tables of a compact bank; what it loses."""
+
+    def count(cell: int, response: NDArray[np.floating[Any]]) -> None:
+        entries.count_edges(drive_words(response, plan.board.idle_word), f"cell {cell}")
+
+    rows, scales = design.rows(plan.source, plan.wanted, count)
+    tables = design.tables(plan.source)
+    for cell in plan.numbers.tolist():
+        entries.add_row(cell, rows[cell], float(scales[cell]))
+    entries.set_tables(tables)
+    entries.require_motion(len(plan.numbers))
+    return loss(plan.board, plan.source, design, plan.wanted, (rows, scales, tables))
 
 
 class _Entries:
@@ -122,22 +140,41 @@ class _Entries:
         self._board, self._results, self._writer = board, header.parameters, writer
         self.content = hashlib.sha256()  # hash of all that was written
         self.worst_edge_rate_hz = 0.0
-        self.moves = False  # whether any channel moves any cell
+        self._moves = False  # whether any channel moves any cell
 
     def add_cell(self, cell: int, words: NDArray[np.uint32], response: NDArray[np.float32]) -> None:
-        self._count_edges(words, f"cell {cell}")
+        self.count_edges(words, f"cell {cell}")
         levels, scale_m_per_v = quantise(response)
         self._writer.add(cell, words, levels, scale_m_per_v)
-        self.moves = self.moves or scale_m_per_v > 0
+        self._moves = self._moves or scale_m_per_v > 0
         for part in (words, levels, np.float32(scale_m_per_v)):
             self.content.update(part.data)
 
+    def add_row(self, cell: int, row: NDArray[np.uint8], scale_m_per_v: float) -> None:
+        """Write the row of a cell of a compact bank."""
+        self._writer.add_row(cell, row, scale_m_per_v)
+        self._moves = self._moves or scale_m_per_v > 0
+        for part in (row, np.float32(scale_m_per_v)):
+            self.content.update(part.data)
+
+    def set_tables(self, tables: bytes) -> None:
+        """Give the writer the tables of a compact bank."""
+        self._writer.tables = tables
+        self.content.update(tables)
+
+    def require_motion(self, cells: int) -> None:
+        """Refuse a bank of nothing; raises ConfigError."""
+        if not self._moves:
+            raise ConfigError(
+                f"board {self._board.name!r}: no channel moves any of the {cells} cells: a bank of nothing is not written"
+            )
+
     def add_composition(self, key: Sequence[tuple[int, int, int]], words: NDArray[np.uint32]) -> None:
-        self._count_edges(words, f"{len(key)} spots")
+        self.count_edges(words, f"{len(key)} spots")
         self._writer.add_composition(key, words)
         self.content.update(words.data)
 
-    def _count_edges(self, words: NDArray[np.uint32], name: str) -> None:
+    def count_edges(self, words: NDArray[np.uint32], name: str) -> None:
         """Note the edges of the busiest channel, and of all; refused above the board's limit."""
         board, results = self._board, self._results
         idle = np.array([board.idle_word], np.uint32)

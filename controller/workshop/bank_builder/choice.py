@@ -23,6 +23,7 @@ from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import Scene
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.bank_fit import asked_of
+from controller.workshop.bank_builder.compact.design import PITCHES, CompactDesign, compact_grid, compact_pitch_m
 from controller.workshop.bank_builder.interpolation_error import DIGITS, InterpolationError, interpolation_error
 from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
@@ -36,6 +37,7 @@ BEYOND = 3.0  # pitches: a cell is at most so far from any place of the plate
 # Host time in us with the compiled kernel (`python -m tests.workshop.benchmark.compose_speed`, workshop/benchmark/README.md): the
 # frames of a cell, the words of one finger, of ten at full and of ten at less than full amplitude
 CELL_US, ONE_US, TEN_US, TEN_LESS_US = 0.14, 6.0, 164.0, 388.0
+COMPACT_ONE, COMPACT_TEN, COMPACT_TEN_LESS = 2.1, 1.55, 1.4  # times as long from a compact bank
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,7 @@ class Setting:
     time_us: float  # of the largest emission
     lone_us: float  # of a lone finger, mean
     bytes: int
+    compact: bool = False  # whether responses are weights of pulses, and no cell is played as it is
 
     def beaten_by(self, other: Setting) -> bool:
         """Whether another is as good in everything, and better in something."""
@@ -89,11 +92,29 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
             time_us = (ONE_US if alone else TEN_US) if _full(scene) else TEN_LESS_US
             worst = round(max(between, of_cells(snap_mm * 1e-3)), DIGITS)
             found.append(Setting(pitch_mm, snap_mm, True, worst, time_us, lone_us, _bytes(board, grid, cells, composes=True)))
-    return found
+    if board.compose.method == "compact" or not alone:
+        found += _compact_settings(board, scene, source)
+    return [one for one in found if one.compact] if board.compose.method == "compact" else found
+
+
+def _compact_settings(board: Board, scene: Scene, source: ResponseSource) -> list[Setting]:
+    """Compact banks of the whole plate; none where it or the bit clock is too small."""
+    pitches_m = [compact_pitch_m(board, share) for share in PITCHES]
+    try:
+        designs = CompactDesign.of(board, source, [compact_grid(board, pitch_m) for pitch_m in pitches_m])
+    except ConfigError:
+        return []
+    time_us, lone_us = (TEN_US * COMPACT_TEN if _full(scene) else TEN_LESS_US * COMPACT_TEN_LESS), ONE_US * COMPACT_ONE
+    made = []
+    for pitch_m, design in zip(pitches_m, designs, strict=True):
+        header = Header("", b"", design.grid, board.waveform.bit_clock_hz, design.samples, design.grid.cells, design.parameters)
+        error = round(design.expected_loss, DIGITS + 1)
+        made.append(Setting(_rounded(1e3 * pitch_m), 0.0, True, error, round(time_us), round(lone_us, 2), header.file_bytes, True))
+    return made
 
 
 def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source: ResponseSource | None = None) -> dict[str, Any]:
-    """What `compose.method = "auto"` chooses for a scene, to be written into its bank.
+    """What `compose.method` = "auto" or "compact" chooses for a scene, to be written into its bank.
 
     `margin_m` is as of `cells_needed`; responses come from the board's plate model by default. Returns the fields of the chosen
     `Setting`; `asked`, as `bank_fit.asked_of`; `scene`; `why`, a line for people; `front`: pitch, snap (None: no responses),
@@ -107,6 +128,8 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source
         raise ConfigError(_none(board, scene_file.name, found))
     best = min(kept, key=lambda one: (one.bytes, one.lone_us))
     how = f"responses every {best.pitch_mm:g} mm, cells within {best.snap_mm:g} mm of a lone finger"
+    if best.compact:
+        how = f"a compact bank of the whole plate, cells every {best.pitch_mm:g} mm"
     if not best.composes:
         how = f"cells every {best.pitch_mm:g} mm without responses: the scene asks for nothing between them"
     return asdict(best) | {

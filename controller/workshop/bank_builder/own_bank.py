@@ -25,6 +25,7 @@ from controller.errors import BankError, ConfigError
 from controller.workshop.bank_builder.bank_fit import Fit, asked_of, choice_of, fit, optimised_for
 from controller.workshop.bank_builder.build import BuildReport, build_bank
 from controller.workshop.bank_builder.choice import choose
+from controller.workshop.bank_builder.compact.design import compact_grid, compact_pitch_m
 from controller.workshop.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.plate import wave_scale
@@ -42,7 +43,8 @@ class Order:
     pitch_m: float
     scene: Scene | None = None  # scene, scene_file: whose cells and fixed emitters; None: the whole plate, without fixed emitters
     scene_file: Path | None = None
-    choice: dict[str, Any] | None = None  # what `compose.method = "auto"` chose
+    choice: dict[str, Any] | None = None  # what `compose.method` = "auto" or "compact" chose
+    compact: bool = False  # for the whole plate, whatever the scene
 
     @property
     def own_path(self) -> Path:
@@ -50,9 +52,14 @@ class Order:
         return bank_path(self.board, None if self.choice else self.pitch_m)
 
     @property
+    def grid(self) -> Grid:
+        """The grid of its cells."""
+        return compact_grid(self.board, self.pitch_m) if self.compact else Grid.of(self.board.plate, self.pitch_m)
+
+    @property
     def cells(self) -> NDArray[np.bool_] | None:
         """Cells of the grid that the scene can reach; None: all."""
-        return None if self.scene is None else reached(self.board, self.scene, self.pitch_m)
+        return None if self.scene is None or self.compact else reached(self.board, self.scene, self.pitch_m)
 
     def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
         """Build it, its file beside or in place of another.
@@ -72,28 +79,32 @@ class Order:
                 progress=True,
                 overwrite=path == self.own_path,
                 choice=self.choice,
+                compact=self.compact,
                 **how,
             )
         )
 
 
-def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None = None) -> Order:
+def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None = None, *, compact: bool = False) -> Order:
     """The order of a bank: for the whole plate, or for the cells that a scene can reach.
 
     `scene_file` None: the whole plate; where the pitch is chosen, the board's own scene. `pitch_mm` None: the board's own or, where
-    its `compose.method` is "auto", a chosen one. Raises ConfigError if the pitch is too small, the scene is invalid, or no choice
-    keeps the board's bounds.
+    its `compose.method` is not "bank", a chosen one. `compact`: a compact bank of the whole plate in any case. Raises ConfigError
+    if the pitch is too small, the scene is invalid, or no choice keeps the board's bounds.
     """
     if not pitch_of(board, pitch_mm) >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
-    if board.compose.method != "auto" or pitch_mm is not None:
+    if compact:
+        scene = load_scene(scene_file, board) if scene_file else None
+        return Order(board, compact_pitch_m(board) if pitch_mm is None else pitch_mm * 1e-3, scene, scene_file, compact=True)
+    if board.compose.method == "bank" or pitch_mm is not None:
         scene = load_scene(scene_file, board) if scene_file else None
         return Order(board, pitch_of(board, pitch_mm) * 1e-3, scene, scene_file)
     scene_file = scene_file or find_scene(board)
     scene = load_scene(scene_file, board)
     choice = chosen(board, scene, scene_file)
     tell(f"{scene_file.name}: {choice['why']}")
-    return Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice)
+    return Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice, choice["compact"])
 
 
 def reached(board: Board, scene: Scene, pitch_m: float) -> NDArray[np.bool_]:
@@ -107,7 +118,7 @@ def pitch_of(board: Board, pitch_mm: float | None) -> float:
 
 
 def chosen(board: Board, scene: Scene, scene_file: Path, source: ResponseSource | None = None) -> dict[str, Any]:
-    """What `compose.method = "auto"` chooses for a scene (`choice.choose`)."""
+    """What `compose.method` = "auto" or "compact" chooses for a scene (`choice.choose`)."""
     with threadpool_limits(1, "blas"):
         return choose(board, scene, scene_file, MET_AHEAD_M, source)
 
@@ -142,13 +153,13 @@ def warn_of_pitch(path: Path, report: BuildReport) -> None:
 
 def _wanted(board: Board, scene: Scene, scene_file: Path, path: Path) -> tuple[Order, Fit]:
     """What the scene needs, and whether the bank at `path` has it."""
-    if board.compose.method != "auto":
+    if board.compose.method == "bank":
         wanted = Order(board, board.bank.pitch_mm * 1e-3, scene, scene_file)
         return wanted, fit(path, board, reached(board, scene, wanted.pitch_m))
     there = choice_of(path)
     choice = there if there and there["asked"] == asked_of(board, scene_file) else chosen(board, scene, scene_file)
-    wanted = Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice)
-    cells = reached(board, scene, wanted.pitch_m)
-    if there and any(there[name] != choice[name] for name in ("pitch_mm", "snap_mm", "composes")):
+    wanted = Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice, choice.get("compact", False))
+    cells = np.ones(wanted.grid.cells, bool) if wanted.compact else reached(board, scene, wanted.pitch_m)
+    if there and any(there.get(name, False) != choice.get(name, False) for name in ("pitch_mm", "snap_mm", "composes", "compact")):
         return wanted, Fit(f"{scene_file.name} needs {choice['why'].partition(':')[0]}", cells)
     return wanted, fit(path, board, cells)

@@ -16,6 +16,7 @@ from controller.device.bank.packing import CHANNELS
 from controller.device.bank.provenance import as_parameter
 from controller.device.board.board import Board
 from controller.errors import ConfigError
+from controller.workshop.bank_builder.compact.design import CompactDesign, compact_grid
 from controller.workshop.bank_builder.compositions import Composition, compositions
 from controller.workshop.bank_builder.optimised import reported
 from controller.workshop.bank_builder.request import BankRequest
@@ -43,6 +44,7 @@ class BankPlan:
     header: Header  # its parameters that are results are filled in as entries are made; it is written last
     composed: list[Composition]  # what the fixed emitters play together
     blocks: list[range]  # positions in `numbers` of cells that are computed at once
+    design: CompactDesign | None = None  # of a compact bank
 
     @classmethod
     def of(cls, request: BankRequest) -> BankPlan:
@@ -51,11 +53,17 @@ class BankPlan:
         if request.aim is not None and source is not None:
             kind = source.provenance.kind
             raise ConfigError(f"responses that are {kind} cannot be optimised: that takes a model of the whole plate")
-        grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if request.pitch_m is None else request.pitch_m)
+        if request.compact and request.aim is not None:
+            raise ConfigError("a compact bank holds no waveforms of cells that could be optimised")
+        pitch_m = board.bank.pitch_mm * 1e-3 if request.pitch_m is None else request.pitch_m
+        grid = compact_grid(board, pitch_m) if request.compact else Grid.of(board.plate, pitch_m)
         wanted = _wanted(request, grid)
         numbers = np.flatnonzero(wanted)
         found = ResponseModel(board, request.highest_mode_hz) if source is None else CheckedSource(board, source)
         parameters = _parameters(request, grid, wanted, found)
+        design = CompactDesign.of(board, found, [grid])[0] if request.compact else None
+        if design:
+            parameters |= design.parameters
         composed = compositions(board, grid, found, request.emitters) if request.emitters else []
         header = Header(
             creator=creator(),
@@ -67,8 +75,8 @@ class BankPlan:
             parameters=parameters,
             compositions=len(composed),
         )
-        blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, found))
-        return cls(board, wanted, numbers, grid.points()[numbers], found, header, composed, blocks)
+        blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, found, design.working_bytes if design else 0.0))
+        return cls(board, wanted, numbers, grid.points()[numbers], found, header, composed, blocks, design)
 
     @property
     def model(self) -> ResponseModel | None:
@@ -114,7 +122,7 @@ def _parameters(request: BankRequest, grid: Grid, wanted: NDArray[np.bool_], sou
     }
 
 
-def _cells_at_once(request: BankRequest, header: Header, source: ResponseSource) -> int:
+def _cells_at_once(request: BankRequest, header: Header, source: ResponseSource, more_bytes: float) -> int:
     """Cells for which the memory that the build may take is enough."""
     grid, samples = header.grid, header.samples
     if isinstance(source, ResponseModel):
@@ -122,7 +130,7 @@ def _cells_at_once(request: BankRequest, header: Header, source: ResponseSource)
     else:
         row_bytes, many = BASE_BYTES + cell_bytes(samples) * grid.nx, ""
     what = f"a bank of {request.board.name!r} with {many}{grid.nx} cells a row"
-    spare_bytes = require(row_bytes + INDEX_BYTES * grid.cells, request.memory_mb, what)
+    spare_bytes = require(row_bytes + INDEX_BYTES * grid.cells + more_bytes, request.memory_mb, what)
     return min(CELLS_PER_BLOCK, grid.nx + int(spare_bytes / cell_bytes(samples)))
 
 

@@ -40,6 +40,7 @@ class BankRequest:
     scene: str | None = None  # what `cells` and `fixed emitters` came from, noted in the build parameters
     highest_hz: float | None = None  # modes above are left out; `mode_cut_hz` by default
     choice: dict[str, Any] | None = None  # what `choice.choose` returned; its `composes` says whether responses are written
+    compact: bool = False  # four-bit weights of pulses, without waveforms of cells (`compact`)
     source: ResponseSource | None = None  # of the responses; the board's plate model by default
     # Optimise every entry for this (`workshop/bank_builder/methods/descent.py`). What is done of an interrupted build is kept
     # beside `path`

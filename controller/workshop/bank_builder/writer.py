@@ -53,6 +53,7 @@ class BankWriter:
         self._scale = np.zeros(header.entries, "<f4")
         self._written = np.zeros(header.entries, bool)
         self._points: list[bytes] = []  # of the compositions
+        self.tables = b""  # of a compact bank: given before it is complete
         self._fd = -1
 
     def __enter__(self) -> BankWriter:
@@ -105,6 +106,18 @@ class BankWriter:
         self._scale[entry] = scale_m_per_v
         self._written[entry] = True
 
+    def add_row(self, cell: int, row: NDArray[np.uint8], scale_m_per_v: float) -> None:
+        """Write the entry of a cell of a compact bank: its bytes, and the scale of its levels."""
+        section, entry = self._sections["response"], int(self._index[cell])
+        if len(row) != section.row_bytes or entry < 0 or self._written[entry]:
+            raise ValueError(f"cell {cell}: {len(row)} bytes, not {section.row_bytes}, or an entry too many")
+        payload = np.ascontiguousarray(row).data
+        self._checksums[entry] = 0, zlib.crc32(payload)
+        with self._disk_errors():
+            _write(self._fd, payload, section.offset + entry * section.stride)
+        self._scale[entry] = scale_m_per_v
+        self._written[entry] = True
+
     def add_composition(self, points: Sequence[tuple[int, int, int]], words: NDArray[np.uint32]) -> None:
         """Write the drive words (samples,) of 1 to 10 points, in ascending order.
 
@@ -146,6 +159,9 @@ class BankWriter:
         """Write a table and note its CRC-32; entries have theirs in `checksums`."""
         tables = {"index": self._index.tobytes(), "checksums": self._checksums.tobytes(), "scale": self._scale.tobytes()}
         tables["points"] = b"".join(self._points)
+        if len(self.tables) != (self._header.compact or {"tables_bytes": 0})["tables_bytes"]:
+            raise ValueError(f"tables of {len(self.tables)} bytes do not fit the header")
+        tables["tables"] = self.tables
         if section.name not in tables:
             return section
         payload = tables[section.name]

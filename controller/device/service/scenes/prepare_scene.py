@@ -43,7 +43,7 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
     bank.drive.check_frames(cells)
     if responses and bank.composes:
         for cell in cells:
-            bank.responses.response(cell)
+            bank.responses.check(cell)
     return len(cells)
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -13,6 +14,7 @@ from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
 from controller.device.board.board import Board
+from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.kernel import compact_twin
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.compact.pulses import Pulses, in_band_pulses, rest_pulses
@@ -29,6 +31,10 @@ REST_BLOCK: Final = 32
 REST_PITCH: Final = 2.0  # of the grid of the rest, in pitches
 BEYOND_BAND: Final = 0.1  # of the band's width, above and below
 CELLS_AT_ONCE: Final = 128
+PITCHES: Final = (0.415, 0.45, 0.475)  # of the shortest wave; the middle one where none is asked for
+WORSE_THAN_EXPECTED: Final = 1.6  # a place, as far as was seen (README.md)
+
+Reals = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +50,10 @@ class CompactDesign:
     samples: int
 
     @classmethod
-    def of(cls, board: Board, source: ResponseSource, grid: Grid) -> CompactDesign:
-        """Design for a grid; ConfigError if the plate or the bit clock is too small for it."""
+    def of(cls, board: Board, source: ResponseSource, grids: Sequence[Grid]) -> list[CompactDesign]:
+        """Designs for some grids; ConfigError if the plate or the bit clock is too small for them."""
         waveform, plate = board.waveform, board.plate
-        rest_grid = _rest_grid(board, grid)
+        rest_grids = [_rest_grid(board, grid) for grid in grids]
         random = np.random.default_rng(SEED)
         points_m = random.uniform((0, 0), (plate.length_m, plate.width_m), (PLACES, 2))
         rows = waveform.samples + math.ceil(waveform.samples / REST_SAMPLES)
@@ -58,15 +64,18 @@ class CompactDesign:
         inside = (hz > waveform.band_low_hz - beyond_hz) & (hz < waveform.band_high_hz + beyond_hz)
         rest_power, rest_hz = _spectrum(rest, waveform.bit_period_s * REST_SAMPLES)
         below = (rest_hz > 0) & (rest_hz < waveform.band_low_hz + beyond_hz)
-        return cls(
-            grid,
-            rest_grid,
-            in_band_pulses(waveform, in_band),
-            rest_pulses(waveform, rest),
-            stencil(plate, grid.pitch_m, ACROSS, power[inside], hz[inside]),
-            stencil(plate, rest_grid.pitch_m, REST_ACROSS, rest_power[below], rest_hz[below]),
-            waveform.samples,
-        )
+        pulses = in_band_pulses(waveform, in_band), rest_pulses(waveform, rest)
+        return [
+            cls(
+                grid,
+                rest_grid,
+                *pulses,
+                stencil(plate, grid.pitch_m, ACROSS, power[inside], hz[inside]),
+                stencil(plate, rest_grid.pitch_m, REST_ACROSS, rest_power[below], rest_hz[below]),
+                waveform.samples,
+            )
+            for grid, rest_grid in zip(grids, rest_grids, strict=True)
+        ]
 
     @property
     def layers(self) -> tuple[compact_twin.Layer, compact_twin.Layer]:
@@ -88,13 +97,33 @@ class CompactDesign:
         outputs = len(self.pulses.first), len(self.rest_pulses.first)
         return compact_twin.tables_bytes(self.layers, outputs, self.rest_grid.cells)
 
-    def rows(self, source: ResponseSource) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-        """Bytes of all cells (cell, byte), and m per V of a level of each."""
-        weights = np.empty((self.grid.cells, self.pulses.weights, CHANNELS), np.float32)
-        points_m = self.grid.points()
-        for first in range(0, len(points_m), CELLS_AT_ONCE):
-            some = slice(first, first + CELLS_AT_ONCE)
-            weights[some] = np.matmul(self.pulses.analysis, source.drive_order_responses(points_m[some]))
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """Build parameters of a bank that is made of this."""
+        return {"compact": {"row_bytes": self.row_bytes, "tables_bytes": self.tables_bytes}}
+
+    @property
+    def expected_loss(self) -> float:
+        """Share of the amplitude that a lone finger may lose at the worst place."""
+        return WORSE_THAN_EXPECTED * (self.pulses.error + self.stencil.error[1]) / 2
+
+    @property
+    def working_bytes(self) -> float:
+        """Memory that `rows` takes: weights, errors and their last rounding in float32, numbers."""
+        return self.grid.cells * self.pulses.weights * CHANNELS * 13.0
+
+    def rows(
+        self, source: ResponseSource, there: NDArray[np.bool_], use: Callable[[int, Reals], None]
+    ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+        """Bytes of the cells that are `there` (cell, byte), and m per V of a level; `use` is called with each cell and response."""
+        weights = np.zeros((self.grid.cells, self.pulses.weights, CHANNELS), np.float32)
+        points_m, cells = self.grid.points(), np.flatnonzero(there)
+        for first in range(0, len(cells), CELLS_AT_ONCE):
+            some = cells[first : first + CELLS_AT_ONCE]
+            responses = source.drive_order_responses(points_m[some])
+            weights[some] = np.matmul(self.pulses.analysis, responses)
+            for cell, response in zip(some.tolist(), responses, strict=True):
+                use(cell, response)
         return rounded(weights, self.grid.nx, self.layers[0].block_rows, self.stencil)
 
     def tables(self, source: ResponseSource) -> bytes:
@@ -120,18 +149,32 @@ class CompactDesign:
         return bytes(made)
 
 
+def compact_pitch_m(board: Board, share: float = PITCHES[1]) -> float:
+    """A pitch for a compact bank, to a tenth of a millimetre on the paper's plate."""
+    return float(f"{share * bending_wavelength_m(board.plate, board.waveform.band_high_hz):.2g}")
+
+
+def compact_grid(board: Board, pitch_m: float) -> Grid:
+    """The grid of a compact bank, whose outermost cells are half a pitch from the sides at least."""
+    inner = Grid.of(board.plate, pitch_m)
+    sides_m = board.plate.length_m, board.plate.width_m
+    nx, ny = (math.floor(side_m / pitch_m + 1e-9) for side_m in sides_m)
+    x0_m, y0_m = ((side_m - (count - 1) * pitch_m) / 2 for side_m, count in zip(sides_m, (nx, ny), strict=True))
+    return replace(inner, nx=nx, ny=ny, x0_m=x0_m, y0_m=y0_m)
+
+
 def _rest_grid(board: Board, grid: Grid) -> Grid:
     """The grid of the rest; ConfigError if a stencil is larger than a grid."""
-    rest = Grid.of(board.plate, REST_PITCH * grid.pitch_m)
+    rest = compact_grid(board, REST_PITCH * grid.pitch_m)
     if min(grid.nx, grid.ny) < ACROSS or min(rest.nx, rest.ny) < REST_ACROSS:
         raise ConfigError(
-            f"board {board.name!r}: {grid.nx} x {grid.ny} cells of {1e3 * grid.pitch_m:g} mm are too few for a compact bank: build a"
-            " plain one"
+            f"board {board.name!r}: {grid.nx} x {grid.ny} cells of {1e3 * grid.pitch_m:g} mm are too few for a compact bank:"
+            " build a plain one"
         )
     return rest
 
 
-def _spectrum(responses: NDArray[np.float64], period_s: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _spectrum(responses: Reals, period_s: float) -> tuple[Reals, Reals]:
     """Power of all responses together at each frequency in Hz."""
-    power = (np.abs(np.fft.rfft(responses, axis=1)) ** 2).sum(axis=(0, 2))
+    power: Reals = (np.abs(np.fft.rfft(responses, axis=1)) ** 2).sum(axis=(0, 2))
     return power, np.fft.rfftfreq(responses.shape[1], period_s)

@@ -42,6 +42,7 @@ class Pulses:
     taps: NDArray[np.int16]  # (output, tap)
     odd: tuple[int, int]  # taps of odd samples: of the sum of the two even neighbours, beside a half; of the next two, negative
     analysis: NDArray[np.float32]  # (weight, row of a response)
+    error: float  # square error over the power of responses, before rounding, as a loss counts it
 
     @property
     def weights(self) -> int:
@@ -90,15 +91,13 @@ def _odd_taps(waveform: Waveform) -> tuple[float, float]:
     (near, far), *_ = np.linalg.lstsq(waves, np.ones(51))
     if np.abs(waves @ (near, far) - 1).max() > LARGEST_ODD_ERROR:
         raise ConfigError(
-            f"waveform.band_high_hz = {waveform.band_high_hz:g} is too near to half of bit_clock_hz = {waveform.bit_clock_hz:g} for a"
-            " compact bank: build a plain one"
+            f"waveform.band_high_hz = {waveform.band_high_hz:g} is too near to half of bit_clock_hz = {waveform.bit_clock_hz:g} for"
+            " a compact bank: build a plain one"
         )
     return float(near), float(far)
 
 
-def _learned(
-    first: NDArray[np.intp], start: Floats, responses: Floats, to_rows: Floats, odd: tuple[float, float]
-) -> Pulses:
+def _learned(first: NDArray[np.intp], start: Floats, responses: Floats, to_rows: Floats, odd: tuple[float, float]) -> Pulses:
     """Fit pulses, which begin as `start` (output, tap), and weights to responses in turns; `to_rows` (row, output) of outputs."""
     (outputs, taps), weights = start.shape, int(first[-1]) + start.shape[1]
     met, rows = first[:, None] + np.arange(taps), responses.transpose(1, 0, 2).reshape(len(to_rows), -1)
@@ -126,7 +125,8 @@ def _learned(
     gain = (WHOLE / 2 - taps) / np.abs(values).sum(axis=1).max()
     near, far = (round(tap * WHOLE) for tap in odd)
     whole_taps = np.rint(values * gain).astype(np.int16)
-    return Pulses(first.astype(np.int16), whole_taps, (near, far), (analysis * (WHOLE / gain)).astype(np.float32))
+    error = (((to_rows @ (pulses @ (analysis @ rows)) - rows) * flat) ** 2).sum() / max(((rows * flat) ** 2).sum(), 1e-300)
+    return Pulses(first.astype(np.int16), whole_taps, (near, far), (analysis * (WHOLE / gain)).astype(np.float32), float(error))
 
 
 def _strength(responses: Floats) -> Floats:

@@ -41,7 +41,7 @@ class Stencil:
     error: tuple[float, float]  # expected square error over that of the response, mean and at the worst place
 
 
-def stencil(plate: Plate, pitch_m: float, across: int, power: Floats, frequency_hz: Floats) -> Stencil:
+def stencil(plate: Plate, pitch_m: float, across: int, power: NDArray[Any], frequency_hz: NDArray[Any]) -> Stencil:
     """The stencil for waves whose `power` at each `frequency_hz` is given."""
     back = np.array([(dy, dx) for dy in range(-REACH, 1) for dx in range(-REACH, REACH + 1) if dy < 0 or dx < 0])
     y, x = np.divmod(np.arange(across**2), across)
@@ -75,7 +75,12 @@ def stencil(plate: Plate, pitch_m: float, across: int, power: Floats, frequency_
         across,
         np.rint(table.T * WHOLE).astype(np.int16).reshape(len(half), len(half), across**2),
         [(int(row), int(column), float(part)) for (row, column), part in zip(back, share, strict=True)],
-        [(int(row), int(column), float(own[row, column] / own[0, 0])) for row in range(1 - across, across) for column in range(1 - across, across) if row or column],
+        [
+            (int(row), int(column), float(own[row, column] / own[0, 0]))
+            for row in range(1 - across, across)
+            for column in range(1 - across, across)
+            if row or column
+        ],
         (float(left.mean()), float(left.max())),
     )
 
