@@ -102,7 +102,7 @@ class PlateUnderTest:
     def reference(self, points: Sequence[tuple[float, float]]) -> Reference:
         """What this plate can give at points."""
         in_band = self.model.drive_order_responses(points, dtype=np.float64)
-        whole = self.model.responses(points)[:, ::-1]
+        whole = np.asarray(self.model.responses(points)[:, ::-1], np.float64)
         alone = np.empty(len(points))
         for index, response in enumerate(in_band):
             volts = self.volts(focus(response[None], [1.0], self.board.idle_word))
