@@ -31,7 +31,8 @@ POLARITIES = 8  # sets of polarities of which the bound is computed, the most pr
 ROUGHLY = (1.0, 0.3)  # how exactly these are compared, before the best one's bound is
 LARGEST_BOUND = 12  # fingers: polarities are counted out
 AT_ONCE = 16  # emissions in one matrix product
-NEGLIGIBLE = 1e-9  # of the largest component of what is summed
+CLOSE = 0.4  # frequencies that make up all others, over the inverse of an emission
+BEYOND = 1.15  # how far they go, over the highest
 
 
 @dataclass(frozen=True)
@@ -148,7 +149,8 @@ class PlateUnderTest:
     def _audible_gram(self) -> tuple[Floats, Floats, Floats]:
         """What gives the channels' slopes of voltage at each frequency, and energy as a quadratic form of them.
 
-        Cosines and sines as a product, (2 frequency, few) and (few, step): an emission is too short for more.
+        Cosines and sines as a product, (2 frequency, few) and (few, step): within an emission those of a few frequencies make up
+        all others.
         """
         modes = self.model.plate_modes
         driver = DriverResponse.of(self.board.driver)
@@ -164,10 +166,13 @@ class PlateUnderTest:
             stiffness = modes.mass_kg * (modes.angular_frequency**2 + 2 * modes.decay_rate * at + at**2)
             weight = modes.mean_square * 2 * passed[index] / np.abs(stiffness) ** 2  # both signs of frequency
             gram[index] = self.model.forces.T @ (weight[:, None] * self.model.forces)
-        phase = 2 * np.pi * self.board.waveform.bit_period_s * np.outer(frequency, np.arange(self.model.samples + 1))
-        waves, sizes, basis = np.linalg.svd(np.concatenate([np.cos(phase), np.sin(phase)]), full_matrices=False)
-        kept = sizes > NEGLIGIBLE * sizes[0]
-        return waves[:, kept] * sizes[kept], basis[kept], step_hz * gram
+        few = np.arange(0, BEYOND * AUDIBLE_HZ, CLOSE / self.board.waveform.duration_s)
+        times_s = np.arange(self.model.samples + 1) * self.board.waveform.bit_period_s
+        waves, basis = (
+            np.concatenate([np.cos(phase), np.sin(phase)]) for phase in (np.outer(f, 2 * np.pi * times_s) for f in (frequency, few))
+        )
+        basis = np.linalg.qr(basis.T)[0].T
+        return waves @ basis.T, basis, step_hz * gram
 
 
 def bound(unit: Floats) -> float:
