@@ -37,7 +37,7 @@ def weighed(bank, points):
     """Responses, and for each its weight of either sign, straight from the definition.
 
     The polarities with which the sum of every fourth sample has most energy, as few of them negative as positive; then two rounds
-    in which weights are divided by what their points get: in every fourth sample, and in all. This bank has nothing out of band.
+    in which weights are divided by what their points get: in every fourth sample, and in all. Nothing is outside the band here.
     """
     responses = [interpolated(bank, x_m, y_m) for x_m, y_m, _ in points]
     norms = np.array([float(np.abs(here).sum()) for here in responses])

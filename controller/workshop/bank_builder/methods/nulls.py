@@ -1,9 +1,10 @@
 """Drive words that move some points and leave others still near T: for fingers that shall feel nothing.
 
-The displacement of a null at each sample near T is linear in the bits, so a null is exact composition
-(`exact_composition.py`) with one more goal, to stay zero, for each of these samples. The plate's band makes 27 of them about 20
-independent goals, of which the strongest eight matter most; rounding to bits misses them by about a bit, and flips of bits that
-decide little bring the rest down.
+A finger feels with a pad that is almost a wavelength wide: a null of one point leaves the rest of it as it was. So seven places of
+the pad are kept still. Their displacement at each sample near T is linear in the bits, so a null is exact composition
+(`exact_composition.py`) with one more goal, to stay zero, for each place and sample. The plate's band makes these 189 about 50
+independent goals that matter; rounding to bits misses them by about a bit, and flips of bits that decide little bring the rest
+down.
 """
 
 from __future__ import annotations
@@ -16,17 +17,18 @@ import numpy as np
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.device.kernel import Point
+from controller.device.waveforms.pad import OFFSETS, pad_places
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.dual import Floats
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition, checked_points
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
-HEARD: Final = 1e-4  # of the largest: directions of displacement near T that are weaker are left as they are
+HEARD: Final = 0.05  # of the largest: directions of displacement near T that are weaker are left as they are
 
 
 class ExactNulls:
-    """As `ExactComposition`, with places that stay still within 25 us of T."""
+    """As `ExactComposition`, with places that stay still within 25 us of T, each with the pad of a finger around it."""
 
     name = "exact composition, nulls"
 
@@ -41,11 +43,13 @@ class ExactNulls:
         nulls_m = np.array(nulls, np.float64).reshape(-1, 2)
         if not np.isfinite(nulls_m).all():
             raise ValueError("a null is not finite")
-        words = self._composition.words(places_m, asked, independent(self.near_focus(nulls_m)))
-        near_m = self._prediction.near_focus(words, nulls_m)
-        return WaveformDesign(words, self._prediction.at_focus(words, places_m), np.abs(near_m).max(axis=1, initial=0.0))
+        pads_m = [place for null in nulls_m.tolist() for place in pad_places(*null)]
+        words = self._composition.words(places_m, asked, independent(self.near_focus(pads_m)))
+        most_m = np.abs(self._prediction.near_focus(words, pads_m)).max(axis=1, initial=0.0)
+        each_m = most_m.reshape(len(nulls_m), len(OFFSETS)).max(axis=1, initial=0.0)
+        return WaveformDesign(words, self._prediction.at_focus(words, places_m), each_m)
 
-    def near_focus(self, places_m: Floats) -> Floats:
+    def near_focus(self, places_m: Sequence[Place]) -> Floats:
         """What each bit that deviates adds to places, (place, 2), at each sample within 25 us of T: (place * time, bit) in m."""
         rows = [self._composition.deviations(self._prediction.near_responses(place_m)) for place_m in places_m]
         return np.concatenate(rows) if rows else np.zeros((0, self._model.samples * CHANNELS))
