@@ -18,6 +18,7 @@ from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 from controller.device.board.relations.devices import axes
 from controller.device.service.drivers import open_touch
+from controller.device.touch.live_source import LiveSource
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.source import TouchSource
 from controller.device.touch_calibration.calibration import (
@@ -92,11 +93,7 @@ def calibrate_touch(options: argparse.Namespace) -> int:
     check_targets(targets, board.plate)
     if options.write:
         check_writable(board.folder / "board.toml")
-    clock: Clock = MonotonicClock()
-    replay = None
-    if options.replay:
-        clock, replay = VirtualClock(), Recording.open(Path(options.replay))
-    source = open_touch(_bare(board), replay)
+    source, clock = _opened(board, options.replay, targets)
     try:
         touches = _touches(source, clock, targets, board)
     finally:
@@ -107,6 +104,17 @@ def calibrate_touch(options: argparse.Namespace) -> int:
         write_calibration(file, found)
     show(options, _figures(board, targets, found, file if options.write else None), _table)
     return 0
+
+
+def _opened(board: Board, replay: str | None, targets: Sequence[Point]) -> tuple[TouchSource, Clock]:
+    """The board's panel on axes of 0 to 1, a recording of it, or the panel that is there of a simulated board."""
+    if replay:
+        return open_touch(_bare(board), Recording.open(Path(replay))), VirtualClock()
+    if board.link.kind == "simulated" and board.link.device:
+        from controller.workshop.simulation.simulated_touch import marks_touched
+
+        return LiveSource(marks_touched(board, targets), _bare(board)), VirtualClock()
+    return open_touch(_bare(board)), MonotonicClock()
 
 
 def _refuse_what_makes_no_sense(options: argparse.Namespace) -> None:

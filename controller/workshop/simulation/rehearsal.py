@@ -23,7 +23,7 @@ from controller.workshop.simulation.remedies import BUILT, REMEDIES, Bench, Reme
 MOST_TRIES: Final = 4  # of a command, each after what was mended
 GOOD_PERCENT: Final = 97  # of what the plate that is there can do, at the median of the fingers
 TELLING: Final = re.compile(
-    r"^(PASS|ok +(?:identity|bits)|points left out|bank: )|felt \d+ pulses|: loaded$|is written, and checked"
+    r"^(PASS|ok +(?:identity|bits)|points left out|bank: )|felt \d+ pulses|: loaded$|^residual: |is written, and checked"
 )
 SETUP: Final = (
     *("--length-mm", "110", "--width-mm", "80", "--thickness-mm", "1.1", "--held", "free", "--discs", "5", "--fpga", "simulated"),
@@ -65,6 +65,7 @@ def rehearse(bench: Bench) -> Iterator[Done]:
     yield from _called_and_mended(bench, "doctor", "--link", *board)  # the bank is not there yet, for one
     yield from _step(bench, "bank", "build", *board)
     yield from _step(bench, "doctor", "--link", *board)
+    yield from _step(bench, "calibrate-touch", *board, "--write")
     yield from _step(bench, "calibrate", "channels", *board)
     yield from _step(bench, "bank", "build", *board)
     yield from _step(bench, "calibrate", "plan", *board, "--out", points)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import inf
+from random import Random
+from typing import Final
 
 from controller.device.board.board import Board
 from controller.device.touch.event_reader import EventReader
@@ -11,6 +13,10 @@ from controller.device.touch.panels.gt911 import Gt911Touch
 from controller.errors import ConfigError
 from controller.workshop.gateware.actual_panel import actual_panel
 from controller.workshop.simulation.ghostly_panel import Finger, GhostlyPanel, Ghosts
+
+MARKS_APART_S: Final = 2.0  # a person who touches marks: from one to the next, how long each is held, and missed at most
+MARK_HELD_S: Final = 1.0
+MARK_MISSED_MM: Final = 0.5
 
 
 def simulated_touch(
@@ -29,3 +35,13 @@ def simulated_touch(
     from controller.workshop.simulation.simulated_gt911 import SimulatedGt911  # noqa: PLC0415 - needs gpiod and smbus2
 
     return SimulatedGt911(board, fingers, watch, interrupt=actual_panel(board).touch.interrupt, from_s=from_s)
+
+
+def marks_touched(board: Board, marks_mm: Sequence[tuple[float, float]]) -> EventReader:
+    """Panel of a simulated board whose person touches marks one after another; raises as `simulated_touch`."""
+    random = Random(1)
+    fingers = []
+    for number, mark in enumerate(marks_mm, 1):
+        x_mm, y_mm = (at + random.uniform(-MARK_MISSED_MM, MARK_MISSED_MM) for at in mark)
+        fingers.append((number * MARKS_APART_S, number * MARKS_APART_S + MARK_HELD_S, (x_mm, y_mm)))
+    return simulated_touch(board, fingers)

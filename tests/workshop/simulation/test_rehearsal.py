@@ -8,11 +8,12 @@ import pytest
 
 from controller.cli import main
 from controller.device.board.records import load_toml
+from controller.workshop.simulation.rehearsal import SETUP
 from controller.workshop.simulation.remedies import faults_of
 from controller.workshop.simulation.wrong_panel import SHIPPED, WrongPanel
 
 ROOT = Path(__file__).parents[3]
-BY_HAND = {"calibrate-touch", "record"}  # marks, and a finger's strokes: tests/kernel/container_commissioning.py
+BY_HAND = {"record"}  # a finger's strokes: tests/kernel/container_commissioning.py
 
 
 @pytest.fixture
@@ -53,6 +54,21 @@ def test_the_walk_has_each_command_of_the_page():
             continue
         said = rf'"{command}"' if option.startswith("--") or command in ("setup", "run") else rf'"{command}", "{option}"'
         assert said in walked, f"{command} {option}"
+
+
+def test_marks_are_touched_on_the_simulated_panel(tmp_path, capsys):
+    """A finger misses each by half a millimetre along each axis; the panel's x axis runs the other way."""
+    folder = tmp_path / "panel"
+    assert main(["setup", str(folder), *SETUP]) == 0
+    file = folder / "board.toml"
+    file.write_text(file.read_text().replace("x_mm_from_axes = [110, 0, 0]", "x_mm_from_axes = [-110, 0, 110]"))
+    capsys.readouterr()
+    assert main(["calibrate-touch", "--board", str(folder), "--write", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["x_mm_from_axes"] == pytest.approx([-110, 0, 110], abs=1.5)
+    assert found["y_mm_from_axes"] == pytest.approx([0, 80, 0], abs=1.5)
+    assert 0.1 < found["residual_mm"]["rms"] < 1.5
+    assert found["lines"][0] in file.read_text()
 
 
 def test_a_folder_that_is_there_is_one_line(tmp_path, capsys):
