@@ -27,8 +27,8 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 FACTORS = np.linspace(0.96, 1.04, 9)  # of the wavenumber, on what board.toml gives
 LEAST_PEAK = 4.0  # of the pulse that all records make together, over its rms
-AFTER_S = 60e-6  # length of the pulse of a band, and of the driver
-RIDGE = 1e-2  # of patches so near to each other that their waves are alike
+AFTER_S = 45e-6  # length of the pulse of a band, and of the driver
+RIDGE = 0.1  # of patches so near to each other that their waves are alike: less lets chance in, of few points
 ELSEWHERE_S = (90e-6, 130e-6, 170e-6, 210e-6)  # later than the direct wave: what chance gives
 NEAR_WAVELENGTHS = 1.0  # nearer to a patch than this, G does not hold
 
@@ -104,7 +104,7 @@ def direct_waves(
     def strength(late_s: float) -> Floats:
         aligned = measured * np.exp(2j * np.pi * bins.frequency_hz * late_s)
         on_each = np.tensordot(aligned, wave.conj(), axes=((0, 2), (0, 2))).real
-        return np.asarray(np.linalg.solve(whitened, (on_each * scale).T).T * scale)
+        return np.asarray((1 + RIDGE) * np.linalg.solve(whitened, (on_each * scale).T).T * scale)  # 1 of a patch alone
 
     elsewhere = np.stack([strength(delay_s + away_s) for away_s in ELSEWHERE_S])
     whole = np.full((CHANNELS, CHANNELS), np.nan)

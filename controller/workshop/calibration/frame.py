@@ -36,7 +36,7 @@ PARTS = (LOWER, 0.7, 1.0)
 MOVED_M = 0.4e-3  # a frame that moves no point by more is left as stated: patches and edges leave so much open
 SURE = 4.0  # standard deviations
 GROUPS = 8  # of points, whose scatter says how sure the frame is
-LEAST_POINTS = 24
+LEAST_POINTS, LEAST_RECORDS = 6, 128  # records: points times patches
 KEPT = 0.8  # of the lattice's coherence: what strays from it is no frame
 ENOUGH = 100  # points away from the edges: of fewer, all are used
 WIDEST = np.array([0.012, 0.012, 0.06, 0.06])  # offset in m, rotation, scale: beyond, it is no frame of this plate
@@ -121,7 +121,7 @@ def locate(
     resolved: NDArray[np.bool_],  # (point, 32)
 ) -> MeasuringFrame | None:
     """Find the frame; None from too few points, or if the direct waves do not stand out in any."""
-    if len(points_m) < LEAST_POINTS:
+    if not enough(board, len(points_m)):
         return None
     few = _records(board, bins, points_m, transfers, resolved, FEW, LOWER)
     frame, factor, coherence = _search(few)
@@ -140,6 +140,11 @@ def locate(
     inside = np.abs([*frame.offset_m, frame.rotation, frame.scale - 1]) < WIDEST
     frame = replace(frame, factor=factor)
     return frame if inside.all() and _coherence(few, frame, factor) > KEPT * coherence else None
+
+
+def enough(board: Board, points: int) -> bool:
+    """Whether so many points can tell the frame."""
+    return points >= LEAST_POINTS and points * len(board.actuators) >= LEAST_RECORDS
 
 
 def away_from_edges(board: Board, points_m: Floats) -> NDArray[np.intp]:
@@ -232,9 +237,10 @@ def _step(
     normal, right = normal[:, fitted[:, None], fitted], right[:, fitted]
     change, error = np.zeros(5), np.array([*frame.offset_error_m, frame.rotation_error, frame.scale_error, 0.0])
     change[fitted] = np.linalg.solve(normal.sum(axis=0), right.sum(axis=0))
-    parts = [np.arange(len(normal)) % GROUPS != group for group in range(GROUPS)]
+    groups = min(GROUPS, len(normal))
+    parts = [np.arange(len(normal)) % groups != group for group in range(groups)]
     without = np.array([np.linalg.solve(normal[some].sum(axis=0), right[some].sum(axis=0)) for some in parts])
-    error[fitted] = np.sqrt((GROUPS - 1) * without.var(axis=0))  # the jackknife
+    error[fitted] = np.sqrt((groups - 1) * without.var(axis=0))  # the jackknife
     limit = np.clip(change, *(np.array([-1, 1])[:, None] * [2e-3, 2e-3, 0.02, 0.02, 0.02]))
     x_m, y_m, rotation, scale, wavenumber = limit.tolist()
     return replace(

@@ -17,7 +17,7 @@ from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.cores import on_all_cores
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
-from controller.workshop.calibration.frame import MeasuringFrame, locate, middle_m
+from controller.workshop.calibration.frame import MeasuringFrame, enough, locate, middle_m
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.point_cache import PointCache
 from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
@@ -28,6 +28,7 @@ from controller.workshop.calibration.transfers import Transfers
 
 Floats = NDArray[np.float64]
 CLOCK_POINTS = 4  # that the clock is found from
+CHAIN_POINTS = 24  # that a sensor's mass is found from
 WAVE_POINTS = 64  # that the direct wave is found from
 STATED_DELAY_S = 60e-6  # how far from its stated delay a record is searched
 DELAY_TOLERANCE_S = 3e-6  # what geometry and an unknown edge leave open
@@ -86,7 +87,7 @@ def learn(
     results, files, again = _transfers(measurement, board, deconvolution, there, clock, cache, progress)
     frame, measurement, moved = _located(measurement, board, deconvolution, results)
     chain, in_common = None, list[Objection]()
-    if frame is not None:
+    if frame is not None and len(results) >= CHAIN_POINTS:
         chain, results = _unloaded(measurement, board, deconvolution, results, frame, 0.0 if stated else delay_s)
         in_common = chain.findings(measurement.settings.records.sensor_mass_mg)
     waves = _waves(measurement, board, deconvolution, results, widest_s)
@@ -101,7 +102,8 @@ def learn(
         delay_s = 0.0
     count = 2 * board.waveform.samples if samples is None else samples
     responses, ringing = responses_in_time(measurement, board, deconvolution, results, count, delay_s, files)
-    findings, wiring = findings_of(measurement, board, deconvolution, results, responses, waves)
+    nowhere = frame is None and enough(board, len(results))  # then nobody is accused: places are not what they are said to be
+    findings, wiring = findings_of(measurement, board, deconvolution, results, responses, None if nowhere else waves)
     if any(finding.kind in FATAL for finding in in_common):  # by it all channels look misplaced
         findings = [finding for finding in findings if finding.kind not in ("swapped", "inverted", "undecided", "strength")]
     findings += [*in_common, *moved, *remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)]

@@ -16,6 +16,7 @@ from controller.device.board.lookup import find_board
 from controller.workshop.calibration.checking.checks import wrong_wires
 from controller.workshop.calibration.checking.wiring import FIRST_POINTS, wiring_of
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
+from controller.workshop.calibration.frame import locate, middle_m
 from controller.workshop.calibration.point_plan import scattered_points, wiring_points
 from controller.workshop.calibration.transfers import RawBins
 from controller.workshop.physics.modes.plate_modes import modes_of
@@ -176,11 +177,25 @@ def test_the_command_from_the_first_points_to_a_verdict(tmp_path, capsys):
     assert "undecided" not in out
 
 
-@pytest.mark.parametrize(("off_m", "decided"), [(1e-3, True), (2e-3, False)])
-def test_points_that_lie_elsewhere_hide_the_wires_and_accuse_nobody(off_m, decided):
+@pytest.mark.parametrize("off_m", [1e-3, 4e-3])
+def test_points_that_lie_elsewhere_are_found_and_accuse_nobody(off_m):
     points_m, measured = transfers("free", 8, 5, 0.03)
-    waves = direct_waves(BOARD, BINS, points_m + np.array([off_m, 0]), measured, np.ones(measured.shape[:2], bool), 60e-6)
-    found = wiring_of(waves, CHANNELS, CHANNELS, 8)
-    assert (not found.undecided) is decided
-    assert not found.swapped
-    assert not found.inverted
+    stated_m, resolved = points_m + np.array([off_m, 0]), np.ones(measured.shape[:2], bool)
+    places_m = locate(BOARD, BINS, stated_m, measured, resolved).places(stated_m, middle_m(BOARD))
+    assert abs(places_m - points_m).max() < 0.2e-3
+    found = wiring_of(direct_waves(BOARD, BINS, places_m, measured, resolved, 60e-6), CHANNELS, CHANNELS, 8)
+    assert (found.swapped, found.inverted, found.undecided) == ((), (), ())
+
+
+@pytest.mark.parametrize(("off_mm", "code", "said"), [("4", 1, "channels 3 and 9 look swapped"), ("14", 75, "undecided: all 32")])
+def test_the_command_finds_the_frame_first_and_accuses_nobody_without_one(tmp_path, capsys, off_mm, code, said):
+    """Beyond 12 mm there is no frame."""
+    folder, points = str(tmp_path / "wires"), str(tmp_path / "points.csv")
+    assert main(["calibrate", "wiring", folder, "--points", points]) == 75
+    simulate = ["calibrate", "simulate", folder, "--points", points, "--plate", "edges=free", "--snr-db", "30"]
+    assert main([*simulate, "--swapped", "3", "9", "--offset-mm", off_mm, "0"]) == 0
+    capsys.readouterr()
+    assert main(["calibrate", "wiring", folder]) == code
+    out = capsys.readouterr().out
+    assert out.startswith(said) or f"WRONG: {said}" in out
+    assert out.count("\n") == 1

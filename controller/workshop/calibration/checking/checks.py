@@ -97,7 +97,7 @@ def wrong_wires(wiring: Wiring, alive: Sequence[int]) -> list[Objection]:
         more = wiring.points_needed - wiring.points
         text = (
             f"undecided: {which}: measured points ({wiring.points}) do not tell which patch such a channel drives, nor its sign;"
-            f" measure about {more} more, 30 mm and more from the edges; places that are 2 mm off hide it too"
+            f" measure about {more} more, 30 mm and more from the edges; places that are off by more than 12 mm hide it too"
         )
         found.append(Objection("undecided", text, unknown))
     return found
