@@ -20,7 +20,7 @@ from msgspec import Meta
 
 from controller.device.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
 from controller.device.board.lookup import board_places, in_system_folder
-from controller.device.board.panel import Actuator, BankSettings, Compose, Driver, Limits, Plate, Waveform
+from controller.device.board.panel import Actuator, AssumedFinger, BankSettings, Compose, Driver, Limits, Plate, Waveform
 from controller.device.board.parts import Parts, followed
 from controller.device.board.patches import Patches
 from controller.device.board.records import Record, as_record, read_tables
@@ -49,6 +49,7 @@ class Board(Record, frozen=True):
     link: The link to the FPGA.
     limits: Limits.
     patches: Left out: the patches neither weigh anything nor stiffen the plate.
+    finger: Left out: drive words are made for a bare plate, as the paper's.
     parts: Left out: [driver] and [patches] give all their keys.
     temperature: Left out: the plate is taken to be as warm as the bank assumes.
     gateware: Left out: an FPGA with another gateware is refused.
@@ -77,6 +78,7 @@ class Board(Record, frozen=True):
     idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None
     compose: Compose = Compose()
     patches: Patches | None = None
+    finger: AssumedFinger | None = None
     parts: Parts | None = None
     folder: Path = msgspec.field(default_factory=Path)
 
@@ -145,12 +147,12 @@ class Board(Record, frozen=True):
         return self.emission_ticks if abs(ticks - self.emission_ticks) <= 1 else ticks
 
     def digest(self) -> bytes:
-        """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform, patches."""
+        """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform, patches, finger."""
         plate = msgspec.to_builtins(self.plate)
         for key, left_out in LATER_KEYS.items():
             if getattr(self.plate, key) == left_out:
                 del plate[key]
-        tables = (plate, self.actuators, self.driver, self.waveform, *([self.patches] if self.patches else []))
+        tables = (plate, self.actuators, self.driver, self.waveform, *filter(None, (self.patches, self.finger)))
         return sha256(msgspec.json.encode(tables))  # keys in the order of the records
 
 

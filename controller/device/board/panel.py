@@ -282,6 +282,22 @@ class Waveform(Record, frozen=True):
         return self.samples / self.bit_clock_hz
 
 
+class AssumedFinger(Record, frozen=True):
+    """The finger for which drive words are made: a load at the focus.
+
+    Attributes:
+    mass_mg: Mass of the pulp that moves with the plate.
+    damping_n_s_m: Damping to the rest of the finger.
+    stiffness_n_m: Stiffness to the rest of the finger.
+    receptance: How the plate yields to it: `point`, as it does there by the plate model; `plate`, as an endless plate does.
+    """
+
+    mass_mg: Annotated[float, Meta(gt=0, le=1e6)] = 70.0
+    damping_n_s_m: Annotated[float, Meta(ge=0, le=1e4)] = 0.0
+    stiffness_n_m: Annotated[float, Meta(ge=0, le=1e9)] = 0.0
+    receptance: Literal["point", "plate"] = "point"
+
+
 class BankSettings(Record, frozen=True):
     """How the board's bank of precomputed waveforms is built and used.
 

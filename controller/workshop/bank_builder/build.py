@@ -85,7 +85,7 @@ def build_bank(request: BankRequest) -> BuildReport:
         path=str(path),
         bytes=plan.header.file_bytes,
         cells=len(plan.numbers),
-        modes=plan.model.modes if plan.model else None,
+        modes=plan.modes,
         responses=source.provenance.in_words(),
         seconds=time.perf_counter() - started,
         peak_memory_mb=peak_memory_mb(),

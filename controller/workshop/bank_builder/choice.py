@@ -27,6 +27,7 @@ from controller.workshop.bank_builder.compact.design import PITCHES, CompactDesi
 from controller.workshop.bank_builder.interpolation_error import DIGITS, InterpolationError, interpolation_error
 from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.responses.loaded_responses import words_source
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 # On the paper's plate; on others they go with the length of its waves
@@ -62,7 +63,7 @@ class Setting:
 def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource | None = None) -> list[Setting]:
     """All candidates for a scene. `margin_m` is as of `cells_needed`; responses come from the board's plate model by default."""
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
-    source, scale = source or ResponseModel(board), wave_scale(board)
+    source, scale = words_source(board, source or ResponseModel(board)), wave_scale(board)
     alone = not needs_responses(scene, scale) and board.application_socket is None
     ready = alone and len(scene.emitters) > 1 and not any(region.felt for region in scene.regions)  # all composed beforehand
     evaluated: list[tuple[Grid, np.ndarray[Any, np.dtype[np.bool_]], InterpolationError]] = []

@@ -23,6 +23,7 @@ from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.memory import BASE_BYTES, cell_bytes, entries_bytes, require
 from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.responses.loaded_responses import words_source
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 Reals = NDArray[np.floating[Any]]
@@ -40,7 +41,8 @@ class BankPlan:
     wanted: NDArray[np.bool_]  # (cells of the grid,)
     numbers: NDArray[np.intp]  # numbers, points_m: of the cells that are wanted
     points_m: NDArray[np.float64]
-    source: ResponseSource
+    source: ResponseSource  # of the words: under the board's finger, if it has one
+    modes: int | None  # in every response; None: the responses do not come from modes
     header: Header  # its parameters that are results are filled in as entries are made; it is written last
     composed: list[Composition]  # what the fixed emitters play together
     blocks: list[range]  # positions in `numbers` of cells that are computed at once
@@ -55,11 +57,14 @@ class BankPlan:
             raise ConfigError(f"responses that are {kind} cannot be optimised: that takes a model of the whole plate")
         if request.compact and request.aim is not None:
             raise ConfigError("a compact bank holds no waveforms of cells that could be optimised")
+        if request.aim is not None and board.finger is not None:
+            raise ConfigError(f"board {board.name!r}: entries are optimised for a bare plate: leave out [finger], or --optimise")
         pitch_m = board.bank.pitch_mm * 1e-3 if request.pitch_m is None else request.pitch_m
         grid = compact_grid(board, pitch_m) if request.compact else Grid.of(board.plate, pitch_m)
         wanted = _wanted(request, grid)
         numbers = np.flatnonzero(wanted)
-        found = ResponseModel(board, request.highest_mode_hz) if source is None else CheckedSource(board, source)
+        bare = ResponseModel(board, request.highest_mode_hz) if source is None else CheckedSource(board, source)
+        found = words_source(board, bare, bare.plate_modes if isinstance(bare, ResponseModel) else None)
         parameters = _parameters(request, grid, wanted, found)
         design = CompactDesign.of(board, found, [grid])[0] if request.compact else None
         if design:
@@ -75,13 +80,9 @@ class BankPlan:
             parameters=parameters,
             compositions=len(composed),
         )
-        blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, found, design.working_bytes if design else 0.0))
-        return cls(board, wanted, numbers, grid.points()[numbers], found, header, composed, blocks, design)
-
-    @property
-    def model(self) -> ResponseModel | None:
-        """The plate model, where responses come from it."""
-        return self.source if isinstance(self.source, ResponseModel) else None
+        blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, bare, design.working_bytes if design else 0.0))
+        modes = bare.modes if isinstance(bare, ResponseModel) else None
+        return cls(board, wanted, numbers, grid.points()[numbers], found, modes, header, composed, blocks, design)
 
 
 def _wanted(request: BankRequest, grid: Grid) -> NDArray[np.bool_]:

@@ -132,7 +132,7 @@ def point_motion(
         pairs += gives @ (shapes[:, None, some] * shapes[None, :, some]).reshape(count * count, -1).T
     receptance = pairs.reshape(len(s), count, count)
     if modes_above and not pad_m:  # waves much shorter than the pad
-        receptance[:, range(count), range(count)] += _of_modes_above(board, modes, s)[:, None]
+        receptance[:, range(count), range(count)] += of_modes_above(board, modes, s)[:, None]
     return PointMotion(s=s, free=free, receptance=receptance, window_s=window_s, end_s=len(words) * period_s)
 
 
@@ -167,7 +167,7 @@ def _pad_shapes(modes: Modes, points_m: ArrayLike, pad_m: float) -> Floats:
 def point_receptance(board: Board, modes: Modes, points_m: ArrayLike, s: Complex) -> Complex:
     """Displacement of each point over a force there, (frequency, point) in m/N, with what the modes above the highest give."""
     squares = np.asarray(modes.shapes(points_m), np.float64) ** 2
-    found: Complex = np.repeat(_of_modes_above(board, modes, s)[:, None], len(squares), axis=1)
+    found: Complex = np.repeat(of_modes_above(board, modes, s)[:, None], len(squares), axis=1)
     for first in range(0, modes.count, MODES_AT_ONCE):
         some = slice(first, first + MODES_AT_ONCE)
         rates, squared = modes.decay_rate[some], modes.angular_frequency[some] ** 2
@@ -175,7 +175,7 @@ def point_receptance(board: Board, modes: Modes, points_m: ArrayLike, s: Complex
     return found
 
 
-def _of_modes_above(board: Board, modes: Modes, s: Complex) -> Complex:
+def of_modes_above(board: Board, modes: Modes, s: Complex) -> Complex:
     """What the modes above the highest of `modes` add to the receptance of a point: (frequency,)."""
     plate = board.plate
     wave = 4 * np.pi * np.sqrt(bending_stiffness(plate) * plate.density_kg_m3 * plate.thickness_m)

@@ -31,6 +31,8 @@ from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.responses.loaded_responses import words_source
+from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
 from controller.workshop.physics.word_capture import volts_above_idle
 
@@ -83,6 +85,11 @@ class PlateTwin:
     def responses(self) -> ResponseModel:
         """Responses of the same plate, which its own way from pins to displacement does not use."""
         return ResponseModel(self.board, modes=self.modes)
+
+    @cached_property
+    def words_source(self) -> ResponseSource:
+        """The responses that drive words are made from: under the board's finger, if it has one."""
+        return words_source(self.board, self.responses, self.modes)
 
     def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
         """Displacement of the plate at every focus tick, relative to rest at the board's idle word.
@@ -145,7 +152,7 @@ class PlateTwin:
         """
         if points_m not in self._exact:
             places = np.array(points_m)
-            in_band = self.responses.drive_order_responses(places, dtype=np.float64)
+            in_band = self.words_source.drive_order_responses(places, dtype=np.float64)
             whole = self.responses.responses(places)[:, ::-1]
             weights, sizes = balanced_weights(in_band), np.abs(in_band).sum(axis=(1, 2))
             reached, most = np.abs(self._amplitudes_of(in_band, weights, whole)), np.abs(weights) @ sizes

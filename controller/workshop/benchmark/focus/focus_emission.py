@@ -59,7 +59,7 @@ def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb
     needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s) + len(PULSE))
     require(needed_bytes, memory_mb, f"a focus on {board.name!r} with {twin.modes.count} modes")
     places = np.array(points_m)
-    words = focus(twin.responses.drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
+    words = focus(twin.words_source.drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
     return FocusEmission(twin, words, emit(twin, words), points_m)
 
 

@@ -1,0 +1,115 @@
+"""Responses of points under a finger: those of the bare plate times 1 / (1 + A z); A: receptance of the point, z: stiffness.
+
+The sign of a bare plate's response is right for a plate that nobody touches. Under a finger the plate's motion is later and weaker,
+by the same factor for all channels: words made for it arrive at T, and put their energy where the finger lets it through. The
+factor is causal, so a response up to T is enough to load it up to T, and what is band-limited stays so. One finger is on each
+point alone.
+
+Receptances come from modes: of the board's plate model, for measured responses too; `finger.receptance = "plate"` takes the same
+for all points, that of an endless plate, which needs no modes. Fingers are point loads here (`finger.py`).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+from scipy import fft
+
+from controller.device.bank.file_format import REST_SAMPLES
+from controller.device.board.board import Board
+from controller.device.board.relations.bending_waves import bending_stiffness
+from controller.workshop.physics.finger import DYING, Finger, of_modes_above
+from controller.workshop.physics.modes.modes import Modes
+from controller.workshop.physics.modes.plate_modes import modes_of
+from controller.workshop.physics.responses.response_source import ResponseSource
+
+Reals = NDArray[np.floating[Any]]
+POINTS_AT_ONCE = 16  # 16 MB of spectra
+
+
+class LoadedResponses:
+    """A `ResponseSource` of points of a board's plate under its `[finger]`, from one of the bare plate.
+
+    Receptances are of `modes`, by default of the board's plate model.
+    """
+
+    def __init__(self, board: Board, source: ResponseSource, modes: Modes | None = None) -> None:
+        assert board.finger is not None
+        self._board, self._source = board, source
+        given = board.finger
+        self._modes = None if given.receptance == "plate" else modes_of(board) if modes is None else modes
+        self._given: dict[float, _Receptances] = {}  # by the period of samples
+        self._finger = Finger(given.mass_mg * 1e-6, given.damping_n_s_m, given.stiffness_n_m)
+        self.samples, self.bit_clock_hz, self.plate_m = source.samples, source.bit_clock_hz, source.plate_m
+        said = f"{source.provenance.model}, under a finger of {given.mass_mg:g} mg"
+        self.provenance = msgspec.structs.replace(source.provenance, model=said)
+
+    def responses(
+        self, points_m: ArrayLike, *, band_limited: bool = False, dtype: DTypeLike = np.float64, out: Reals | None = None
+    ) -> Reals:
+        """As `ResponseSource.responses`."""
+        found = self._source.responses(points_m, band_limited=band_limited, dtype=dtype, out=out)
+        self._load(found, points_m, 1 / self.bit_clock_hz)
+        return found
+
+    def drive_order_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
+        """As `ResponseSource.drive_order_responses`."""
+        found = self._source.drive_order_responses(points_m, out, dtype)
+        self._load(found[:, ::-1], points_m, 1 / self.bit_clock_hz)
+        return found
+
+    def entry_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
+        """As `ResponseSource.entry_responses`; what the band leaves out is loaded as the means that it is."""
+        found = self._source.entry_responses(points_m, out, dtype)
+        self._load(found[:, : self.samples][:, ::-1], points_m, 1 / self.bit_clock_hz)
+        self._load(found[:, self.samples :][:, ::-1], points_m, REST_SAMPLES / self.bit_clock_hz)
+        return found
+
+    def _load(self, free: Reals, points_m: ArrayLike, period_s: float) -> None:
+        """Load responses, (point, sample, 32) in the order of time, in place."""
+        count = free.shape[1]
+        length = fft.next_fast_len(2 * count, real=True)
+        sigma = DYING / (length * period_s)
+        s = np.asarray(sigma + 2j * np.pi * fft.rfftfreq(length, period_s), np.complex128)
+        if period_s not in self._given:
+            self._given[period_s] = _Receptances(self._board, self._modes, s)
+        points, stiffness = np.asarray(points_m, np.float64).reshape(-1, 2), self._finger.dynamic_stiffness(s)[:, None]
+        dying = np.exp(-sigma * period_s * np.arange(count))[:, None]
+        for first in range(0, len(points), POINTS_AT_ONCE):
+            some = slice(first, first + POINTS_AT_ONCE)
+            spectrum = fft.rfft(free[some] * dying, length, axis=1)
+            spectrum *= (1 / (1 + self._given[period_s].of(points[some]) * stiffness)).T[:, :, None]
+            free[some] = fft.irfft(spectrum, length, axis=1)[:, :count] / dying
+
+
+class _Receptances:
+    """Receptances of points at complex frequencies `s`; above the highest mode, and without modes, those of an endless plate."""
+
+    def __init__(self, board: Board, modes: Modes | None, s: NDArray[np.complex128]) -> None:
+        plate = board.plate
+        self._endless = 1 / (8 * np.sqrt(bending_stiffness(plate) * plate.density_kg_m3 * plate.thickness_m) * s)
+        self._modes, self._of_modes = modes, 0
+        if modes is None:
+            return
+        self._of_modes = int(np.searchsorted(s.imag, modes.angular_frequency.max()))
+        s = s[: self._of_modes, None]
+        gives = 1 / (modes.mass_kg * (s * (s + 2 * modes.decay_rate) + modes.angular_frequency**2))
+        self._gives = np.concatenate([gives.real, gives.imag])  # a product of real numbers takes half the time
+        self._above = of_modes_above(board, modes, s)
+
+    def of(self, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Displacement of each of `points_m` over a force there, (frequency, point) in m/N."""
+        found = np.repeat(self._endless[:, None], len(points_m), axis=1)
+        if self._modes is not None:
+            squares = np.asarray(self._modes.shapes(points_m), np.float64) ** 2
+            real, imaginary = np.split(self._gives @ squares.T, 2)
+            found[: self._of_modes] = real + 1j * imaginary + self._above
+        return found
+
+
+def words_source(board: Board, source: ResponseSource, modes: Modes | None = None) -> ResponseSource:
+    """The responses that drive words of a board are made from: those of `source`, under the board's `[finger]` if it has one."""
+    return source if board.finger is None else LoadedResponses(board, source, modes)
