@@ -1,7 +1,7 @@
 """How long composing takes, beside the same in plain C: `python -m tests.workshop.benchmark.compose_speed`.
 
-The product's time is that of the whole call from Python. Both take turns on the same scenes; of each scene the shortest time
-counts, of the scenes the median.
+The product's time is that of the whole call from Python, from a plain bank and from a compact one. All take turns on the same
+scenes; of each scene the shortest time counts, of the scenes the median.
 """
 
 from __future__ import annotations
@@ -9,6 +9,8 @@ from __future__ import annotations
 import statistics
 import tempfile
 import time
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +22,7 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.waveforms.composition import Composer, Point
 from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.compact.design import compact_pitch_m
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.benchmark.device.plain_c import PlainC
 
@@ -54,15 +57,20 @@ def bank_for(folder: Path, scenes: list[list[Point]]) -> Path:
     return folder / "bank"
 
 
-def compared(composer: Composer, reference: PlainC, scene: list[Point], turns: int = TURNS) -> tuple[float, float]:
-    """Shortest times of the product and of the reference in us."""
-    best = best_of_reference = float("inf")
+def compared(composer: Composer, reference: PlainC, scene: list[Point], turns: int = TURNS, *others: Composer) -> list[float]:
+    """Shortest times of the product, of the reference and of the product with other banks, in us."""
+    ways = [partial(taken_ns, composer), reference.compose, *(partial(taken_ns, other) for other in others)]
+    best = [float("inf")] * len(ways)
     for _ in range(turns):
-        begin = time.perf_counter_ns()
-        composer.compose(scene)
-        best = min(best, time.perf_counter_ns() - begin)
-        best_of_reference = min(best_of_reference, reference.compose(scene))
-    return best * 1e-3, best_of_reference * 1e-3
+        best = [min(least, way(scene)) for least, way in zip(best, ways, strict=True)]
+    return [least * 1e-3 for least in best]
+
+
+def taken_ns(composer: Composer, scene: list[Point]) -> int:
+    """Time of one composition."""
+    begin = time.perf_counter_ns()
+    composer.compose(scene)
+    return time.perf_counter_ns() - begin
 
 
 def main() -> None:
@@ -72,17 +80,22 @@ def main() -> None:
     kinds = [("off grid", False, 1.0), ("on grid", True, 1.0), ("off grid, amplitude 0.5", False, 0.5)]
     rows = [(name, fingers, scenes_of(grid, fingers, on, amplitude)) for name, on, amplitude in kinds for fingers in FINGERS]
     print(f"kernel: {'compiled' if kernel.COMPILED else 'NumPy'}; us a composition")
-    with tempfile.TemporaryDirectory() as folder, Bank.open(bank_for(Path(folder), [s for *_, some in rows for s in some])) as bank:
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        bank = stack.enter_context(Bank.open(bank_for(folder, [scene for *_, some in rows for scene in some])))
+        build_bank(BankRequest(board, folder / "compact", compact_pitch_m(board), compact=True))
         composer = Composer(bank, board.idle_word)
+        compact = Composer(stack.enter_context(Bank.open(folder / "compact")), board.idle_word)
         for *_, some in rows:
             for scene in some:
                 composer.compose(scene)
-        reference = PlainC(Path(folder), bank, board.idle_word)
+                compact.compose(scene)
+        reference = PlainC(folder, bank, board.idle_word)
         for name, fingers, some in rows:
-            times = [compared(composer, reference, scene) for scene in some]
-            ours, plain = (statistics.median(column) for column in zip(*times, strict=True))
+            times = [compared(composer, reference, scene, TURNS, compact) for scene in some]
+            ours, plain, small = (statistics.median(column) for column in zip(*times, strict=True))
             beside = f", plain C {plain:6.1f}: {ours / plain:.2f}" if some[0][0][2] == 1 else ""
-            print(f"{fingers:3} fingers {name:24} {ours:7.1f}{beside}")
+            print(f"{fingers:3} fingers {name:24} {ours:7.1f}, compact bank {small:7.1f}: {small / ours:.2f}{beside}")
 
 
 if __name__ == "__main__":

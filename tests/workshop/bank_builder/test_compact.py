@@ -1,0 +1,194 @@
+"""Compact banks: what they lose, what they play, what is refused."""
+
+import msgspec
+import numpy as np
+import pytest
+from tables import each_row
+
+from controller.device.bank.file_format import COMPACT_VERSION
+from controller.device.bank.inspection import bank_info, verify_bank, wrong_pitch
+from controller.device.bank.packing import channel_bits
+from controller.device.bank.reader import Bank
+from controller.device.scene.scene import load_scene
+from controller.device.service.scenes.prepare_scene import populate
+from controller.device.waveforms.composition import Composer
+from controller.device.waveforms.selection import Selection
+from controller.errors import BankError, ConfigError
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.choice import choose
+from controller.workshop.bank_builder.compact import design as module
+from controller.workshop.bank_builder.compact.design import compact_grid, compact_pitch_m
+from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+from tests.small_plate import small_board
+
+PLACES = 24
+
+
+@pytest.fixture(scope="module")
+def board():
+    return small_board()
+
+
+@pytest.fixture(scope="module")
+def model(board):
+    return ResponseModel(board)
+
+
+@pytest.fixture(scope="module")
+def path(board, tmp_path_factory):
+    file = tmp_path_factory.mktemp("compact") / "bank"
+    build_bank(BankRequest(board, file, compact_pitch_m(board), compact=True))
+    return file
+
+
+@pytest.fixture
+def bank(path, board):
+    with Bank.open(path, board) as opened:
+        yield opened
+
+
+def places(seed):
+    return np.random.default_rng(seed).uniform((8e-3, 8e-3), (62e-3, 42e-3), (PLACES, 2))
+
+
+def kept(composer, model, points_m):
+    """Share of the sum of absolute values of exact responses that words reach at each place: no bits reach more."""
+    found = []
+    for place, response in zip(points_m, model.drive_order_responses(points_m).astype(np.float64), strict=True):
+        words = np.frombuffer(composer.compose([(*place.tolist(), 1.0)]), "<u4")
+        signs = 2.0 * channel_bits(words) - 1
+        found.append((signs * response).sum() / np.abs(response).sum())
+    return np.array(found)
+
+
+def test_it_keeps_what_it_says_at_a_fraction_of_the_size(board, bank, model, path, tmp_path):
+    shares = kept(Composer(bank, board.idle_word), model, places(3))
+    assert np.median(shares) > 0.99
+    assert shares.min() > 0.98
+    told = bank.header.parameters["interpolation_error"]
+    assert told["places"] > PLACES
+    assert -0.002 < told["interpolated"]["median"] < 0.015
+    assert bank_info(path)["format"] == COMPACT_VERSION
+    plain = build_bank(BankRequest(board, tmp_path / "plain"))
+    assert 10 * bank.file.size < plain.bytes
+
+
+def test_words_for_a_plate_that_is_off_by_1_percent_are_seen(board, bank):
+    thicker = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, thickness_mm=0.505))
+    shares = kept(Composer(bank, board.idle_word), ResponseModel(thicker), places(3))
+    assert np.median(shares) < 0.9
+
+
+def test_amplitudes_and_several_fingers_come_out_as_asked(board, bank, model):
+    composer = Composer(bank, board.idle_word)
+    idle = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+
+    def moved(points):
+        words = np.frombuffer(composer.compose(points), "<u4")
+        whole = model.responses([point[:2] for point in points])[:, ::-1]
+        return np.array([((channel_bits(words) - idle) * one).sum() for one in whole])
+
+    for x_m, y_m in places(4)[:6].tolist():
+        assert moved([(x_m, y_m, 0.5)]) == pytest.approx(0.5 * moved([(x_m, y_m, 1.0)]), rel=0.06)
+    both = np.abs(moved([(15e-3, 15e-3, 1.0), (50e-3, 35e-3, 1.0)]))
+    assert both.min() > 0.8 * both.max()
+
+
+def test_selection_composes_every_place_and_checks_the_cells_it_needs(board, bank):
+    selection = Selection(bank, bank.snap_m(board), board.idle_word)
+    selection.prepare()
+    x_m, y_m = bank.grid.place(bank.grid.nx * 3 + 4)
+    key = selection.key([(x_m, y_m, 1.0)])
+    assert not isinstance(key, int), "a cell has no waveform of its own"
+    assert len(selection.waveform(key)) == 4 * bank.samples
+    before = bank.counters.response_checked
+    selection.waveform(selection.key([(40e-3, 30e-3, 1.0)]))
+    assert bank.counters.response_checked - before == module.ACROSS**2
+    with pytest.raises(BankError, match="compact: it holds no waveforms of cells"):
+        bank.drive.frames(0)
+    with pytest.raises(BankError, match="compact: it holds no samples"):
+        bank.responses.response(0)
+
+
+def test_a_flip_of_any_bit_is_found(path, tmp_path):
+    assert verify_bank(path)["good"]
+    whole = path.read_bytes()
+    with Bank.open(path) as bank:
+        places_of = {name: (section.offset, section.size) for name, section in bank.sections.items() if section.size}
+    assert {"response", "tables"} <= set(places_of)
+    for name, (offset, size) in places_of.items():
+        for at in (offset, offset + size // 2, offset + size - 1):
+            damaged = bytearray(whole)
+            damaged[at] ^= 1
+            (tmp_path / name).write_bytes(damaged)
+            with pytest.raises(BankError, match="damaged"):
+                verify_bank(tmp_path / name)
+
+
+def test_a_damaged_cell_or_table_is_not_played(path, board, tmp_path):
+    with Bank.open(path) as bank:
+        offsets = [bank.sections[name].offset for name in ("response", "tables")]
+    for offset in offsets:
+        damaged = bytearray(path.read_bytes())
+        damaged[offset + 5] ^= 4
+        (tmp_path / "bank").write_bytes(damaged)
+        with Bank.open(tmp_path / "bank", board) as bank, pytest.raises(BankError, match="is damaged; rebuild"):
+            Composer(bank, board.idle_word).compose([(*bank.grid.place(0), 1.0)])
+
+
+def test_cells_that_are_not_built_are_missing_with_their_neighbours(board, tmp_path):
+    grid = compact_grid(board, compact_pitch_m(board))
+    there = grid.points()[:, 0] < 40e-3
+    build_bank(BankRequest(board, tmp_path / "half", grid.pitch_m, there, compact=True))
+    with Bank.open(tmp_path / "half", board) as bank:
+        selection = Selection(bank, bank.snap_m(board), board.idle_word)
+        selection.prepare()
+        selection.waveform(selection.key([(20e-3, 25e-3, 1.0)]))
+        assert bank.responses.has(20e-3, 25e-3)
+        assert not bank.responses.has(39e-3, 25e-3)
+        with pytest.raises(BankError, match="no entry for cell"):
+            selection.waveform(selection.key([(39e-3, 25e-3, 1.0)]))
+
+
+@each_row(
+    ("change", "why"),
+    [
+        ({"waveform": {"bit_clock_hz": 200e3}}, "band_high_hz = 70000 is too near to half of bit_clock_hz = 200000"),
+        ({"plate": {"length_mm": 70.0, "width_mm": 24.0}}, "too few for a compact bank: build a plain one"),
+    ],
+)
+def test_what_cannot_be_compact_is_refused_in_a_line(board, tmp_path, change, why):
+    for table, values in change.items():
+        board = msgspec.structs.replace(board, **{table: msgspec.structs.replace(getattr(board, table), **values)})
+    board = msgspec.structs.replace(board, actuators=tuple(a for a in board.actuators if a.y_mm < 20))
+    with pytest.raises(ConfigError, match=why) as raised:
+        build_bank(BankRequest(board, tmp_path / "bank", compact_pitch_m(board), compact=True))
+    assert "\n" not in str(raised.value)
+    assert not (tmp_path / "bank").exists()
+
+
+def test_entries_of_a_compact_bank_cannot_be_optimised(board, tmp_path):
+    with pytest.raises(ConfigError, match="holds no waveforms"):
+        build_bank(BankRequest(board, tmp_path / "bank", compact=True, aim=AIMS["contrast"]))
+
+
+def test_a_board_can_ask_for_it(board, tmp_path):
+    asks = msgspec.structs.replace(board, compose=msgspec.structs.replace(board.compose, method="compact"))
+    file = tmp_path / "all.toml"
+    file.write_text(
+        '[[regions]]\nname = "all"\nshape = "rectangle"\nx_mm = 5.0\ny_mm = 5.0\nwidth_mm = 60.0\nheight_mm = 40.0\n'
+        'effects = ["click"]\n'
+    )
+    scene = load_scene(file, asks)
+    choice = choose(asks, scene, file, 5e-3)
+    assert choice["compact"]
+    assert "a compact bank of the whole plate" in choice["why"]
+    build_bank(BankRequest(asks, tmp_path / "bank", choice["pitch_mm"] * 1e-3, choice=choice, compact=True))
+    with Bank.open(tmp_path / "bank", asks) as bank:
+        assert wrong_pitch(bank, asks) == ""
+        assert "compact" in wrong_pitch(bank, board)
+        assert populate(bank, scene, "all", responses=True) > 0
+        told = bank.header.parameters["interpolation_error"]["interpolated"]["worst"]
+        assert told < 2 * choice["error"]
