@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from controller.device.bank.file_format import VERSION
+from controller.device.bank.file_format import COMPACT_VERSION, VERSION
 from controller.device.bank.inspection import header_of, wrong_pitch
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
@@ -73,7 +73,7 @@ def of_this_format(path: Path) -> bool:
             start = file.read(16)
     except OSError:
         return True
-    return len(start) < 16 or int.from_bytes(start[8:12], "little") == VERSION
+    return len(start) < 16 or int.from_bytes(start[8:12], "little") in (VERSION, COMPACT_VERSION)
 
 
 def _may_be_measured(path: Path) -> bool:

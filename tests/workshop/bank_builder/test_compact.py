@@ -7,7 +7,9 @@ from tables import each_row
 
 from controller.device.bank.file_format import COMPACT_VERSION
 from controller.device.bank.inspection import bank_info, verify_bank, wrong_pitch
+from controller.device.bank.lookup import of_this_format
 from controller.device.bank.packing import channel_bits
+from controller.device.bank.provenance import Provenance
 from controller.device.bank.reader import Bank
 from controller.device.scene.scene import load_scene
 from controller.device.service.scenes.prepare_scene import populate
@@ -186,9 +188,23 @@ def test_a_board_can_ask_for_it(board, tmp_path):
     assert choice["compact"]
     assert "a compact bank of the whole plate" in choice["why"]
     build_bank(BankRequest(asks, tmp_path / "bank", choice["pitch_mm"] * 1e-3, choice=choice, compact=True))
+    assert of_this_format(tmp_path / "bank"), "it is found where the board's bank lies"
     with Bank.open(tmp_path / "bank", asks) as bank:
         assert wrong_pitch(bank, asks) == ""
         assert "compact" in wrong_pitch(bank, board)
         assert populate(bank, scene, "all", responses=True) > 0
         told = bank.header.parameters["interpolation_error"]["interpolated"]["worst"]
         assert told < 2 * choice["error"]
+
+
+def test_measured_responses_make_one_of_their_own_plate(board, model, tmp_path):
+    stiffer = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, young_modulus_pa=74.4e9))
+    measured = ResponseModel(stiffer)
+    measured.provenance = Provenance("measured", "arrays of a test")
+    build_bank(BankRequest(board, tmp_path / "bank", compact_pitch_m(board), compact=True, source=measured))
+    with Bank.open(tmp_path / "bank", board) as bank:
+        composer = Composer(bank, board.idle_word)
+        assert np.median(kept(composer, measured, places(5))) > 0.99
+        assert np.median(kept(composer, model, places(5))) < 0.9
+        assert bank.header.provenance.from_measurements
+        assert wrong_pitch(bank, board) == "it is compact, as compose.method chose"
