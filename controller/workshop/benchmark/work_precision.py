@@ -42,14 +42,15 @@ class Effort:
 
     each: int  # scenes of each family
     random_scenes: int  # further scenes of one to ten fingers
+    tabled_scenes: int  # scenes of each family in which methods from tables of responses take part
     timed_scenes: int  # scenes of each number of fingers on which methods are timed
     turns: int  # calls of each method for each of them
     longest_s: float  # of timing a method for one number of fingers, beyond its first turns
     slow_methods: bool  # whether methods that take tenths of a second take part
 
 
-QUICK = Effort(each=8, random_scenes=8, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
-FULL = Effort(each=4, random_scenes=100, timed_scenes=3, turns=25, longest_s=0.5, slow_methods=True)
+QUICK = Effort(each=8, random_scenes=8, tabled_scenes=2, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
+FULL = Effort(each=8, random_scenes=100, tabled_scenes=100, timed_scenes=3, turns=25, longest_s=0.5, slow_methods=True)
 
 
 def work_precision(
@@ -76,7 +77,7 @@ def work_precision(
             def step() -> None:
                 progress(next(done), total)
 
-            found = _errors(laboratory, judge, methods, drawn, step)
+            found = _errors(laboratory, judge, methods, drawn, effort.tabled_scenes, step)
             times: dict[int, dict[int, CallTiming]] = {}
             measured: Figures = {"baselines": [], "left_out": [], "machine": {}, "building": []}
             if timing:
@@ -141,24 +142,42 @@ def _full(scene: FingerScene) -> list[Point]:
 
 
 def _errors(
-    laboratory: Laboratory, judge: Judge, methods: Sequence[Candidate], drawn: Sequence[FingerScene], step: Callable[[], None]
+    laboratory: Laboratory,
+    judge: Judge,
+    methods: Sequence[Candidate],
+    drawn: Sequence[FingerScene],
+    tabled_scenes: int,
+    step: Callable[[], None],
 ) -> list[dict[str, list[Errors]]]:
     """Errors of each method by family."""
     found: list[dict[str, list[Errors]]] = [{} for _ in methods]
     waiting = [scene for scene in drawn if scene.points]
+    tabled = {id(scene) for family in _families(waiting) for scene in family[:tabled_scenes]}
     while waiting:
         some = [waiting.pop(0)]
         while waiting and sum(len(scene.points) for scene in (*some, waiting[0])) <= PLACES_AT_ONCE:
             some.append(waiting.pop(0))
-        laboratory.prepare([place for scene in some for place in scene.expected])
+        laboratory.prepare([place for scene in some if id(scene) in tabled for place in scene.expected])
         for scene in some:
-            able = [index for index, method in enumerate(methods) if len(scene.points) <= method.most_fingers]
+            able = [
+                index
+                for index, method in enumerate(methods)
+                if len(scene.points) <= method.most_fingers and (not method.tabled or id(scene) in tabled)
+            ]
             words = [methods[index].words_of(methods[index].run(_full(scene), scene.null)) for index in able]
             evaluated = judge.errors(scene, words, [methods[index].free_polarity and len(scene.points) > 1 for index in able])
             for index, errors in zip(able, evaluated, strict=True):
                 found[index].setdefault(scene.family, []).append(errors)
             step()
     return found
+
+
+def _families(drawn: Sequence[FingerScene]) -> list[list[FingerScene]]:
+    """Scenes of each family."""
+    found: dict[str, list[FingerScene]] = {}
+    for scene in drawn:
+        found.setdefault(scene.family, []).append(scene)
+    return list(found.values())
 
 
 def _times(

@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.signal import lfilter
 
 from controller.device.board.board import Board
+from controller.device.waveforms.pad import PAD_M
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.modes.modes import Modes
 
@@ -49,7 +50,7 @@ DETECTION_UM = (0.1, 0.88)
 class FeltLoad(Finger):
     """A finger that rests on the plate with its pad."""
 
-    pad_mm: float = 8.0  # diameter
+    pad_mm: float = PAD_M * 1e3  # diameter
 
 
 LIGHT_TOUCH = FeltLoad(mass_kg=0.7e-4, damping_n_s_m=1.0, stiffness_n_m=1e3)

@@ -23,7 +23,7 @@ from controller.workshop.benchmark.work_precision import Effort, work_precision
 from controller.workshop.benchmark.work_precision_diagrams import DIAGRAMS, draw_all
 
 SCHEMA = json.loads(Path(__file__).with_name("work_precision.schema.json").read_text())
-EFFORT = Effort(each=1, random_scenes=1, timed_scenes=1, turns=2, longest_s=1e3, slow_methods=False)
+EFFORT = Effort(each=1, random_scenes=1, tabled_scenes=1, timed_scenes=1, turns=2, longest_s=1e3, slow_methods=False)
 
 
 def few(laboratory):

@@ -43,6 +43,7 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
                 compose=FromBaseband(FromTable(table, interpolation, board.idle_word), pulses.astype(np.float32), board.idle_word),
                 memory_bytes=table.memory_bytes + 4 * pulses.size,
                 wire_bytes=wire_bytes(board.waveform.samples),
+                tabled=True,
             )
 
 

@@ -42,6 +42,7 @@ class Candidate:
     most_fingers: int = 10  # that it can serve at once
     free_polarity: bool = False  # whether it may kick a point downwards
     keeps_nulls: bool = False  # whether it is given the places that are to stay still
+    tabled: bool = False  # whether it takes tables of responses, which are computed for each scene
     slow: bool = False  # whether it takes tenths of a second
     words_of: Callable[[Any], Words] = words_of_buffer  # from what `compose` gave to a copy of its drive words
 

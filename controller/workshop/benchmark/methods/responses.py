@@ -45,6 +45,7 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
                 compose=FromTable(table, interpolation, board.idle_word),
                 memory_bytes=table.memory_bytes + weights_bytes,
                 wire_bytes=wire_bytes(board.waveform.samples),
+                tabled=True,
             )
 
 
