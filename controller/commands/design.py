@@ -58,6 +58,7 @@ ROWS = {  # what is printed of each figure; numbers in brackets are those of the
     "energy_decay_ms": "decay of energy (ms)",
     "mechanical_power_mw": "mechanical power in T (mW)",
     "stress": "stress (MPa), field (MV/m)",
+    "sound": "sound at 0.3 m, dB(A), estimate",
     "resistors_w": "resistors, all emitting (W)",
     "resistors_repeated_w": "resistors, every Tr (W)",
     "supply_ma": "supply current, every Tr (mA)",

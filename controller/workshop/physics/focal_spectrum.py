@@ -70,25 +70,26 @@ class FocalSpectrum:
         """Edges a second of the sign of a random signal with this spectrum (Rice)."""
         return 2 * math.sqrt(trapezoid(self.weight_s * self.frequency_hz**2, self.frequency_hz))
 
+    def bit_density_s(self, at_hz: Floats, bit_clock_hz: float) -> Floats:
+        """Power per hertz, at `at_hz` (n,) of either sign, of the sign, -1 or 1, of a random signal with this spectrum.
+
+        Its autocorrelation is that of the signal by the arcsine law (Van Vleck and Middleton, Proc. IEEE 54 (1966) 2). That each
+        bit is held for its period is not in it.
+        """
+        lags = np.arange(1, math.ceil(MEMORY / (self.frequency_hz[-1] - self.frequency_hz[0]) * bit_clock_hz) + 1)
+        signal = self._sum(np.cos(2 * np.pi * np.multiply.outer(lags / bit_clock_hz, self.frequency_hz)))
+        likeness = 2 / np.pi * np.arcsin(np.clip(signal, -1, 1))
+        density: Floats = (1 + 2 * np.cos(np.multiply.outer(2 * np.pi * at_hz / bit_clock_hz, lags)) @ likeness) / bit_clock_hz
+        return density
+
     def resistor_w(self, driver: Driver, bit_clock_hz: float) -> float:
         """Heat in the series resistor of one stage that plays without end the sign of a random signal with this spectrum.
 
-        Its autocorrelation is that of the signal by the arcsine law (Van Vleck and Middleton, Proc. IEEE 54 (1966) 2); each bit is
-        held for its period. At most V^2 / 4 R, whatever the capacitance.
+        At most V^2 / 4 R, whatever the capacitance.
         """
-        lags = np.arange(1, math.ceil(MEMORY / (self.frequency_hz[-1] - self.frequency_hz[0]) * bit_clock_hz) + 1)
-        likeness = (
-            2
-            / np.pi
-            * np.arcsin(np.clip(self._sum(np.cos(2 * np.pi * np.multiply.outer(lags / bit_clock_hz, self.frequency_hz))), -1, 1))
-        )
         at_hz: Floats = np.linspace(0, HEARD_CLOCKS * bit_clock_hz, HEARD_FREQUENCIES)
         angular = 2 * np.pi * at_hz
-        of_bits = (
-            (1 + 2 * np.cos(np.multiply.outer(angular / bit_clock_hz, lags)) @ likeness)
-            * np.sinc(at_hz / bit_clock_hz) ** 2
-            / bit_clock_hz
-        )
+        of_bits = self.bit_density_s(at_hz, bit_clock_hz) * np.sinc(at_hz / bit_clock_hz) ** 2
         resistance, of_f = driver.resistance_ohm, driver.capacitance_f
         conductance = (
             resistance

@@ -21,7 +21,6 @@ from controller.device.board.relations.bending_waves import bending_stiffness, b
 from controller.workshop.benchmark.focus.focus_figures import Figures, emit, random_points, spread
 from controller.workshop.benchmark.focus.sound_figures import sound_figures
 from controller.workshop.benchmark.stage.power import resistor_loss_j
-from controller.workshop.physics.audible import surface_energy
 from controller.workshop.physics.design.design import gate_attenuation
 from controller.workshop.physics.field import Field, crossing, map_axis
 from controller.workshop.physics.finger import Finger, point_motion
@@ -127,8 +126,7 @@ def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
     """Figures of an emission as a whole: energy at T, heat in the stages, scale.
 
     `energy_uj` by modes and `energy_integrated_uj` by a map; `stages_uj` of one emission, to idle and back included, and of each
-    channel under `channels`. `sound` as in `sound_figures`; `audible_m2_per_s` is the energy at the surface below 16 kHz.
-    `stress` as in `focal_stress`.
+    channel under `channels`. `sound` as in `sound_figures`, `stress` as in `focal_stress`.
     """
     twin, field = emission.twin, emission.field
     board = twin.board
@@ -156,7 +154,6 @@ def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
         "period_ms": period_s * 1e3,
         "sound": sound_figures(board, PlateSound(board, twin.modes), emission.words),
         "stress": focal_stress(board, twin.modes, field.modal, emission.points_m),
-        "audible_m2_per_s": surface_energy(board, emission.words, board.idle_word, modes=twin.modes),
         "in_wavelengths": {"length": plate.length_m / middle_m, "width": plate.width_m / middle_m, "middle_mm": middle_m * 1e3},
         "channels": [{"channel": q, "edges": int(edges[q]), "energy_uj": float(heat_uj[q])} for q in used],
     }

@@ -45,6 +45,7 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None, par
         **_waves(estimate),
         **_amplitude_and_energy(estimate),
         "stress": estimate.stress,
+        "sound": estimate.sound,
         **_stages(estimate),
         **_learning(estimate),
     }

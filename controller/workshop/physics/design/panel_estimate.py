@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, Final
@@ -14,7 +15,9 @@ from controller.device.board.parts import Parts
 from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.errors import ConfigError
 from controller.workshop.physics.design.design_inputs import DesignInputs, inputs_of, plate_of
+from controller.workshop.physics.design.sound_estimate import exposure_pa2_s, surface_density
 from controller.workshop.physics.focal_spectrum import FocalSpectrum
+from controller.workshop.physics.sound import decibels
 from controller.workshop.physics.stress import ceramic_stress_pa, field_v_m, plate_stress_pa
 
 STEP: Final = 1.1  # of a number, to see what it adds
@@ -63,6 +66,12 @@ class PanelEstimate:
             found["ceramic_mpa"] = ceramic_stress_pa(self.parts, self.plate, curvature, self.given.supply_v) * 1e-6
             found["field_mv_m"] = field_v_m(self.parts, self.given.supply_v) * 1e-6
         return found
+
+    @cached_property
+    def sound(self) -> dict[str, float]:
+        """A-weighted levels at 0.3 m: exposure by an emission, and the level of one every Tr."""
+        exposure_db = decibels(exposure_pa2_s(self.plate, *surface_density(self.spectrum, self.driver, self.given)))
+        return {"exposure_db": exposure_db, "repeated_db": exposure_db - 10 * math.log10(self.given.period_ms * 1e-3)}
 
     @cached_property
     def resistor_w(self) -> float:
