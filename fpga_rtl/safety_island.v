@@ -173,8 +173,14 @@ module safety_island #(
     assign temperature_ok_o = temperature_ok;
     assign fault_o          = fault;
     assign fault_channels_o = culprits_known ? culprits : 32'd0;
+`ifdef END_TO_END
+    `include "safety_island_end_to_end_properties.vh"
+`endif
 `ifdef FORMAL
     `include "safety_island_properties.vh"
+`ifdef END_TO_END
+    `include "safety_island_end_to_end_links.vh"
+`endif
 `endif
 endmodule
 

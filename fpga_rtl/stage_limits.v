@@ -54,12 +54,12 @@ module stage_limits #(
     localparam EDGE_BITS    = $clog2((CHANNEL_EDGES_MAX | 32'd1) + 32'd1);
     localparam ACCOUNT_BITS = $clog2(CHANNEL_EDGES_MAX + 32'd64) + 1;
     localparam ALL_BITS     = $clog2((TOTAL_EDGES_MAX | 32'd1) + 32'd1);
-    localparam TOTAL_BITS   = $clog2(TOTAL_EDGES_MAX + 32'd64) + 2;  // and a sign
+    localparam TOTAL_BITS   = $clog2(TOTAL_EDGES_MAX + 32'd320) + 2;  // and a sign
     localparam AGE_BITS     = $clog2((EMISSION_TICKS_MAX | 32'd1) + 32'd1);
     localparam DUTY_BITS    = $clog2((DUTY_TICKS_MAX | 32'd1) + 32'd1);
     localparam LEVEL_BITS   = DUTY_BITS + 17;
-    // In 32 ticks a channel makes 31 / PULSE_TICKS_MIN + 1 edges, and two more where a short pulse shuts it
-    localparam LOW_BITS     = $clog2((PULSE_TICKS_MIN == 32'd0 ? 32'd31 : 32'd31 / PULSE_TICKS_MIN) + 32'd4);
+    // In 32 ticks a channel makes 31 / PULSE_TICKS_MIN + 1 edges, and four more where a short pulse shuts it 3 ticks later
+    localparam LOW_BITS     = $clog2((PULSE_TICKS_MIN == 32'd0 ? 32'd31 : 32'd31 / PULSE_TICKS_MIN) + 32'd6);
 
     // Time: a turn for each channel is a round, ROUNDS of them are a part
     reg [4:0]            turn_q;

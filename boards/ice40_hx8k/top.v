@@ -55,7 +55,7 @@ module top #(
         .REFERENCECLK(iceclk), .PLLOUTGLOBAL(clk), .LOCK(locked), .RESETB(1'b1), .BYPASS(1'b0)
     );
 
-    // Reset from configuration until the PLL has been locked for 15 clocks. A lost lock has the outputs low at once, clock or
+    // Reset from configuration until the PLL has been locked for 16 clocks. A lost lock has the outputs low at once, clock or
     // not (clock_lost_i); all else is reset when the clock is back.
     reg [15:0] released_q = 16'd0;
     always @(posedge clk or negedge locked) begin
@@ -63,7 +63,16 @@ module top #(
         else         released_q <= {released_q[14:0], 1'b1};
     end
 
-    wire waiting;
+    // The permits stop the pins without a clock too. No second clock watches the first: hv_alive's pump must (README.md)
+    wire permitted, run_permit_told, temperature_ok_told;
+    permit_latch permit_latch (
+        .clk_i(clk), .run_permit_i(run_permit), .temperature_ok_i(temperature_ok),
+        .run_permit_o(run_permit_told), .temperature_ok_o(temperature_ok_told), .permitted_o(permitted)
+    );
+
+    wire [31:0] driven;
+    wire        waiting, driven_enable, driven_alive, driven_focus;
+    assign      {channel, hv_enable, hv_alive, focus} = {driven, driven_enable, driven_alive, driven_focus} & {35{permitted}};
     haptic_core #(
         // generated: built_in
         .BIT_PERIOD_RESET(BIT_PERIOD_RESET),
@@ -84,8 +93,8 @@ module top #(
         .clk_i(clk), .rst_i(!configured), .clock_lost_i(!locked),
         .spi_sck_i(spi_sck), .spi_cs_n_i(spi_cs_n), .spi_mosi_i(spi_mosi), .spi_miso_o(spi_miso),
         .uart_rx_i(rs232_rx), .uart_tx_o(rs232_tx),
-        .trigger_i(trigger), .run_permit_i(run_permit), .temperature_ok_i(temperature_ok),
-        .channel_o(channel), .hv_enable_o(hv_enable), .hv_alive_o(hv_alive), .focus_o(focus),
+        .trigger_i(trigger), .run_permit_i(run_permit_told), .temperature_ok_i(temperature_ok_told),
+        .channel_o(driven), .hv_enable_o(driven_enable), .hv_alive_o(driven_alive), .focus_o(driven_focus),
         .waiting_o(waiting), .fault_o(fault)
     );
 

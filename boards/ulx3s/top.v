@@ -52,18 +52,33 @@ module top #(
         .PHASESEL0(1'b0), .PHASESEL1(1'b0), .PHASEDIR(1'b1), .PHASESTEP(1'b1), .PHASELOADREG(1'b1)
     );
 
-    // Reset from configuration until the PLL has been locked for 15 clocks. A lost lock has the outputs low at once, clock or
-    // not (clock_lost_i); all else is reset when the clock is back.
+    // The FPGA's own oscillator, 310 MHz / 64 within 15 %, must see both clocks: the lock may stay where they stop (clock_watch.v)
+    wire watch, input_lost, clk_lost;
+    OSCG #(.DIV(64)) oscillator (.OSC(watch));
+    clock_watch #(.TOGGLE_CLOCKS(16), .LIMIT(5)) input_watch (.clk_i(clk_25mhz), .watch_i(watch), .lost_o(input_lost));
+    clock_watch #(.TOGGLE_CLOCKS(32), .LIMIT(5)) clk_watch (.clk_i(clk), .watch_i(watch), .lost_o(clk_lost));
+    wire running = locked && !input_lost && !clk_lost;
+
+    // Reset from configuration until the clock has been there for 16 clocks. A lost one has the outputs low at once, clock or
+    // not (clock_lost_i); all else is reset when it is back.
     reg [15:0] released_q = 16'd0;
-    always @(posedge clk or negedge locked) begin
-        if (!locked) released_q <= 16'd0;
-        else         released_q <= {released_q[14:0], 1'b1};
+    always @(posedge clk or negedge running) begin
+        if (!running) released_q <= 16'd0;
+        else          released_q <= {released_q[14:0], 1'b1};
     end
 
-    wire [31:0] channel;
-    wire        configured = released_q[15];        // falls with the lock, without a clock
-    wire        spi_sck, spi_cs_n, spi_mosi, trigger, run_permit, temperature_ok;
-    wire        spi_miso, hv_enable, hv_alive, focus, waiting, fault;
+    // The permits stop the pins without a clock too
+    wire run_permit, temperature_ok, permitted, run_permit_told, temperature_ok_told;
+    permit_latch permit_latch (
+        .clk_i(clk), .run_permit_i(run_permit), .temperature_ok_i(temperature_ok),
+        .run_permit_o(run_permit_told), .temperature_ok_o(temperature_ok_told), .permitted_o(permitted)
+    );
+
+    wire [31:0] driven, channel;
+    wire        configured = released_q[15];        // falls with the clock, without one
+    wire        spi_sck, spi_cs_n, spi_mosi, trigger;
+    wire        spi_miso, hv_enable, hv_alive, focus, waiting, fault, driven_enable, driven_alive, driven_focus;
+    assign      {channel, hv_enable, hv_alive, focus} = {driven, driven_enable, driven_alive, driven_focus} & {35{permitted}};
 
     haptic_core #(
         // generated: built_in
@@ -82,11 +97,11 @@ module top #(
         // end of built_in
         .BOARD("ULX3"), .BAUD(1_000_000), .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH)
     ) core (
-        .clk_i(clk), .rst_i(!configured), .clock_lost_i(!locked),
+        .clk_i(clk), .rst_i(!configured), .clock_lost_i(!running),
         .spi_sck_i(spi_sck), .spi_cs_n_i(spi_cs_n), .spi_mosi_i(spi_mosi), .spi_miso_o(spi_miso),
         .uart_rx_i(ftdi_txd), .uart_tx_o(ftdi_rxd),
-        .trigger_i(trigger), .run_permit_i(run_permit), .temperature_ok_i(temperature_ok),
-        .channel_o(channel), .hv_enable_o(hv_enable), .hv_alive_o(hv_alive), .focus_o(focus),
+        .trigger_i(trigger), .run_permit_i(run_permit_told), .temperature_ok_i(temperature_ok_told),
+        .channel_o(driven), .hv_enable_o(driven_enable), .hv_alive_o(driven_alive), .focus_o(driven_focus),
         .waiting_o(waiting), .fault_o(fault)
     );
 

@@ -73,7 +73,8 @@ def board_check(options: argparse.Namespace) -> int:
         from controller.workshop.gateware.fpga_part import FILE, check_top, find_part
 
         if (folder / FILE).is_file():
-            check_top(board, find_part(folder, None)[0])
+            top, part = find_part(folder, None)
+            check_top(board, top, part.constraints)
     scene_file = find_scene(board, options.scene)
     scene = read_scene(scene_file, board)
     recording = None

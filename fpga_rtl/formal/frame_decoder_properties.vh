@@ -19,8 +19,8 @@ integer     k;
 // What both byte links keep to
 always @* begin
     if (!started_q)   assume (rst_i);
-    if (byte_valid_i) assume (open_q && !select_i && !release_i && number_q != 20'hFFFFF);
-    if (release_i)    assume (open_q && !select_i && !word_valid_q);
+    if (byte_valid_i) bytes_within_a_frame: assume (open_q && !select_i && !release_i && number_q != 20'hFFFFF);
+    if (release_i)    an_end_within_a_frame: assume (open_q && !select_i && !word_valid_q);
 end
 
 always @(posedge clk_i) begin

@@ -15,12 +15,12 @@ reg  [6:0]  payload_1_q;
 // What the link and its decoder keep to
 always @* begin
     if (!started_q)   assume (rst_i);
-    if (select_i)     assume (!open_in_q && !link_released_q);          // a byte of the UART takes 80 clocks
-    if (release_i || byte_valid_i) assume (open_in_q && !select_i);
-    if (accept_i)     assume (released_q && (word >= payload_words_i || wrote_q));  // frame_decoder: all_words_came
-    if (word_valid_i) assume (open_q);
-    if (owed_q)       assume (payload_words_i == payload_1_q);          // it changes with bytes
-    assume (payload_words_i <= 125);                                    // frame_decoder: fits
+    if (select_i)     frames_are_apart: assume (!open_in_q && !link_released_q);          // a byte of the UART takes 80 clocks
+    if (release_i || byte_valid_i) bytes_of_a_frame: assume (open_in_q && !select_i);
+    if (accept_i)     accepted_whole: assume (released_q && (word >= payload_words_i || wrote_q));  // frame_decoder: all_words_came
+    if (word_valid_i) words_of_a_frame: assume (open_q);
+    if (owed_q)       fields_rest: assume (payload_words_i == payload_1_q);          // it changes with bytes
+    words_fit: assume (payload_words_i <= 125);                                    // frame_decoder: fits
 end
 
 always @(posedge clk_i) begin

@@ -38,11 +38,11 @@ end
 // down not from 0, and neither directly behind a reset (output_gate)
 initial assume (rst_i);
 always @* begin
-    assume (samples_i != 0 && bit_ticks_i >= 4 && bit_ticks_i != 16'hFFFF && !(up_i && down_i) && !(stay_i && active));
-    if (rst_1_q) assume (!active && !stay_i);
-    if (started_q && (active || up_1_q || down_1_q || stay_i || stay_1_q)) assume (samples_i == samples_1_q && bit_ticks_i == ticks_1_q);
-    if (up_i && sample)   assume (level_q != samples_i);
-    if (down_i && sample) assume (level_q != 0);
+    settings_make_a_ramp: assume (samples_i != 0 && bit_ticks_i >= 4 && bit_ticks_i != 16'hFFFF && !(up_i && down_i) && !(stay_i && active));
+    if (rst_1_q) off_behind_reset: assume (!active && !stay_i);
+    if (started_q && (active || up_1_q || down_1_q || stay_i || stay_1_q)) settings_rest_in_a_ramp: assume (samples_i == samples_1_q && bit_ticks_i == ticks_1_q);
+    if (up_i && sample)   up_from_below: assume (level_q != samples_i);
+    if (down_i && sample) down_from_above: assume (level_q != 0);
 end
 
 // The promises

@@ -1,17 +1,18 @@
 // What output_gate promises, whatever the host, the player and stage_limits do: proven by induction for all time.
 // Inputs of the clock before are `_1_q`: what they do is seen in the outputs now.
-localparam [16:0] SETTLED = HV_SETTLE_TICKS[16:0];
+localparam SETTLED_BITS = $clog2(HV_SETTLE_TICKS + 32'd2);
+localparam [SETTLED_BITS-1:0] SETTLED = HV_SETTLE_TICKS[SETTLED_BITS-1:0];
 
 reg        started_q = 0;
 reg        rst_1_q, permit_1_q, cool_1_q, silent_1_q, exists_1_q;
 reg [31:0] mask_1_q;
 reg [4:0]  limits_1_q, faults_1_q;           // causes of the limits that were kept
 reg        hv_1_q, resting_1_q;
-reg [16:0] age_q, age_1_q, age_2_q, age_3_q, age_4_q;  // clocks on before this one, up to SETTLED; as it goes to the pins
-reg [16:0] up_q;                             // clocks that hv_enable_o was high before this one
+reg [SETTLED_BITS-1:0] age_q, age_1_q, age_2_q, age_3_q, age_4_q;  // clocks on before this one, up to SETTLED; as it goes to the pins
+reg [SETTLED_BITS-1:0] up_q;                             // clocks that hv_enable_o was high before this one
 
-function [16:0] longer(input [16:0] age);
-    longer = age == SETTLED ? SETTLED : age + 17'd1;
+function [SETTLED_BITS-1:0] longer(input [SETTLED_BITS-1:0] age);
+    longer = age == SETTLED ? SETTLED : age + 1'b1;
 endfunction
 
 // Of the host and the limits, since reset:
@@ -27,10 +28,14 @@ reg [15:0] all_faults_1_q;
 reg [31:0] drive_1_q, fault_count_1_q;
 reg [63:0] now_1_q;
 
-// What the gate takes for granted; safety_island makes arm_i and heartbeat_i so
+// What the gate takes for granted; safety_island makes arm_i and heartbeat_i so, and proves it where END_TO_END is defined
 always @* begin
-    if (arm_i) assume (off_o && fault_o == 0 && run_permit_i && temperature_good_i && heartbeat_i);
-    assume (!clock_lost_i || rst_i);         // as the boards' tops do
+`ifdef END_TO_END
+    if (arm_i && started_q) arm_is_as_taken: assert (off_o && fault_o == 0 && run_permit_i && temperature_good_i && heartbeat_i);
+`else
+    if (arm_i) arm_is_allowed: assume (off_o && fault_o == 0 && run_permit_i && temperature_good_i && heartbeat_i);
+`endif
+    clock_is_lost_in_reset: assume (!clock_lost_i || rst_i);         // as the boards' tops do
 end
 `ifndef ANY_STATE
 initial assume (rst_i);
@@ -133,7 +138,7 @@ always @* if (started_q) begin
         if (!silent_q) silence_is_counted: assert (unfed_q == 1 ? silence_q == fed_ticks_q : {1'b0, silence_q} + unfed_q == {1'b0, fed_ticks_q} + 33'd1);
         if (!silent_q) silent_in_time: assert (unfed_q <= fed_ticks_q || unfed_q == 1);
         if (live_q) assert (fed_q && unfed_q != 0 && (unfed_q <= fed_ticks_q + 33'd1 || unfed_q <= 2));
-        if (state_q == SETTLING) settling_is_counted: assert (age_q < SETTLED && settle_left_q == SETTLED - 17'd1 - age_q);
+        if (state_q == SETTLING) settling_is_counted: assert (age_q < SETTLED && settle_left_q == SETTLED - 1'b1 - age_q);
         if (moves)            moves_once_settled: assert (age_q == SETTLED);
         if (moves_later_q[0]) assert (on_later_q[0] && age_1_q == SETTLED);
         if (moves_later_q[1]) assert (on_later_q[1] && age_2_q == SETTLED);

@@ -9,9 +9,9 @@ wire [10:0] words = live ? 11'd1000 : {1'b0, slot_words_i};  // that there are, 
 
 initial assume (rst_i);
 always @* begin
-    assume (judge_i);                                        // frame_select: always, where it is synthesised
-    assume (slot_words_i <= 10'd1000);                       // waveform_buffer: stores_only_what_is_there
-    if (started_q && accept_i) assume (rested_g >= 3'd4 && asked == asked_1_q);
+    judged_always: assume (judge_i);                                        // frame_select: always, where it is synthesised
+    slot_is_a_waveform: assume (slot_words_i <= 10'd1000);                       // waveform_buffer: stores_only_what_is_there
+    if (started_q && accept_i) frame_has_rested: assume (rested_g >= 3'd4 && asked == asked_1_q);
 end
 
 always @(posedge clk_i) begin

@@ -22,11 +22,11 @@ wire [2:0] ahead   = place - head_q;         // how many plays come before
 // What the frames, play_check and the player keep to. Words of a play that is dropped while it arrives may lie elsewhere: it
 // is not pushed.
 always @* begin
-    assume (word <= 5);
+    words_of_a_play: assume (word <= 5);
     if (!started_q) assume (rst_i);
-    if (push_i)  assume (good_q && wrote_q && !full_o && !select_i && !write_i);
-    if (write_i) assume (open_q);
-    if (pop_i)   assume (valid_o);
+    if (push_i)  push_is_whole: assume (good_q && wrote_q && !full_o && !select_i && !write_i);
+    if (write_i) writes_in_a_frame: assume (open_q);
+    if (pop_i)   pop_what_is_shown: assume (valid_o);
 end
 
 always @(posedge clk_i) begin

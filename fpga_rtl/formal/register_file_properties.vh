@@ -20,10 +20,10 @@ wire       key = word0 == `CONTROL_UNLOCK && word1 == `IDENTITY_MAGIC && word2 =
 // The contract: frames come one at a time, and what they ask rests before they are accepted
 initial assume (rst_i);
 always @* begin
-    assume (judge_i);                                                // frame_select: always, where it is synthesised
-    assume (!(read_i && write_i) && (accept_i || !(read_i || write_i)));
-    assume (faulted_i == (fault_i != 16'd0));                        // output_gate: any_is_known
-    if (started_q && accept_i) assume (pause_g == 3'd7 && rested_g >= 3'd3 && words_i == words_1_q && address_i == address_1_q && uart_i == uart_1_q);
+    judged_always: assume (judge_i);                                                // frame_select: always, where it is synthesised
+    reads_or_writes: assume (!(read_i && write_i) && (accept_i || !(read_i || write_i)));
+    fault_is_a_cause: assume (faulted_i == (fault_i != 16'd0));                        // output_gate: any_is_known
+    if (started_q && accept_i) frame_has_rested: assume (pause_g == 3'd7 && rested_g >= 3'd3 && words_i == words_1_q && address_i == address_1_q && uart_i == uart_1_q);
 end
 
 always @(posedge clk_i) begin

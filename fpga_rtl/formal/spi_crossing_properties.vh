@@ -73,15 +73,15 @@ end
 
 // The contract
 always @* begin
-    assume (clk_i == phase_q[1]);
+    quarters_of_a_clock: assume (clk_i == phase_q[1]);
     assume (rst_i == (started_q < 3));       // for one edge of the clock
-    if (started_q != 0 && !running) assume (spi_sck_i == sck_1_q && spi_cs_n_i == cs_n_1_q);
-    if (sck_rose || sck_fell)    assume (since_sck_q >= SCK_LEVEL);
-    if (cs_moved)                assume (!sck_rose && !(spi_sck_i && since_sck_q < 2));  // nor does noise come
-    if (sck_rose)                assume (since_select_q >= 2);                           // beside chip select's edges
-    if (sck_rose && !spi_cs_n_i) assume (since_select_q >= SELECT_TO_SCK);
-    if (cs_moved && spi_cs_n_i)  assume (since_rise_q >= SCK_TO_RELEASE);
-    if (cs_moved && !spi_cs_n_i) assume (since_select_q >= SELECT_HIGH);
+    if (started_q != 0 && !running) spi_rests_until_reset: assume (spi_sck_i == sck_1_q && spi_cs_n_i == cs_n_1_q);
+    if (sck_rose || sck_fell)    sck_is_slow_enough: assume (since_sck_q >= SCK_LEVEL);
+    if (cs_moved)                select_beside_sck: assume (!sck_rose && !(spi_sck_i && since_sck_q < 2));  // nor does noise come
+    if (sck_rose)                sck_beside_select: assume (since_select_q >= 2);                           // beside chip select's edges
+    if (sck_rose && !spi_cs_n_i) sck_behind_select: assume (since_select_q >= SELECT_TO_SCK);
+    if (cs_moved && spi_cs_n_i)  release_behind_sck: assume (since_rise_q >= SCK_TO_RELEASE);
+    if (cs_moved && !spi_cs_n_i) select_stays_high: assume (since_select_q >= SELECT_HIGH);
 end
 
 // The promises
@@ -121,12 +121,12 @@ always @(posedge step) begin
     reset_1_q <= rst_i;
 end
 always @* if (started_q > 1) begin
-    if (!clk_rose)                   assume (meta == meta_1_q);
-    else if (reset_1_q)              assume (meta == 0);
+    if (!clk_rose)                   sampled_by_the_clock: assume (meta == meta_1_q);
+    else if (reset_1_q)              sampled_by_reset: assume (meta == 0);
     else begin
-        assume (((meta[3] ^ input_1_q[3]) & ~moved[3]) == 0);
-        if (clear_1_q) assume (meta[2:0] == 0);
-        else           assume (((meta[2:0] ^ input_1_q[2:0]) & ~moved[2:0]) == 0);
+        sampled_of_count: assume (((meta[3] ^ input_1_q[3]) & ~moved[3]) == 0);
+        if (clear_1_q) sampled_clear: assume (meta[2:0] == 0);
+        else           sampled_or_before: assume (((meta[2:0] ^ input_1_q[2:0]) & ~moved[2:0]) == 0);
     end
 end
 

@@ -8,7 +8,7 @@
 (* anyseq *)   reg        mark;               // from here on activity is summed
 
 initial assume (rst_i);
-always @* assume (pulse_ticks_i == pulse_ticks && emission_ticks_i == emission_ticks && duty_ticks_i == duty_ticks);
+always @* settings_rest: assume (pulse_ticks_i == pulse_ticks && emission_ticks_i == emission_ticks && duty_ticks_i == duty_ticks);
 
 reg started_q = 0;
 always @(posedge clk_i) started_q <= 1;
@@ -61,7 +61,7 @@ wire [31:0]            end_place = PART_TICKS - 32'd32 + {27'd0, one};
 wire [3:0]             parts_ago = part_q - slot;
 wire [4:0]             parts_since = {parts_ago == 4'd0 && place <= end_place, parts_ago};
 // Fewer edges between two turns than the count holds: changes are PULSE_TICKS_MIN apart, or a short pulse shuts the outputs
-always @* assume (since_turn < LOW_COUNTS);
+always @* turns_see_few_edges: assume (since_turn < LOW_COUNTS);
 always @(posedge clk_i) begin
     run_q       <= run_q == 2'd3 ? 2'd3 : run_q + 2'd1;
     edges_all_q <= edges_all_q + {{ACCOUNT_BITS-1{1'b0}}, change_q[one]};
@@ -107,10 +107,12 @@ reg [31:0]             began_age_g;          // ticks since that part began
 wire                   in     = part_q + 4'd1 == slot;
 wire                   begins_slot = begun_q && part_q == slot;
 wire [TOTAL_BITS-1:0]  in_all = total_g - base_g;
-wire [5:0]             ones_g = ones_32(change_q);  // the bench of the module adds them up itself
+wire [5:0]             ones_g = ones_32(change_q);
+wire [5:0]             ones_less = ones_32(change_q & ~(32'd1 << one));
 wire [4:0]             parts_all = {parts_ago == 4'd0 && place <= 32'd1, parts_ago};
-// More than these are never made: the outputs are off 3 clocks after a change too many is seen, and another 3 see it
-always @* if (in_2_q) assume (in_all <= TOTAL_EDGES_MAX + 32'd192);
+// More than these are never made: those of the change too many and of the 4 clocks until the outputs are low, and as many once
+// more, as a part that counts may be older than REST_TICKS
+always @* if (in_2_q) window_sees_few_edges: assume (in_all <= TOTAL_EDGES_MAX + 32'd320);
 always @(posedge clk_i) begin
     total_g <= total_g + {{TOTAL_BITS-6{1'b0}}, ones_g};
     {in_3_q, in_2_q, in_1_q} <= {in_2_q, in_1_q, in};
@@ -128,9 +130,11 @@ always @(posedge clk_i) begin
     end
 end
 (* anyconst *) reg [ALL_BITS-1:0] total_edges;
-always @* assume (total_edges_i == total_edges && total_edges <= TOTAL_EDGES_MAX);  // safety_island: edges_are_clamped, limits_of_edges_rest
+always @* total_limit_rests: assume (total_edges_i == total_edges && total_edges <= TOTAL_EDGES_MAX);  // safety_island: edges_are_clamped, limits_of_edges_rest
 
 always @* if (started_q) begin
+    // of none it is 0, and any channel adds 1: so it is their number
+    each_channel_adds_one: assert (ones_32(32'd0) == 6'd0 && ones_g == ones_less + {5'd0, change_q[one]});
     change_is_of_pins:    assert (change_q == (pins_q ^ pins_before_q) && moved_q == (change_q != 32'd0));
     if (short_due_q)      short_pulse_is_seen:   assert (cause_o[0]);
     if (late_due_q)       long_emission_is_seen: assert (cause_o[3]);

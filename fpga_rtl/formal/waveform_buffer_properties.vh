@@ -4,7 +4,7 @@
 (* anyconst *) reg [9:0]             number;   // a word of it
 (* anyconst *) reg [2:0]             one;      // a chunk
 (* anyconst *) reg [SLOT_BITS-1:0]   here;     // a slot
-always @* assume (buffer <= SLOTS && number < 1000);
+always @* place_is_there: assume (buffer <= SLOTS && number < 1000);
 
 reg        started_q = 0;
 reg        rst_1_q;
@@ -42,18 +42,18 @@ wire       enough     = (left > 10'd125 ? 10'd125 : left) <= (there_g ? {3'd0, w
 // The contract: frames come one at a time, and what they ask rests before they are accepted
 initial assume (rst_i);
 always @* begin
-    assume (judge_i);                                                          // frame_select: always, where it is synthesised
+    judged_always: assume (judge_i);                                                          // frame_select: always, where it is synthesised
     if (started_q) begin
-        assume (!(load_i && store_i));
-        if (load_i || store_i) assume (pause_g == 5'd31 || pause_g > 5'd24);   // a frame takes 40 clocks and more
-        if (load_i || store_i) assume (still_g >= 3'd3 && argument_i == argument_1_q && !write_i && !write_1_q);
-        if (store_i)           assume (rested_g >= 5'd18 && look_i && word0_i == word0_1_q);
-        if (write_i)           assume (argument_i < 16'd8 && write_word_i < 7'd125);  // frame_decoder: only_loads_are_kept
-        if (load_i)            assume (load_words_i <= 7'd125);
-        if (play_read_i)       assume (!play_read_1_q && play_buffer_i <= SLOTS && play_word_i < 10'd1000);
+        loads_or_stores: assume (!(load_i && store_i));
+        if (load_i || store_i) frames_are_apart: assume (pause_g == 5'd31 || pause_g > 5'd24);   // a frame takes 40 clocks and more
+        if (load_i || store_i) load_has_rested: assume (still_g >= 3'd3 && argument_i == argument_1_q && !write_i && !write_1_q);
+        if (store_i)           store_has_rested: assume (rested_g >= 5'd18 && look_i && word0_i == word0_1_q);
+        if (write_i)           words_within_chunks: assume (argument_i < 16'd8 && write_word_i < 7'd125);  // frame_decoder: only_loads_are_kept
+        if (load_i)            load_is_a_chunk: assume (load_words_i <= 7'd125);
+        if (play_read_i)       reads_are_apart: assume (!play_read_1_q && play_buffer_i <= SLOTS && play_word_i < 10'd1000);
     end
 end
-always @* if (started_q && shows_g) assume ((number[0] ? odd : even) == shown_g);  // waveform_memory: word_is_the_last_written
+always @* if (started_q && shows_g) memory_keeps_words: assume ((number[0] ? odd : even) == shown_g);  // waveform_memory: word_is_the_last_written
 
 always @(posedge clk_i) begin
     started_q <= 1;

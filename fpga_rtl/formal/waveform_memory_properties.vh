@@ -10,7 +10,7 @@ wire       writes_it = write_i && write_buffer_i == buffer && write_word_i == wo
 wire       reads_it  = read_buffer_i == buffer && read_pair_i == word[9:1];
 
 initial {written_g, shows_g} = 2'b00;
-always @* assume (buffer < BUFFERS && (!write_i || write_buffer_i < BUFFERS) && (!read_i || read_buffer_i < BUFFERS));
+always @* place_is_there: assume (buffer < BUFFERS && (!write_i || write_buffer_i < BUFFERS) && (!read_i || read_buffer_i < BUFFERS));
 
 always @(posedge clk_i) begin
     if (writes_it) begin

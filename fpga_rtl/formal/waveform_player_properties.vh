@@ -66,11 +66,11 @@ end
 // The contract
 initial assume (rst_i);
 always @* begin
-    assume (bit_period_i[31:16] >= 4 && bit_period_i[31:16] != 16'hFFFF);              // register_file: 2 MHz to 100 kHz
-    if (started_q && (!settled_1_q || start_1_q)) assume (bit_period_i == period_1_q);                  // and written while nothing plays or waits
-    if (head_i) assume (head_length_i != 0 && {1'b0, head_first_i} + head_length_i <= 1000);   // play_check: within the waveform
-    if (due) assume (playing_q ? last : !resting_q);                                           // play_check: the period is that of the emission, or a bit longer
-    assume (!(ramping_i && (armed_i || playing_q || delayed_q || repeating_q)));          // output_gate: armed or gliding, down behind a DISARM
+    bits_are_long_enough: assume (bit_period_i[31:16] >= 4 && bit_period_i[31:16] != 16'hFFFF);              // register_file: 2 MHz to 100 kHz
+    if (started_q && (!settled_1_q || start_1_q)) bits_rest: assume (bit_period_i == period_1_q);                  // and written while nothing plays or waits
+    if (head_i) lengths_are_within: assume (head_length_i != 0 && {1'b0, head_first_i} + head_length_i <= 1000);   // play_check: within the waveform
+    if (due) repeats_in_time: assume (playing_q ? last : !resting_q);                                           // play_check: the period is that of the emission, or a bit longer
+    one_state_at_a_time: assume (!(ramping_i && (armed_i || playing_q || delayed_q || repeating_q)));          // output_gate: armed or gliding, down behind a DISARM
 end
 
 // The promises

@@ -1,6 +1,6 @@
 // The ECP5's PLL for simulation: CLKOP from the period of CLKI that it measures, with feedback from CLKOP.
 // It locks after LOCK_EDGES periods, if phase detector and VCO are within their ranges (data sheet FPGA-DS-02012), and
-// stops, as the worst that a PLL may do, when CLKI does; LOCK falls LOST periods later.
+// stops, as the worst that a PLL may do, when CLKI does; LOCK falls LOST periods later, or, with +lock_stays, never.
 `default_nettype none
 `timescale 1ps / 1ps
 
@@ -39,10 +39,10 @@ module EHXPLLL #(
         if (edges > LOCK_EDGES && $time - last_ps <= 2 * period_ps) begin
             LOCK = 1'b1;
             #(period_ps * CLKI_DIV / CLKFB_DIV / 2) CLKOP = !CLKOP;
-        end else if (LOCK && $time - last_ps > LOST * period_ps) begin
-            LOCK  = 1'b0;
+        end else if (LOCK && $time - last_ps > LOST * period_ps && edges != 0) begin
+            LOCK  = $test$plusargs("lock_stays") != 0;
             edges = 0;
-        end else #(LOCK ? period_ps : 1_000);
+        end else #(LOCK && in_range ? period_ps : 1_000);
     end
 endmodule
 

@@ -21,7 +21,7 @@ HERE = Path(__file__).parent
 BOARD = data_folder("boards") / "ulx3s"
 TOP = Design(
     "top",
-    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OB.v", HERE / "IB.v"),
+    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OSCG.v", HERE / "OB.v", HERE / "IB.v"),
     HERE / "ulx3s.cpp",
     ("-DSYNTHESIS", "--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
 )
@@ -151,9 +151,9 @@ class CompiledTop:
         levels = self._levels & ~self._stuck | self._stuck_levels
         self._library.board_drive(self._board, self._mask | self._stuck, levels)
 
-    def oscillate(self, runs):
-        """Stop the oscillator, or let it run again."""
-        self._library.board_oscillate(self._board, runs)
+    def oscillate(self, runs, *, lock_stays=False):
+        """Stop the oscillator, with the PLL's lock or without, or let it run again."""
+        self._library.board_oscillate(self._board, runs, lock_stays)
 
     def high(self, pins):
         """Whether all of these header pins are high."""
@@ -219,7 +219,7 @@ def _load(path):
         ("driven", number, [board]),
         ("leds", ctypes.c_uint32, [board]),
         ("drive", None, [board, number, number]),
-        ("oscillate", None, [board, ctypes.c_uint32]),
+        ("oscillate", None, [board, ctypes.c_uint32, ctypes.c_uint32]),
         ("run", None, [board, number]),
         ("exchange", None, [board, address, number, number, number, size, ctypes.c_char_p, address]),
         ("changes", size, [board]),

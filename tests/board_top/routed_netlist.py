@@ -5,6 +5,7 @@ to block and distributed RAM, packing and constant inputs made of the design is 
 """
 
 import json
+import re
 from collections import defaultdict
 
 LOW, HIGH = "1'b0", "1'b1"
@@ -38,6 +39,7 @@ class Netlist:
             "DP16KD": self.block_ram,
             "DCCA": self.buffer,
             "EHXPLLL": self.pll,
+            "OSCG": self.oscillator,
         }
         body = [line for name, cell in self.cells.items() for line in made[cell["type"]](Cell(name, cell))]
         nets = sorted({bit for cell in self.cells.values() for bits in cell["connections"].values() for bit in bits})
@@ -111,8 +113,10 @@ class Netlist:
             if reset:
                 load = f"if ({reset}) begin " + " ".join(f"{q} <= {value};" for q, _, value in members) + f" end else {load}"
             if at_once:
-                assert reset.startswith("n"), "an edge of a net"
-            yield f"always @({edge}{f' or posedge {reset}' if at_once else ''}) {load}"
+                falls = re.fullmatch(r"\(~(n\d+)\)", reset)
+                assert falls or re.fullmatch(r"n\d+", reset), "an edge of a net"
+                when = f"{edge} or negedge {falls[1]}" if falls else f"{edge} or posedge {reset}"
+            yield f"always @({when if at_once else edge}) {load}"
 
     def write_side(self, cell):
         """What takes data and address of a write from a slice's inputs to the RAM of its neighbours."""
@@ -170,6 +174,10 @@ class Netlist:
         reported = ", ".join(f".{name}({value})" for name, value in values.items())
         wired = ", ".join(f".{name}(n{cell.net(name)})" for name in cell.connections if cell.net(name))
         yield f"EHXPLLL #({reported}) pll ({wired});"
+
+    def oscillator(self, cell):
+        """As the board's bench models it."""
+        yield f"OSCG #(.DIV({cell.text('DIV')})) oscillator (.OSC({cell.out('OSC')}));"
 
 
 def function(table, inputs):

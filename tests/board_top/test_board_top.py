@@ -205,3 +205,41 @@ def test_when_its_oscillator_stops_the_outputs_are_low_as_soon_as_the_pll_says_s
     pi.board.run(3e-6 * PS)
     assert pi.board.high(signal_pins()["configured"])
     assert pi.board.levels & outputs == 0, "armed no longer"
+
+
+def test_when_its_clock_stops_under_a_lock_that_stays_the_outputs_are_low_within_3_us_and_a_permit_stops_them_at_once(pi):
+    outputs = sum(channel_pins()) | sum(signal_pins()[name] for name in ("hv_enable", "hv_alive", "focus"))
+    link = opened(pi)
+    for lost in (None, "run permit", "temperature good"):
+        arm(pi, session_on(pi, link))
+        pi.board.oscillate(False, lock_stays=True)
+        pi.board.run(500_000)
+        assert pi.board.high(signal_pins()["configured"] | signal_pins()["hv_enable"])
+        if lost:
+            pi.board.drive(signal_pins()[lost], 0)
+        else:
+            pi.board.run(2_500_000)
+            assert not pi.board.high(signal_pins()["configured"])
+        assert pi.board.levels & outputs == 0, lost
+        pi.board.run(3_000_000)
+        assert pi.board.levels & outputs == 0
+        pi.board.drive(signal_pins()["run permit"] | signal_pins()["temperature good"], 1)
+        pi.board.oscillate(True)
+        pi.board.run(5_000_000)
+        assert pi.board.high(signal_pins()["configured"])
+        assert pi.board.levels & outputs == 0, "armed no longer"
+
+
+def test_a_permit_that_is_lost_for_a_nanosecond_is_lost(pi):
+    outputs = sum(channel_pins()) | signal_pins()["hv_enable"]
+    session = session_on(pi, opened(pi))
+    for name, cause in (("run permit", Fault.NO_PERMIT), ("temperature good", Fault.OVER_TEMPERATURE)):
+        arm(pi, session)
+        pi.board.drive(signal_pins()[name], 0)
+        assert pi.board.levels & outputs == 0
+        pi.board.run(1_000)
+        pi.board.drive(signal_pins()[name], 1)
+        pi.board.take()
+        pi.board.run(1_000_000)
+        assert not any(word & outputs for word in pi.board.take()[1].tolist())
+        assert session.exchange.control(Control.CLEAR, raise_faults=False).faults == cause

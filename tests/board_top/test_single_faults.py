@@ -33,6 +33,7 @@ WATCHED_S = 8e-3  # longer than the timeout
 AT_ONCE_S = 1e-3
 WORDS = np.full(ULX3S.waveform.samples, 0x5555AAAA, "<u4")
 COUNTERS = (Register.EMISSIONS, Register.TRIGGERS_IGNORED, Register.FRAME_ERRORS)
+LOCK_LOST_PS = 300_000  # by the PLL's model
 SHUT_CLOCKS = 4  # behind the pin: at once
 
 
@@ -121,7 +122,7 @@ class Host:
         off = len(on) - int(np.argmax(on[::-1])) if on.any() else 0
         off_ps = int(times[off])
         if not self.board.levels & signal_pins()["configured"]:
-            return "off with the PLL's lock"
+            return "off with the PLL's lock" if off_ps - begin_ps < LOCK_LOST_PS else "off within 3 µs"
         if off_ps - max([begin_ps, *(low for low in self.lows_ps if low < off_ps)]) <= SHUT_CLOCKS * CLOCK_PS:
             return "off at once"
         if np.count_nonzero(np.diff(channels_of(pins[:off]))) > 4:
@@ -200,16 +201,21 @@ def one_frame_in(damaged_of):
     return perform
 
 
-def oscillator(host):
-    fault = host.fault
+def oscillator(*, lock_stays):
+    """It stops: the PLL says so, or only the FPGA's own oscillator finds out."""
 
-    def runs_again():
-        host.board.oscillate(True)
-        host.board.run(3e-6 * PS)
-        return fault()
+    def perform(host):
+        fault = host.fault
 
-    host.fault = runs_again
-    return host.watch(lambda: host.board.oscillate(False), for_s=AT_ONCE_S)
+        def runs_again():
+            host.board.oscillate(True)
+            host.board.run(5e-6 * PS)
+            return fault()
+
+        host.fault = runs_again
+        return host.watch(lambda: host.board.oscillate(False, lock_stays=lock_stays), for_s=AT_ONCE_S)
+
+    return perform
 
 
 def cable(host):
@@ -268,7 +274,8 @@ ROWS = {
     "temperature low, or its wire off": stuck("temperature good", 0, AT_ONCE_S),
     "temperature high": stuck("temperature good", 1),
     "temperature floating, noise": noisy("temperature good"),
-    "oscillator stopped": oscillator,
+    "oscillator stopped": oscillator(lock_stays=False),
+    "oscillator stopped, the PLL's lock stays": oscillator(lock_stays=True),
     "host killed": killed,
     "host hangs": hangs,
     "cable to the host off, or the host without supply": cable,
@@ -281,6 +288,7 @@ AT_THE_START = {
 IN_EVERY_RUN = (
     "run permit low, or its wire off",
     "oscillator stopped",
+    "oscillator stopped, the PLL's lock stays",
     "cable to the host off, or the host without supply",
 )
 

@@ -17,7 +17,10 @@ constexpr uint64_t NEVER = UINT64_MAX, UART = 1ull << 56, HALF_HEADER = (1ull <<
 
 class Board {
 public:
-    Board(uint64_t inputs, uint64_t pulled_up) : top_{&context_}, inputs_{inputs}, pulled_up_{pulled_up | UART} { eval(); }
+    Board(uint64_t inputs, uint64_t pulled_up) : top_{&context_}, inputs_{inputs}, pulled_up_{pulled_up | UART} {
+        context_.commandArgs(0, static_cast<const char **>(nullptr));
+        eval();
+    }
     ~Board() { top_.final(); }
 
     uint64_t now() const { return now_; }
@@ -34,7 +37,13 @@ public:
         eval();
     }
 
-    void oscillate(bool runs) { oscillates_ = runs; edge_ = now_ + OSCILLATOR_HALF_PS; }
+    // Or it stops, and with it the PLL, whose lock falls or stays
+    void oscillate(bool runs, bool lock_stays) {
+        const char *stays[] = {"+lock_stays"};
+        if (lock_stays) context_.commandArgsAdd(1, stays);
+        oscillates_ = runs;
+        edge_ = now_ + OSCILLATOR_HALF_PS;
+    }
 
     void run(uint64_t until) {
         while (now_ < until) {
@@ -103,7 +112,7 @@ uint64_t board_levels(const Board *board) { return board->levels(); }
 uint64_t board_driven(const Board *board) { return board->driven(); }
 uint32_t board_leds(const Board *board) { return board->leds(); }
 void board_drive(Board *board, uint64_t mask, uint64_t levels) { board->drive(mask, levels); }
-void board_oscillate(Board *board, uint32_t runs) { board->oscillate(runs); }
+void board_oscillate(Board *board, uint32_t runs, uint32_t lock_stays) { board->oscillate(runs, lock_stays); }
 void board_run(Board *board, uint64_t until) { board->run(until); }
 size_t board_changes(const Board *board) { return board->times.size(); }
 

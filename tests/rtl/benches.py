@@ -51,6 +51,8 @@ BENCHES = {  # by module
     "uart_peripheral": {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000},  # 8 1/3 clocks a bit: the fewest allowed are 8
     "status_encoder": {},
     "indicator_pins": {},
+    "permit_latch": {},
+    "clock_watch": {"TOGGLE_CLOCKS": 32, "LIMIT": 5},
     "frame_decoder": {},
     "frame_select": {},
     "register_file": BUILT_IN,

@@ -42,6 +42,7 @@ class Proof(NamedTuple):
 
     file: str
     bugs: dict[str, Bug]
+    task: str = ""  # of several, the one that must fail on them; else any
 
 
 PROOFS = {
@@ -230,10 +231,73 @@ PROOFS = {
                 "too_many = new_q &&", "too_many = new_q && made_turn_q != 5'd7 &&", "edges_are_seen"
             ),
             "old edges that are too many again": Bug("too_many = new_q &&", "too_many =", "only_new_edges_are_too_many"),
+            "a sum without channel 31": Bug("ones_8(bits[31:24])", "ones_8({1'b0, bits[30:24]})", "each_channel_adds_one"),
             "all channels too busy at rest": Bug(
                 "total_edges_q <= 1'b0;", "total_edges_q <= all_left[TOTAL_BITS-1];", "only_moves_are_too_many"
             ),
         },
+    ),
+    "safety_island_end_to_end": Proof(
+        "safety_island.v",
+        {
+            "a link that feeds once it has armed": Bug(
+                "link_q          <= link_i;", "link_q          <= link_i || link_q;", "armer_is_linked"
+            ),
+            "a permit lost for a clock": Bug(
+                "= run_permit_q[1];", "= run_permit_q[1] || run_permit_q[0];", "permit_(is_its_pin|pin_is_off)|silence_is_linked"
+            ),
+            "the patience of the first ARM": Bug(
+                "heartbeat_ticks_q <= most_heartbeat", "if (link_q) heartbeat_ticks_q <= most_heartbeat", "wishes_are_linked"
+            ),
+            "a duty that no host can lower": Bug(
+                "duty_share_q      <= most_share ? DUTY_SHARE_MAX[16:0] : duty_share_i;",
+                "duty_share_q      <= DUTY_SHARE_MAX[16:0];",
+                "wishes_are_linked",
+            ),
+            "heat without its pin": Bug("{temperature_ok_q[0], temperature_ok_i};", "2'b11;", "permits_are_linked|.*heat_.*"),
+            "an ARM that keeps the edges allowed before": Bug(
+                "channel_edges_q <= most_edges",
+                "if (!link_q) channel_edges_q <= most_edges",
+                "wishes_are_linked|edges_are_of_the_pins",
+            ),
+            "another rate of life": Bug(
+                "LAST_ALIVE  = ALIVE_HALF_TICKS - 32'd1",
+                "LAST_ALIVE  = ALIVE_HALF_TICKS - 32'd2",
+                "beat_is_linked|life_.*",
+                "output_gate.v",
+            ),
+            "a pulse that counts from another channel": Bug(
+                "recent_q <= kept | change_q;", "recent_q <= change_q;", "pulses_are_linked", "stage_limits.v"
+            ),
+            "an emission that begins again at its limit": Bug(
+                "late ? age : age + 1'b1", "late ? {AGE_BITS{1'b0}} : age + 1'b1", "emissions_are_linked", "stage_limits.v"
+            ),
+            "a bucket that leaks twice": Bug(
+                "wire [17:0] flow    = {1'b0, active_i, 16'd0} - {1'b0, duty_share_i};",
+                "wire [17:0] flow    = {1'b0, active_i, 16'd0} - {duty_share_i, 1'b0};",
+                "duty_is_linked",
+                "stage_limits.v",
+            ),
+            "limits that see other pins": Bug(
+                ".channel_i(channel_o), .active_i", ".channel_i(drive_i), .active_i", "edges_are_of_the_pins"
+            ),
+            "a gate that opens before its supply": Bug(
+                "moves_later_q[2] && !rst_i ?", "!rst_i ?", "supply_comes_first|.*once_settled|supply_has_settled", "output_gate.v"
+            ),
+        },
+        "for_all_time",
+    ),
+    "permit_latch": Proof(
+        "permit_latch.v",
+        {
+            "a permit that waits for the clock": Bug(
+                "always @(posedge clk_i or negedge run_permit_i)", "always @(posedge clk_i)", "low_is_low_at_once"
+            ),
+            "pins that come back before the core has shut": Bug("HELD = 10", "HELD = 5", "core_has_shut_before"),
+            "a low of one clock for the core": Bug("TOLD = 2", "TOLD = 0", "a_low_lasts"),
+            "heat that stops nothing": Bug("&& cool_q[HELD-1];", ";", "low_is_low_at_once|core_.*"),
+        },
+        "for_all_time",
     ),
     "safety_island": Proof(
         "safety_island.v",
@@ -368,7 +432,9 @@ def run(name: str, folder: Path, bug: Bug | None = None) -> tuple[int, str]:
         assert text.count(bug.old) == 1, f"{source.name} has {text.count(bug.old)} times {bug.old!r}: a bug goes to one place"
         source.write_text(text.replace(bug.old, bug.new))
     environment = {**os.environ, "PATH": os.pathsep.join([str(BIN), os.environ["PATH"]])}
-    command = [BIN / "yowasp-sby", *TOOLS, "-f", f"{name}.sby"]
+    command = [BIN / "yowasp-sby", *TOOLS, "-f", f"{name}.sby"] + [PROOFS[name].task] * (
+        bug is not None and PROOFS[name].task != ""
+    )
     done = subprocess.run(command, cwd=verilog / "formal", env=environment, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
 

@@ -50,6 +50,9 @@ MUTANTS = {
     "the supply does not settle": Change("output_gate", "settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1"),
     "the lost clock is waited for": Change("output_gate", "@(posedge clk_i or posedge clock_lost_i)", "@(posedge clk_i)"),
     "the beat never stops": Change("output_gate", "hv_alive_q  <= open && !rst_i && (", "hv_alive_q  <= !rst_i && ("),
+    "a permit waits for the clock": Change(
+        "permit_latch", "always @(posedge clk_i or negedge run_permit_i)", "always @(posedge clk_i)"
+    ),
     "any code is a state": Change("output_gate", "exists      = on || state_q == OFF;", "exists      = 1'b1;"),
     "reset a clock late": Change("output_gate", "hv_enable_q <= open && !rst_i;", "hv_enable_q <= open;"),
     "no ramp down": Change(

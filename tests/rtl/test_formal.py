@@ -24,6 +24,81 @@ def test_each_proof_has_its_bugs_and_each_bug_its_place():
             assert (RTL / (bug.file or proof.file)).read_text().count(bug.old) == 1, f"{name}: {what}"
 
 
+def assumed(text):
+    """Names of a properties file's assumptions; None for one without, but a reset in the first clock is none."""
+    found = re.findall(r"(?:(\w+): )?assume \((.{0,5})", re.sub(r"//.*", "", text))
+    return [name or None for name, what in found if name or not what.startswith("rst_i")]
+
+
+def assumptions():
+    """(proofs, names, because) of each row of the README's table."""
+    (rows,) = re.findall(r"^\| proof \| assumes .*\n\|[-|]+\n((?:\|.*\n)+)", (FORMAL / "README.md").read_text(), re.MULTILINE)
+    for row in rows.splitlines():
+        proofs, _, names, because = row.strip("| ").split(" | ")
+        yield re.findall(r"`(\w+)`", proofs), re.findall(r"`(\w+)`", names), because
+
+
+def test_each_assumption_of_a_proof_has_its_row_and_each_row_the_other_side():
+    files = {path.name.removesuffix("_properties.vh"): path.read_text() for path in FORMAL.glob("*_properties.vh")}
+    made = {name: set(assumed(text)) for name, text in files.items()}
+    listed = {name: set() for name in files}
+    for proofs, names, because in assumptions():
+        assert names, because
+        for proof in proofs:
+            listed[proof] |= made[proof] & set(names)
+        assert set(names) <= set().union(*(made[proof] for proof in proofs)), names
+        sides = re.findall(r"\w+_\w+(?:\.vh?)?|top\.v|tests/\w+", because)
+        promises = set(re.findall(r"(\w+): +assert", "".join(path.read_text() for path in FORMAL.glob("*.vh"))))
+        places = {path.name for place in (RTL, FORMAL, RTL.parent / "boards" / "ulx3s") for path in place.iterdir()}
+        benches = {path.stem for path in (RTL.parent / "tests" / "rtl").glob("tb_*.py")} | {"tests/conformance"}
+        assert set(sides) & (promises | places | benches), because
+    assert listed == made
+
+
+def test_an_assumption_without_a_name_is_noticed():
+    assert assumed("initial assume (rst_i);\n// assume (so)\nif (!x) assume (rst_i); low: assume (!a); assume (b);") == [
+        "low",
+        None,
+    ]
+
+
+NAMED_BEFORE = re.compile(r"\b(?:reg|wire|localparam|integer)\b[^;=]*")
+WORDS = {
+    "always",
+    "posedge",
+    "begin",
+    "end",
+    "else",
+    "assume",
+    "assert",
+    "cover",
+    "initial",
+    "anyconst",
+    "anyseq",
+    "signed",
+    "clog2",
+}
+
+
+def test_what_is_promised_from_pin_to_pin_names_no_register_of_the_inside():
+    text = re.sub(r"//.*", "", (FORMAL / "safety_island_end_to_end_properties.vh").read_text())
+    island = re.sub(r"//.*", "", (RTL / "safety_island.v").read_text()).partition(");\n")[0]
+    ports = {name for pair in re.findall(r"\b([a-z]\w*_[io])\b|\b([A-Z][A-Z_]+)\b", island) for name in pair}
+    own = {name for line in NAMED_BEFORE.findall(text) for name in re.findall(r"[A-Za-z]\w*", line)}
+    own |= set(re.findall(r"^wire +(?:signed +)?(?:\[[^]]*\] +)?(\w+) *=", text, re.MULTILINE)) | set(
+        re.findall(r"(\w+): +(?:assert|assume|cover)", text)
+    )
+    used = set(re.findall(r"(?<![`'\w])[A-Za-z]\w*", re.sub(r"'s?[bdh][\dA-F_]+", "", text)))
+    assert used - own - ports - WORDS - {"if"} == set()
+    inside = {
+        name
+        for line in NAMED_BEFORE.findall(re.sub(r"//.*", "", (RTL / "safety_island.v").read_text()))
+        for name in re.findall(r"\w+_q\b", line)
+    }
+    assert len(inside) > 8
+    assert not used & inside
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PROOFS)
 def test_is_proven(tmp_path, name):

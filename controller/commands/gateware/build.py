@@ -33,6 +33,7 @@ def add(step: argparse.ArgumentParser) -> None:
     which.add_argument("--seeds", type=int, metavar="N", help="place with each seed from 1 to N, and keep the fastest")
     step.add_argument("--out", metavar="F", help="the bitstream (default: build/BOARD.bit)")
     step.add_argument("--work", metavar="FOLDER", help="keep netlist, placement and reports of the tools there")
+    step.add_argument("--unproven", action="store_true", help="do not prove the safety island with these limits before")
     step.set_defaults(command=gateware_build)
 
 
@@ -40,11 +41,12 @@ def gateware_build(options: argparse.Namespace) -> int:
     """Build a bitstream, and write its figures beside it."""
     from controller.workshop.gateware.bitstream_build import FpgaDesign, pack, synthesise
     from controller.workshop.gateware.fpga_part import check_top, find_part
+    from controller.workshop.gateware.island_proof import prove_island
 
     folder = find_board(options.board)
     board = named_board(options.board)
     top, part = find_part(folder, options.top)
-    check_top(board, top)
+    check_top(board, top, part.constraints)
     device = options.device or part.devices[0]
     if device not in part.devices:
         raise UsageError(f"--device: {top.name} is built for {' or '.join(part.devices)}, not for {device!r}")
@@ -54,6 +56,9 @@ def gateware_build(options: argparse.Namespace) -> int:
     out = Path(options.out or f"build/{board.key}{'' if device == part.devices[0] else f'-{device}'}.bit")
     _must_be_writable(out)
     design = FpgaDesign.of(board, top, part, device)
+    if not options.unproven:
+        tell(f"proving the safety island with the limits of {board.name}")
+        prove_island(design.parameters)
     with _work_folder(options.work) as work:
         tell(f"synthesising {design.top} with the limits of {board.name}")
         synthesise(design, work)

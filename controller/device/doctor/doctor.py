@@ -21,11 +21,12 @@ from controller.device.board.touch_panels import DrivenPanel, I2cTouch, SerialTo
 from controller.device.doctor.finding import Finding
 from controller.device.doctor.process_limits import memory_in_words, priority_in_words, this_process_may, unit_allows
 from controller.device.doctor.raspberry_pi import look_at_pi
+from controller.device.fpga.bitstream import read_identity
 from controller.device.fpga.frames import UPLOAD_BYTES
 from controller.device.fpga.links.link import Link
 from controller.device.scene.scene import load_scene
 from controller.device.scene.scene_file import find_scene
-from controller.device.service.drivers import open_link, open_panel, recording_path
+from controller.device.service.drivers import bitstream_path, open_link, open_panel, recording_path
 from controller.device.service.installation import missing_package
 from controller.device.service.scenes.prepare_scene import populate
 from controller.device.touch.event_reader import EventReader
@@ -34,6 +35,7 @@ from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.reports import FAULTS, describe_warnings
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 
+WATCHED = "ecp5"  # families whose top.v has a second clock
 OpenPanel = Callable[[Board], EventReader]
 NOT_SHARED = "no other program on this machine gets its touches; [touch] share = true hands them on"
 
@@ -62,6 +64,8 @@ def look(board: Board, now_s: Callable[[], float], opened: OpenPanel = open_pane
     ]
     if board.temperature is not None:
         checks.append(("temperature", lambda: _temperature(board)))
+    if link.kind != "simulated" and bitstream_path(board).is_file():
+        checks.append(("lost clock", lambda: _lost_clock(board)))
     if link.kind != "simulated":
         checks.append(("responses", lambda: _responses(board)))
         allowed = unit_allows if as_the_service else this_process_may
@@ -217,6 +221,17 @@ def _bank(board: Board) -> str:
             raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
         cells = populate(bank, load_scene(scene_file, board), str(scene_file), responses=True)
     return f"{path}, {cells:,} cells of the scene; {found.why}"
+
+
+def _lost_clock(board: Board) -> str | Finding:
+    """Whether the FPGA itself finds out that its clock has stopped, where the PLL does not say so."""
+    device = read_identity(bitstream_path(board)).device
+    if device.startswith(WATCHED):
+        return "the FPGA's own oscillator watches its clocks"
+    said = (
+        f"nothing in this FPGA ({device}) watches its clock: the 60 V need the pump of hv_alive, off within 10 ms of its last edge"
+    )
+    return Finding("lost clock", True, said, warns=True)
 
 
 def _responses(board: Board) -> str | Finding:

@@ -31,6 +31,7 @@ from controller.workshop.gateware.fpga_part import TOP, FpgaPart
 
 SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
 TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself
+DEFAULT_MHZ = 12.0  # what nextpnr takes for a clock of which nothing is said
 LOG_LINES = 5  # of a tool that failed without a line that tells an error
 
 
@@ -167,6 +168,8 @@ def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> PlacedDesi
     `text` is the placement itself.
     """
     clocks = report["fmax"]
+    if free := sorted(name for name, clock in clocks.items() if clock["constraint"] == DEFAULT_MHZ):
+        raise GatewareError(f"nextpnr: no constraint for the clock {', '.join(map(_net_name, free))}: give it one in the .lpf")
     met = {name: min(clock["achieved"] / clock["constraint"], 1.0) for name, clock in clocks.items()}
     name = min(clocks, key=lambda name: (met[name], -clocks[name]["constraint"]))
     edges = (f"posedge {name}", f"negedge {name}")

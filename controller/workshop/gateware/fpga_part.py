@@ -33,6 +33,7 @@ FAMILIES = {
     "ice40": Family(r"(lp|hx|up|u)\d+k?", "hx8k", ".pcf", speeds=False),
 }
 PLL = re.compile(r"localparam \[31:0\] PLL_HZ *= *32'd([\d_]+);")
+SCK_MHZ = re.compile(r'^FREQUENCY NET "core\.spi_link\.spi_sck_i" ([\d.]+) MHZ;', re.MULTILINE)
 BAUD = re.compile(r"\.BAUD\(([\d_]+)\)")
 
 
@@ -94,8 +95,8 @@ def find_part(board: Path, top: str | None) -> tuple[Path, FpgaPart]:
     return folder, part
 
 
-def check_top(board: Board, top: Path) -> None:
-    """Refuse a board whose clock or baud rate are not those of a top.v, before minutes of work; raises ConfigError."""
+def check_top(board: Board, top: Path, constraints: str) -> None:
+    """Refuse a board whose clock, baud rate or SCK are not those of top.v and pins, before minutes of work; raises ConfigError."""
     text = (top / TOP).read_text(encoding="utf-8", errors="replace")
     link = board.link
     wanted = [("clock_hz", link.clock_hz, PLL)] + ([("baud", link.baud, BAUD)] if link.kind == "serial" else [])
@@ -105,3 +106,7 @@ def check_top(board: Board, top: Path) -> None:
             raise ConfigError(
                 f"{board.folder / 'board.toml'}: link.{key} = {value}, but {top / TOP} makes {found[1]}: set the same"
             )
+    sck = SCK_MHZ.search((top / constraints).read_text(encoding="utf-8", errors="replace"))
+    if link.kind == "spi" and sck and float(sck[1]) * 1e6 < link.sck_hz:
+        says = f"link.sck_hz = {link.sck_hz}, but {top / constraints} constrains SCK to {sck[1]} MHz"
+        raise ConfigError(f"{board.folder / 'board.toml'}: {says}: set the same")

@@ -23,9 +23,11 @@ from controller.device.doctor import doctor, process_limits
 from controller.device.doctor.bring_up import Chirps
 from controller.device.doctor.doctor import look
 from controller.device.doctor.link_examination import arriving_sck_hz, evaluated_sck, examine_link
+from controller.device.fpga.bitstream import Identity, sealed
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.links import spi_link
 from controller.device.fpga.session import Session
+from controller.device.service.drivers import bitstream_path
 from controller.device.touch.drivers import screen
 from controller.device.touch.panels.ft5x06 import Ft5x06Touch
 from controller.device.touch.panels.linux_input import LinuxInputTouch
@@ -241,6 +243,17 @@ def test_a_modelled_bank_on_a_real_panel_is_warned_of(panel, board, capsys, monk
     main(["doctor", "--board", str(panel.folder)])
     assert re.search(r"^WARNING responses +the bank was computed from a model", capsys.readouterr().out, re.MULTILINE)
     assert "responses" not in {finding.about for finding in look(board, VirtualClock().now_s)}, "simulated, it is the right one"
+
+
+def test_an_fpga_that_cannot_watch_its_clock_is_warned_of_with_what_its_supply_must_do(panel, monkeypatch):
+    monkeypatch.setattr(doctor, "service_user", lambda: None)
+    assert "lost clock" not in {finding.about for finding in look(panel, VirtualClock().now_s)}, "nothing is known of it"
+    for device, warns, about in (("ecp5 25k CABGA381-6", False, "own oscillator"), ("ice40 hx8k ct256", True, "pump of hv_alive")):
+        identity = Identity(board="own", top="own", device=device, seed=1, parameters={}, sources="", tools={})
+        bitstream_path(panel).write_bytes(sealed(b"\xff\x00" + identity.comment().encode() + b"\0\xff\xff\xff\xbd\xb3"))
+        (finding,) = [finding for finding in look(panel, VirtualClock().now_s) if finding.about == "lost clock"]
+        assert (finding.good, finding.warns) == (True, warns)
+        assert about in finding.said
 
 
 def test_a_measured_bank_is_reported_with_its_files_date_temperature_and_expected_share(panel, monkeypatch):
