@@ -57,11 +57,7 @@ module top #(
 
     // Reset from configuration until the PLL has been locked for 16 clocks. A lost lock has the outputs low at once, clock or
     // not (clock_lost_i); all else is reset when the clock is back.
-    reg [15:0] released_q = 16'd0;
-    always @(posedge clk or negedge locked) begin
-        if (!locked) released_q <= 16'd0;
-        else         released_q <= {released_q[14:0], 1'b1};
-    end
+    reset_release reset_release (.clk_i(clk), .running_i(locked), .released_o(configured));
 
     // The permits stop the pins without a clock too. No second clock watches the first: hv_alive's pump must (README.md)
     wire permitted, run_permit_told, temperature_ok_told;
@@ -98,7 +94,6 @@ module top #(
         .waiting_o(waiting), .fault_o(fault)
     );
 
-    assign configured = released_q[15];             // falls with the lock, without a clock
     assign led = {fault, hv_enable, hv_alive, focus, waiting, temperature_ok, run_permit, configured};
 endmodule
 

@@ -61,11 +61,8 @@ module top #(
 
     // Reset from configuration until the clock has been there for 16 clocks. A lost one has the outputs low at once, clock or
     // not (clock_lost_i); all else is reset when it is back.
-    reg [15:0] released_q = 16'd0;
-    always @(posedge clk or negedge running) begin
-        if (!running) released_q <= 16'd0;
-        else          released_q <= {released_q[14:0], 1'b1};
-    end
+    wire configured;                                // falls with the clock, without one
+    reset_release reset_release (.clk_i(clk), .running_i(running), .released_o(configured));
 
     // The permits stop the pins without a clock too
     wire run_permit, temperature_ok, permitted, run_permit_told, temperature_ok_told;
@@ -75,7 +72,6 @@ module top #(
     );
 
     wire [31:0] driven, channel;
-    wire        configured = released_q[15];        // falls with the clock, without one
     wire        spi_sck, spi_cs_n, spi_mosi, trigger;
     wire        spi_miso, hv_enable, hv_alive, focus, waiting, fault, driven_enable, driven_alive, driven_focus;
     assign      {channel, hv_enable, hv_alive, focus} = {driven, driven_enable, driven_alive, driven_focus} & {35{permitted}};

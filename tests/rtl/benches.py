@@ -52,6 +52,7 @@ BENCHES = {  # by module
     "status_encoder": {},
     "indicator_pins": {},
     "permit_latch": {},
+    "reset_release": {},
     "clock_watch": {"TOGGLE_CLOCKS": 32, "LIMIT": 5},
     "frame_decoder": {},
     "frame_select": {},

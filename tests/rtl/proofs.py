@@ -299,6 +299,15 @@ PROOFS = {
         },
         "for_all_time",
     ),
+    "reset_release": Proof(
+        "reset_release.v",
+        {
+            "a reset of one clock": Bug("= released_q[CLOCKS-1];", "= released_q[0];", "released_in_time"),
+            "a reset that waits for the clock": Bug(
+                "always @(posedge clk_i or negedge running_i)", "always @(posedge clk_i)", "lost_is_reset"
+            ),
+        },
+    ),
     "safety_island": Proof(
         "safety_island.v",
         {

@@ -249,3 +249,66 @@ async def arming_takes_both_permits_and_no_fault_whoever_says_that_it_may(dut):
         await clocks(dut, 5)
         await pulse(dut, dut.arm_i)
         assert dut.settling_o.value == 1
+
+
+async def armed_again(dut, link, **asked):
+    """Off by DISARM, without a reset, and on again by this link."""
+    dut.settled_i.value = dut.ramp_done_i.value = 1
+    await pulse(dut, dut.disarm_i)
+    await clocks(dut, 2 * DRIVE_TICKS)
+    assert dut.off_o.value == 1
+    for name, value in asked.items():
+        getattr(dut, f"{name}_i").value = value
+    dut.link_i.value = link
+    await clocks(dut, 2)
+    await pulse(dut, dut.arm_i, heard_i=1)
+    dut.heard_i.value = 0
+    await clocks(dut, SETTLE_TICKS + DRIVE_TICKS + 2)
+    assert dut.hv_enable_o.value == 1
+
+
+@cocotb.test(timeout_time=200, timeout_unit="us")
+async def armed_again_by_the_other_link_only_that_one_keeps_it_on(dut):
+    for first, second, heard in ((1, 0, 1), (0, 1, 0), (1, 0, 0), (0, 1, 1)):
+        await armed(dut, heartbeat_ticks=100, link=first)
+        await armed_again(dut, second)
+        dut.link_i.value = heard
+        for _ in range(6):
+            await clocks(dut, 40)
+            await pulse(dut, dut.heard_i)
+        assert fault(dut) == (Fault(0) if heard == second else Fault.HOST_SILENT), (first, second, heard)
+
+
+@cocotb.test(timeout_time=200, timeout_unit="us")
+async def a_second_arm_has_what_is_asked_for_then(dut):
+    for asked, later, given in ((ALL, 60, 60), (60, ALL, 900), (300, 200, 200)):
+        await armed(dut, heartbeat_ticks=asked)
+        await armed_again(dut, 0, heartbeat_ticks=later)
+        await pulse(dut, dut.heard_i)
+        ticks = 0
+        while not fault(dut) and ticks < 1000:
+            await clocks(dut)
+            ticks += 1
+        assert fault(dut) == Fault.HOST_SILENT
+        assert given - 3 <= ticks <= given + 3, (asked, later)
+    await armed(dut)
+    await armed_again(dut, 0, duty_share=0, duty_ticks=20)
+    assert await ticks_of_activity(dut, 40) <= 24
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_permit_lost_for_one_clock_is_lost_and_so_it_is_the_second_time(dut):
+    for name, cause in (("run_permit_i", Fault.NO_PERMIT), ("temperature_ok_i", Fault.OVER_TEMPERATURE)):
+        await armed(dut)
+        for count in (1, 2):
+            getattr(dut, name).value = 0
+            await clocks(dut)
+            getattr(dut, name).value = 1
+            await clocks(dut, 2)
+            assert (int(dut.hv_enable_o.value), fault(dut)) == (0, cause)
+            assert dut.fault_count_o.value == count
+            await pulse(dut, dut.clear_i)
+            dut.ramp_done_i.value = 1
+            await pulse(dut, dut.arm_i, heard_i=1)
+            await clocks(dut, SETTLE_TICKS + DRIVE_TICKS + 2)
+            assert (int(dut.hv_enable_o.value), fault(dut)) == (1, Fault(0))

@@ -33,6 +33,8 @@ OPERATORS = {
     "stuck": "a bit of a register stuck",
     "index": "the neighbour of an element or bit",
     "connection": "an input of an instance tied to 0",
+    "sticky": "what a register has once taken it keeps: the second time",
+    "filter": "a bit that is low, or high, for one clock is not seen",
 }
 BINARY = {
     "LogicalAndExpression": ("logic", "||"),
@@ -234,6 +236,11 @@ class Finder:
         elif kind == "ConditionalExpression":
             parts = [self.text(part) for part in (node.predicate, node.right, node.left)]
             self.add("branches", node, "({}) ? ({}) : ({})".format(*parts))
+        elif kind == "IdentifierSelectName" and (found := re.fullmatch(r"\s*(\w+)\[(\d+)\]\s*", self.text(node))):
+            if self.registers.get(found[1]) and int(found[2]) > 0:
+                before = f"{found[1]}[{int(found[2]) - 1}]"
+                self.add("filter", node, f"{found[0].strip()} || {before}")
+                self.add("filter", node, f"{found[0].strip()} && {before}")
         elif kind == "BitSelect":
             index = self.text(node)
             if index.strip().isdigit():
@@ -260,6 +267,8 @@ class Finder:
         if not self._in_clocked(above) or "Nonblocking" not in str(assignment.kind):
             return
         self.add("statement", node, ";", "leave")
+        if not self._after_reset(above, node) and (left := self.text(assignment.left).strip()) in self.registers:
+            self.add("sticky", assignment.right, f"({self.text(assignment.right)}) | {left}")
         if self._after_reset(above, node):
             self.add("reset", assignment.right, f"~({self.text(assignment.right)})")
 
