@@ -1,6 +1,7 @@
 // The ECP5's PLL for simulation: CLKOP from the period of CLKI that it measures, with feedback from CLKOP.
 // It locks after LOCK_EDGES periods, if phase detector and VCO are within their ranges (data sheet FPGA-DS-02012), and
-// stops, as the worst that a PLL may do, when CLKI does; LOCK falls LOST periods later, or, with +lock_stays, never.
+// stops, as the worst that a PLL may do, when CLKI does; LOCK falls LOST periods later, or, with +lock_stays, never. With +clk_stops
+// it is the PLL that stops, under its lock.
 `default_nettype none
 `timescale 1ps / 1ps
 
@@ -36,7 +37,7 @@ module EHXPLLL #(
     end
 
     always begin
-        if (edges > LOCK_EDGES && $time - last_ps <= 2 * period_ps) begin
+        if (edges > LOCK_EDGES && $time - last_ps <= 2 * period_ps && !$test$plusargs("clk_stops")) begin
             LOCK = 1'b1;
             #(period_ps * CLKI_DIV / CLKFB_DIV / 2) CLKOP = !CLKOP;
         end else if (LOCK && $time - last_ps > LOST * period_ps && edges != 0) begin

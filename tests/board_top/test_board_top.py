@@ -228,6 +228,12 @@ def test_when_its_clock_stops_under_a_lock_that_stays_the_outputs_are_low_within
         pi.board.run(5_000_000)
         assert pi.board.high(signal_pins()["configured"])
         assert pi.board.levels & outputs == 0, "armed no longer"
+    arm(pi, session_on(pi, link))
+    pi.board.oscillate(True, lock_stays=True)
+    pi.board.run(500_000)
+    assert pi.board.high(signal_pins()["hv_enable"])
+    pi.board.run(2_500_000)
+    assert pi.board.levels & outputs == 0, "the PLL alone"
 
 
 def test_a_permit_that_is_lost_for_a_nanosecond_is_lost(pi):

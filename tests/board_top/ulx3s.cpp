@@ -37,9 +37,9 @@ public:
         eval();
     }
 
-    // Or it stops, and with it the PLL, whose lock falls or stays
+    // Or it stops, and with it the PLL, whose lock falls or stays; or it runs, and the PLL stops for ever under its lock
     void oscillate(bool runs, bool lock_stays) {
-        const char *stays[] = {"+lock_stays"};
+        const char *stays[] = {runs ? "+clk_stops" : "+lock_stays"};
         if (lock_stays) context_.commandArgsAdd(1, stays);
         oscillates_ = runs;
         edge_ = now_ + OSCILLATOR_HALF_PS;
