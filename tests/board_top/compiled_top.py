@@ -152,7 +152,7 @@ class CompiledTop:
         self._library.board_drive(self._board, self._mask | self._stuck, levels)
 
     def oscillate(self, runs, *, lock_stays=False):
-        """Stop the oscillator, with the PLL's lock or without, or let it run again; or stop the PLL alone, for ever, under its lock."""
+        """Stop the oscillator, under the PLL's lock or not, or let it run; or, under its lock, the PLL alone, for ever."""
         self._library.board_oscillate(self._board, runs, lock_stays)
 
     def high(self, pins):
