@@ -35,6 +35,7 @@ STEPS = 4  # of Gauss and Newton's method, for each part of the band
 PARTS = (LOWER, 0.7, 1.0)
 MOVED_M = 0.4e-3  # a frame that moves no point by more is left as stated: patches and edges leave so much open
 SURE = 4.0  # standard deviations
+WORTH = 1.035  # times the coherence without it, at least, of what is not as stated
 GROUPS = 8  # of points, whose scatter says how sure the frame is
 LEAST_POINTS, LEAST_RECORDS = 6, 128  # records: points times patches
 KEPT = 0.8  # of the lattice's coherence: what strays from it is no frame
@@ -131,15 +132,26 @@ def locate(
         many = _records(board, bins, points_m, transfers, resolved, MANY, part)
         for _ in range(STEPS):
             frame, factor = _step(many, frame, factor)
-    if not all(frame.sure):  # what the waves leave open is as stated, and the rest is found once more
-        x, y, turned, stretched = sure = frame.sure
-        offset_m = (frame.offset_m[0] * x, frame.offset_m[1] * y)
-        frame = replace(frame, offset_m=offset_m, rotation=frame.rotation * turned, scale=frame.scale if stretched else 1.0)
-        for _ in range(STEPS):
-            frame, factor = _step(many, frame, factor, sure)
+    free = np.array(frame.sure)
+    if not free.all():  # what the waves leave open is as stated, and the rest is found once more
+        frame, factor = _as_stated(many, frame, factor, free)
+    for number in np.flatnonzero(free).tolist():  # so is what explains next to nothing: edges can feign it
+        without = _as_stated(many, frame, factor, free & (np.arange(4) != number))
+        if _coherence(many, *without) * WORTH > _coherence(many, frame, factor):
+            (frame, factor), free[number] = without, False
     inside = np.abs([*frame.offset_m, frame.rotation, frame.scale - 1]) < WIDEST
     frame = replace(frame, factor=factor)
     return frame if inside.all() and _coherence(few, frame, factor) > KEPT * coherence else None
+
+
+def _as_stated(many: _Records, frame: MeasuringFrame, factor: float, free: NDArray[np.bool_]) -> tuple[MeasuringFrame, float]:
+    """The frame, and its factor, of which only some is free; the rest is as stated."""
+    x, y, turned, stretched = free.tolist()
+    offset_m = (frame.offset_m[0] * x, frame.offset_m[1] * y)
+    frame = replace(frame, offset_m=offset_m, rotation=frame.rotation * turned, scale=frame.scale if stretched else 1.0)
+    for _ in range(STEPS):
+        frame, factor = _step(many, frame, factor, (x, y, turned, stretched))
+    return frame, factor
 
 
 def enough(board: Board, points: int) -> bool:

@@ -8,7 +8,7 @@ from workshop.calibration.true_plate import TruePlate
 
 from controller.workshop.calibration.direct_wave import direct_transfer
 from controller.workshop.calibration.frame import MIRRORS, MeasuringFrame, locate, middle_m
-from controller.workshop.calibration.point_plan import scattered_points
+from controller.workshop.calibration.point_plan import grid_points, scattered_points
 from controller.workshop.calibration.transfers import RawBins
 
 SMALL = small_board()
@@ -31,11 +31,12 @@ def plate():
 def located(plate, actual_m, common=1.0, stated_m=STATED_M):
     """From records of 30 dB, all with a factor in common at each frequency."""
     records = plate.learned(actual_m, noise=10**-1.5).responses
-    bins = RawBins.of(BOARD, plate.samples / BOARD.waveform.bit_clock_hz)
+    board, bit_clock_hz = plate.board, plate.board.waveform.bit_clock_hz
+    bins = RawBins.of(board, plate.samples / bit_clock_hz)
     some = slice(bins.first, bins.first + len(bins.gain))
-    turn = np.exp(-2j * np.pi * bins.frequency_hz / BOARD.waveform.bit_clock_hz) / BOARD.waveform.bit_clock_hz
+    turn = np.exp(-2j * np.pi * bins.frequency_hz / bit_clock_hz) / bit_clock_hz
     transfers = np.fft.rfft(records, bins.length, axis=1)[:, some].swapaxes(1, 2) * turn * common
-    return locate(BOARD, bins, stated_m, transfers, np.ones((len(stated_m), 32), bool))
+    return locate(board, bins, stated_m, transfers, np.ones((len(stated_m), 32), bool))
 
 
 @pytest.mark.parametrize("true", FRAMES)
@@ -49,6 +50,14 @@ def test_a_frame_is_found_whatever_unit_and_delay_the_records_have(plate, true):
     assert off_mm.max() < 0.15
     changed = (*found.offset_m, found.rotation, found.scale - 1)
     assert tuple(value != 0 for value in changed) == found.sure, "what the waves leave open is as stated"
+
+
+@pytest.mark.parametrize("edges", [{}, {"edges": "free", "theory": "mindlin"}])
+@pytest.mark.parametrize("stated_m", [grid_points(SMALL), scattered_points(SMALL, 110, 3e-3)])
+def test_edges_feign_no_frame_where_all_discs_are_at_one(edges, stated_m):
+    """They made 3 % of scale and half a millimetre, at five standard deviations."""
+    found = located(TruePlate(SMALL, 4.0, **edges), stated_m, stated_m=stated_m)
+    assert found.places(stated_m, middle_m(SMALL)) == pytest.approx(stated_m)
 
 
 def test_direct_waves_alone_give_the_frame_to_a_tenth_of_a_millimetre():
