@@ -86,7 +86,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
         found, dead = _learn(board, Path(options.folder), options)
         learned, findings = found.responses, [finding.message for finding in found.findings]
         drift = fit_drift(board, learned, _learn(board, Path(options.also), options)[0].responses) if options.also else None
-        source, waves = interpolate(board, learned, progress, dead, modes_of(board) if options.model else None)
+        source, waves = interpolate(board, learned, progress, dead, modes_of if options.model else None)
         decays = fit_decays(learned.responses, learned.known, learned.noise, board.waveform, learned.bit_clock_hz)
         if picture:
             from controller.workshop.calibration.checking.plot_leave_out import plot_leave_out
@@ -133,7 +133,12 @@ def _of_bank(options: argparse.Namespace, source: InterpolatedResponses, cells: 
     from controller.workshop.bank_builder.interpolation_error import interpolation_warning
 
     notes = []
-    if options.model and source.provenance.kind == "measured":
+    if source.size is not None:
+        notes.append(
+            f"the glass is {source.size.in_words()} than board.toml says, if its edges are as that says: measure it, and set"
+            " length_mm and width_mm in [plate]; a measured bank has it as it is"
+        )
+    elif options.model and source.provenance.kind == "measured":
         notes.append(
             "the board's model foresees points left out no better than waves do, and was not used: its edges are not the plate's"
         )
@@ -207,6 +212,7 @@ def _figures(
             "least": round(float(np.nanmin(kept)), 4),
             "points": int((~np.isnan(kept)).sum()),
         },
+        "size_of_glass": source.size and source.size._asdict(),
         "errors_of_points": source.errors and _of_points(source.errors),
         "noise_variance": waves.noise,
         "wavenumber_factor": _with_error(waves.dispersion.factor, waves.factor_error),

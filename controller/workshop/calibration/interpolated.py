@@ -13,6 +13,7 @@ from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
 from controller.workshop.calibration.kriging import Prior, SpectralField, foreseen_shares
+from controller.workshop.calibration.plate_size import PlateSize
 from controller.workshop.calibration.point_fit import PointFit
 from controller.workshop.calibration.spectra import Bins
 
@@ -52,10 +53,12 @@ class InterpolatedResponses:
         prior: Prior | None,
         points_m: Floats,
         errors: PointFit | None = None,  # of the points, corrected; None where they were not looked for
+        size: PlateSize | None = None,  # of the glass, where the model is of another than board.toml's
     ) -> None:
         self.provenance = provenance
         self.leave_out = leave_out
         self.errors = errors
+        self.size = size
         self.samples = bins.samples
         self.bit_clock_hz = board.waveform.bit_clock_hz
         self.plate_m = (board.plate.length_m, board.plate.width_m)

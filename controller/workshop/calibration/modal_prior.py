@@ -89,10 +89,10 @@ def unforeseen(
     known: NDArray[np.bool_],
     bins: Bins,
     prior_of: Callable[[Bins], Waves | ModalPrior],
-) -> float:
-    """Share of the energy of points left out that is not foreseen, in some bins of the band."""
+) -> Floats:
+    """Share of the energy of points left out that is not foreseen, in some bins of the band: (bin,)."""
     chosen = bins.in_band[:: max(len(bins.in_band) // BINS_EVALUATED, 1)]
     of_bins = spectra[chosen]
     _, foreseen = krige(points_m, of_bins, known, prior_of(bins.part(chosen)))
     power = (np.abs(of_bins) ** 2).sum(axis=(1, 2))
-    return float(((np.abs((foreseen - of_bins) * known) ** 2).sum(axis=(1, 2)) / power).mean())
+    return np.asarray((np.abs((foreseen - of_bins) * known) ** 2).sum(axis=(1, 2)) / power, np.float64)
