@@ -14,6 +14,7 @@ from controller.workshop.benchmark.focus.focus_emission import (
 )
 from controller.workshop.benchmark.focus.focus_figures import SETTLED
 from controller.workshop.physics.design.design_figures import design_figures
+from controller.workshop.physics.felt import LIGHT_TOUCH, ONE_NEWTON, felt_amplitudes_um
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.pictures.focus_series import focus_series
 from controller.workshop.physics.pictures.plot import plot_focus
@@ -43,6 +44,15 @@ def test_energy_of_the_modes_is_that_of_the_map(emission):
         assert found[other] == pytest.approx(found[name], rel=1e-4)
         assert found[other] * 1.01 != pytest.approx(found[name], rel=1e-4)
     assert 0.05 < found["kinetic_share"] < 0.3
+
+
+def test_what_is_felt_stands_beside_what_a_bare_plate_does(emission):
+    twin = emission.twin
+    (row,) = evaluated_foci(emission, 1e-3)
+    for name, load in (("felt_light_touch_um", LIGHT_TOUCH), ("felt_1_n_um", ONE_NEWTON)):
+        assert row[name] == pytest.approx(felt_amplitudes_um(twin.board, twin.modes, emission.words, [POINT], load)[0])
+    assert row["amplitude_um"] > row["felt_light_touch_um"] > row["felt_1_n_um"] > 0
+    assert row["felt"] == "may be felt"
 
 
 def test_state_at_t_is_what_stepping_bit_by_bit_gives(emission):

@@ -22,6 +22,7 @@ from controller.workshop.benchmark.focus.focus_figures import Figures, emit, ran
 from controller.workshop.benchmark.focus.sound_figures import sound_figures
 from controller.workshop.benchmark.stage.power import resistor_loss_j
 from controller.workshop.physics.design.design import gate_attenuation
+from controller.workshop.physics.felt import LIGHT_TOUCH, ONE_NEWTON, FeltLoad, felt_amplitudes_um, felt_crosstalk, felt_in_words
 from controller.workshop.physics.field import Field, crossing, map_axis
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.focusing import focus
@@ -63,11 +64,17 @@ def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb
 
 
 def evaluated_foci(emission: FocusEmission, period_s: float) -> list[Figures]:
-    """Figures of each focus of an emission, in the order of its points; `period_s` from one emission to the next."""
+    """Figures of each focus of an emission, in the order of its points; `period_s` from one emission to the next.
+
+    What is felt is with a finger on each focus; all other figures are of the bare plate.
+    """
     twin, field, points_m = emission.twin, emission.field, emission.points_m
     repeated, pulse = repeated_field(emission, period_s), field_of_pulse(emission)
+    light_um, pressed_um = (
+        felt_amplitudes_um(twin.board, twin.modes, emission.words, points_m, load).tolist() for load in (LIGHT_TOUCH, ONE_NEWTON)
+    )
     rows = []
-    for x_m, y_m in points_m:
+    for (x_m, y_m), light, pressed in zip(points_m, light_um, pressed_um, strict=True):
         evaluated = field.focus_metrics(x_m, y_m, points_m)
         reference_m = twin.reference_amplitude(x_m, y_m)
         rows.append(
@@ -76,6 +83,9 @@ def evaluated_foci(emission: FocusEmission, period_s: float) -> list[Figures]:
                 "y_mm": y_m * 1e3,
                 "amplitude_um": evaluated.amplitude_m * 1e6,
                 "relative_amplitude": evaluated.amplitude_m / reference_m if reference_m else 0.0,  # so near the edge nothing moves
+                "felt_light_touch_um": light,
+                "felt_1_n_um": pressed,
+                "felt": felt_in_words(light),
                 "contrast": evaluated.contrast,
                 "contrast_all": evaluated.contrast_all,
                 "spot_mm": evaluated.spot_m * 1e3,
@@ -184,7 +194,8 @@ def finger_figures(emission: FocusEmission, finger: Finger, seed: int) -> tuple[
     The first, with equal fingers on all foci: amplitude of each at T, and the largest within half a period of the band's middle,
     with their shares of those of the free plate, and the share by the paper's eq. (7) with half a wavelength at the band's upper
     edge as spot. The second: min, median and max of the share that a focus keeps of its amplitude at T with one finger at a random
-    place two wavelengths away or more.
+    place two wavelengths away or more; and what that finger feels
+    of what the first focus's finger feels, with fingers on all foci.
     """
     board, modes = emission.twin.board, emission.twin.modes
     waveform, plate = board.waveform, board.plate
@@ -215,4 +226,10 @@ def finger_figures(emission: FocusEmission, finger: Finger, seed: int) -> tuple[
         for at in on_foci
     ]
     kept = [motion.displacement({len(foci) + place: finger})[0, : len(foci)] / free[now] for place in range(len(places))]
-    return on_each, {"places": len(places), "kept": spread(np.concatenate(kept).tolist()) if kept else None}
+    load = FeltLoad(finger.mass_kg, finger.damping_n_s_m, finger.stiffness_n_m)
+    felt = [float(felt_crosstalk(board, modes, emission.words, foci[0], [*foci[1:], place], load)[-1]) for place in places]
+    return on_each, {
+        "places": len(places),
+        "kept": spread(np.concatenate(kept).tolist()) if kept else None,
+        "felt_share": spread(felt) if felt else None,
+    }
