@@ -170,7 +170,7 @@ def outputs(rows: list[tuple[Numbers, int]], layer: Layer, pulses: Numbers, turn
         scales[:, ORDER] = row[level_bytes:].reshape(-1, CHANNELS)
         weight = (share * scales >> 8) * (1 - 2 * turned)
         total += np.repeat(weight, layer.block_rows, axis=0)[: layer.weights] * unpacked(row[:level_bytes])
-    found = np.zeros((len(pulses), CHANNELS), np.int32)
+    found = np.full((len(pulses), CHANNELS), layer.taps // 2, np.int32)  # what shifts drop: half of a bit each, on average
     for tap in range(layer.taps):
         found += total[pulses[:, 0] + tap] * pulses[:, 1 + tap : 2 + tap].astype(np.int32) >> TAP_BITS
     return found

@@ -302,7 +302,7 @@ INLINE void outputs_of(const struct layer *layer, const ushorts *sum, ushorts *o
         const uint8_t *pulse = layer->pulses + 2 * output * (1 + taps);
         int first = read_16(pulse, 0), last = layer->weights - taps;
         const ushorts *from = sum + 4 * (first < 0 ? 0 : first < last ? first : last);
-        ushorts a = {0}, b = {0}, c = {0}, d = {0};
+        ushorts dropped = (ushorts){0} + (uint16_t)(taps / 2), a = dropped, b = dropped, c = dropped, d = dropped; /* half of a bit each */
         for (int tap = 0; tap < taps; tap++, from += 4) {
             int16_t by = read_16(pulse, 1 + tap);
             a += high(from[0], by), b += high(from[1], by), c += high(from[2], by), d += high(from[3], by);

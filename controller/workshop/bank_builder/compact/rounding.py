@@ -18,7 +18,7 @@ LOUDEST_RMS: Final = 2.2  # of a block: louder weights are cut
 SCALES: Final = 255  # largest scale of a block, in 256ths of the cell's
 
 
-PASSES: Final = 3  # in which cells are rounded again, each for the errors of all others
+PASSES: Final = 1  # in which cells are rounded again, each for the errors of all others
 
 
 def rounded(weights: Reals, nx: int, block_rows: int, stencil: Stencil) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
