@@ -1,11 +1,12 @@
 import msgspec
 import numpy as np
 import pytest
-from device.board.changed_board import changed
+from device.board.changed_board import changed, rewritten
 from hypothesis import given
 from hypothesis import strategies as st
 from tables import each_row
 
+from controller.cli import main
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
@@ -161,3 +162,24 @@ def test_the_filter_of_every_band_that_a_board_may_have_fits_a_transform_of_1310
         keys["duration_ms"] = 1e3 * samples / clock_hz
         resolved = next(relation for relation in RELATIONS if relation.broken.__name__ == "_resolved")
         assert not list(resolved.broken(changed(BOARD, **{f"waveform__{key}": value for key, value in keys.items()})))
+
+
+@each_row(
+    "command",
+    [
+        ["focus", "--at", "100", "80"],
+        ["focus", "--figures"],
+        ["bank", "build"],
+        ["bank", "choices"],
+        ["design"],
+        ["benchmark"],
+        ["run"],
+    ],
+)
+def test_every_command_refuses_a_band_of_gigabytes_in_one_line(capsys, tmp_path, command):
+    text = (find_board("simulated") / "board.toml").read_text()
+    (tmp_path / "board.toml").write_text(rewritten(text, band_low_hz=0.001))
+    assert main([*command, "--board", str(tmp_path)]) == 78
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "tell no less than 500 Hz from rest" in said
