@@ -8,6 +8,7 @@ from controller.errors import ConfigError
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.impulse_response import POINTS_PER_GEMM
 from controller.workshop.physics.responses.modal_response import WORKING_BYTES
+from controller.workshop.physics.sound import radiation_bytes
 
 DEFAULT_MB = 1500.0  # of 10^6 bytes; a plate with as many modes as are computed with (`closed_form.MAX_MODES`) needs less
 BASE_BYTES = 140e6  # Python, NumPy, SciPy, Matplotlib and the buffers of the linear algebra
@@ -37,7 +38,8 @@ def focus_bytes(modes: Modes, samples: int, times: int) -> float:
     at_points = 8.0 * (POINTS_PER_GEMM + 1) * CHANNELS * modes.count
     state = 8.0 * (8 * CHANNELS + 4 * times) * modes.count
     shown = 8.0 * 4 * samples * POINTS_PER_GEMM * CHANNELS
-    return BASE_BYTES + WORKING_BYTES + TABLE_BYTES + kernels + at_points + state + shown
+    at_times = max(at_points + state + shown, radiation_bytes(modes))  # its sound is computed last
+    return BASE_BYTES + WORKING_BYTES + TABLE_BYTES + kernels + at_times
 
 
 def require(needed_bytes: float, memory_mb: float | None, what: str) -> float:

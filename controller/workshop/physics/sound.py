@@ -32,8 +32,9 @@ HEARD_HZ = 20e3  # as far as A is defined
 DISTANCE_M = 0.3  # of the microphones from the plate's middle
 LONGEST_S = 0.1  # of ringing: a plate that rings for longer is heard as if it were played so often
 SPARE_NODES = 14  # of quadrature and interpolation, beyond the phase between their ends
+PLACES = 10
 KEPT = 4  # periods
-AT_ONCE = 2_000_000  # complex numbers in use together: 32 MB
+AT_ONCE = 500_000  # complex numbers in use together: 8 MB
 
 
 class PlateSound:
@@ -123,8 +124,10 @@ class Radiation:
             flat = waves.reshape(len(points), -1).view(np.float64)
             of_nodes += (modes.shapes(points).T @ flat).reshape(of_nodes.shape)
         integrals = of_nodes.view(np.complex128).reshape(modes.count, self.places, self._nodes)
-        coefficients = np.linalg.solve(chebvander(chebpts1(self._nodes), self._nodes - 1), integrals.transpose(1, 2, 0))
-        self._coefficients = np.ascontiguousarray(coefficients).view(np.float64)  # (place, node, mode, real and imaginary)
+        vander = chebvander(chebpts1(self._nodes), self._nodes - 1)
+        self._coefficients = np.empty((self.places, self._nodes, 2 * modes.count))  # real and imaginary part of each mode
+        for place, found in enumerate(self._coefficients):
+            found[:] = np.linalg.solve(vander, np.ascontiguousarray(integrals[:, place].T).view(np.float64))
 
     def pressure(self, frequency: Floats) -> Complex:
         """Pressure at `frequency`, (n,), up to the highest, in Pa for a mode that moves with 1 m/s: (place, n, mode)."""
@@ -136,7 +139,13 @@ class Radiation:
         return smooth
 
 
-def around(x_m: float, y_m: float, distance_m: float = DISTANCE_M, count: int = 10) -> Floats:
+def radiation_bytes(modes: Modes, places: int = PLACES) -> float:
+    """Bytes that `Radiation` takes at most."""
+    nodes = 2 * np.pi * HEARD_HZ / SOUND_M_S * float(np.hypot(modes.length_m, modes.width_m)) / 4 + SPARE_NODES
+    return 3 * 16.0 * places * nodes * modes.count + 6 * 16.0 * AT_ONCE
+
+
+def around(x_m: float, y_m: float, distance_m: float = DISTANCE_M, count: int = PLACES) -> Floats:
     """Places at a distance from a point of the plate, (count, 3), each with the same share of the half sphere above it (a spiral).
 
     Ten tell the mean over the half sphere within 0.3 dB on the paper's plate, within 2 dB on a third of it.
