@@ -15,6 +15,7 @@ import numpy as np
 from cobs import cobs
 from cocotb.clock import Clock
 from cocotb.triggers import ClockCycles, FallingEdge, Timer, ValueChange
+from cocotb.types import Logic
 from cocotb.utils import get_sim_time
 from pin_script import (
     BIT_TICKS,
@@ -70,6 +71,7 @@ __all__ = [
     "random_words",
 ]
 
+LEVELS = {"0": Logic(0), "1": Logic(1)}  # made once: a level is set a million times
 CLOCK_NS = 10
 CLOCK_PS = 1000 * CLOCK_NS
 PHASE_PS = CLOCK_PS // 2 + 500  # within a tick: inputs move half a nanosecond behind the clock's fall
@@ -210,7 +212,8 @@ class Panel:
         half = Timer(half_ns, "ns")
         sent = "".join(f"{byte:08b}" for byte in frame)[:bits] + "0"
         dut.spi_cs_n_i.value = 0
-        mosi.value = level = int(sent[0])
+        mosi.value, level = LEVELS[sent[0]], sent[0]
+        low, high = LEVELS.values()
         await Timer(INPUT_TICKS * CLOCK_NS, "ns")
         enabled = bool(dut.hv_enable_o.value)
         await Timer(PAD_TICKS * CLOCK_NS, "ns")
@@ -218,13 +221,13 @@ class Panel:
         await Timer((SELECT_TO_SCK_TICKS - INPUT_TICKS - PAD_TICKS) * CLOCK_NS, "ns")
         for number, following in enumerate(sent[1:], 1):  # mode 0: MOSI moves with the fall of SCK
             answer = answer << 1 | int(miso.value)
-            sck.value = 1
+            sck.value = high
             if number == bits:
                 half = Timer(SCK_TO_RELEASE_NS // 2, "ns")
             await half
-            sck.value = 0
-            if int(following) != level:
-                mosi.value = level = int(following)
+            sck.value = low
+            if following != level:
+                mosi.value, level = LEVELS[following], following
             await half
         if release_tick is not None:
             await self.until(release_tick)

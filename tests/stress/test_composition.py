@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pytest
 from device.kernel.test_compose import PITCH_M, buffers, compiled, needs_compiled, outcome
+from tables import each_row
 
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS, channel_bits, drive_words, quantise
@@ -148,7 +149,7 @@ def test_responses_that_cancel_leave_both_points_what_they_can_have(kind):
 NO_NUMBERS = (math.nan, math.inf, -math.inf)
 
 
-@pytest.mark.parametrize(("which", "value"), list(itertools.product(range(3), NO_NUMBERS)))
+@each_row(("which", "value"), list(itertools.product(range(3), NO_NUMBERS)))
 def test_what_is_no_number_is_refused_as_documented(tmp_path, make_bank, which, value):
     make_bank(tmp_path / "bank")
     point = [6e-3, 7e-3, 1.0]
@@ -172,7 +173,7 @@ def test_a_response_that_is_no_number_reaches_no_bank(value):
             take(response)
 
 
-@pytest.mark.parametrize("size", [5e-324, 1e-310, 1e-45, 1.17e-38, 1e-30, 1e-9, 1e30])
+@each_row("size", [5e-324, 1e-310, 1e-45, 1.17e-38, 1e-30, 1e-9, 1e30])
 def test_a_response_of_any_size_is_quantised_to_half_a_level_or_to_nothing(size):
     response = size * np.random.default_rng(5).uniform(-1, 1, (9, CHANNELS))
     levels, scale = quantise(response)

@@ -4,6 +4,7 @@ import json
 
 import pytest
 from device.application_socket.test_with_the_loop import serve  # noqa: F401
+from tables import each_row
 
 from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.application_socket.peers import Peer
@@ -111,13 +112,13 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("request_", "reason"), REFUSED)
+@each_row(("request_", "reason"), REFUSED)
 def test_what_is_refused_says_why_and_keeps_nothing(panel, request_, reason):
-    client = panel.connect()
-    (answer,) = panel.ask(client, {**request_, "id": 1})
+    with panel.connect() as client:
+        (answer,) = panel.ask(client, {**request_, "id": 1})
+        (unknown,) = panel.ask(client, {"kind": "play", "effect": "a", **POINT})
     assert (answer["id"], answer["outcome"]) == (1, "refused")
     assert answer["reason"].startswith(reason)
-    (unknown,) = panel.ask(client, {"kind": "play", "effect": "a", **POINT})
     assert unknown["reason"] == "effect 'a' is unknown"
     assert panel.control.plays == []
 

@@ -14,6 +14,7 @@ import pytest
 from alone import alone
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.application_socket.clients import ACCEPTS_A_TURN, LEAVE_S, PAUSE_S
 from controller.device.application_socket.command_socket import LINES_A_CLIENT, LINES_A_TURN
@@ -106,7 +107,7 @@ def test_the_very_edges_are_accepted(panel, edge):
     assert len(panel.control.plays) == 1
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("line", "reason"),
     [
         (POINT | {"x_mm": -0.1}, "x_mm = -0.1 is off the plate (0 to 210)"),
@@ -149,13 +150,14 @@ def test_the_very_edges_are_accepted(panel, edge):
     ],
 )
 def test_what_cannot_be_meant_is_refused_with_the_reason(panel, line, reason):
-    (answer,) = panel.ask(panel.connect(), {**line, "id": 9})
+    with panel.connect() as client:
+        (answer,) = panel.ask(client, {**line, "id": 9})
     assert answer == {"kind": "answer", "id": 9, "outcome": "refused", "reason": reason}
     assert panel.control.plays == panel.control.scenes == []
     assert balanced(panel)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("line", "number"),
     [
         (b"\n", None),
@@ -175,12 +177,13 @@ def test_what_cannot_be_meant_is_refused_with_the_reason(panel, line, reason):
     ],
 )
 def test_what_is_not_a_request_is_refused_with_its_id_where_that_can_be_reported(panel, line, number):
-    client = panel.connect()
-    (answer,) = panel.ask(client, line)
-    assert (answer["outcome"], answer["id"]) == ("refused", number)
-    assert 0 < len(answer["reason"]) <= 200
-    assert panel.ask(client, {"kind": "subscribe", "id": 1}) == [{"kind": "answer", "id": 1, "outcome": "done"}]
-    assert panel.socket.counters.not_valid == 1
+    before = panel.socket.counters.not_valid
+    with panel.connect() as client:
+        (answer,) = panel.ask(client, line)
+        assert (answer["outcome"], answer["id"]) == ("refused", number)
+        assert 0 < len(answer["reason"]) <= 200
+        assert panel.ask(client, {"kind": "subscribe", "id": 1}) == [{"kind": "answer", "id": 1, "outcome": "done"}]
+    assert panel.socket.counters.not_valid == before + 1
 
 
 def test_hello_tells_what_an_interface_has_to_know(panel):

@@ -8,6 +8,7 @@ import signal
 import socket
 
 import pytest
+from tables import each_row
 
 from controller.device.application_socket.connection import LAYER_BURST
 from controller.device.application_socket.messages import LINE_BYTES
@@ -82,9 +83,10 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("request_", "reason"), REFUSED)
+@each_row(("request_", "reason"), REFUSED)
 def test_what_is_no_layer_is_refused_with_its_key(panel, request_, reason):
-    (answer,) = panel.ask(panel.connect(PAGE), {**request_, "id": 7})
+    with panel.connect(PAGE) as client:
+        (answer,) = panel.ask(client, {**request_, "id": 7})
     assert (answer["id"], answer["outcome"]) == (7, "refused")
     assert answer["reason"].startswith(reason)
     assert panel.control.layers == []

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device import kernel
 from controller.device.kernel import words_twin
@@ -125,7 +126,7 @@ def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
 
 
 @both
-@pytest.mark.parametrize("samples", [0, -1, 2001, 1 << 40])
+@each_row("samples", [0, -1, 2001, 1 << 40])
 def test_lengths_that_cannot_be_composed_are_refused(one, samples):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[2] = kernel.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3)
@@ -136,7 +137,7 @@ def test_lengths_that_cannot_be_composed_are_refused(one, samples):
 
 
 @both
-@pytest.mark.parametrize("which", range(7))
+@each_row("which", range(7))
 def test_a_buffer_that_is_too_short_is_refused(one, which):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[which] = bytearray(made[which])[: 49 * 32 + 5 * 50 * 32 if which == 6 else -1]
@@ -145,7 +146,7 @@ def test_a_buffer_that_is_too_short_is_refused(one, which):
 
 
 @both
-@pytest.mark.parametrize("scale", [math.nan, math.inf, -1e-11])
+@each_row("scale", [math.nan, math.inf, -1e-11])
 def test_a_scale_that_cannot_be_is_refused(one, scale):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[4] = np.full(6, scale, np.float32).tobytes()

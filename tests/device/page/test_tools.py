@@ -161,7 +161,7 @@ def test_a_calibration_ends_with_its_page(bridge_with, asks):
         assert heard(other, "calibration")[0]["step"] == 0
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("message", "reason"),
     [
         ({"what": "all"}, "Invalid enum value 'all'"),
@@ -192,7 +192,7 @@ def test_the_lag_is_measured_on_the_panels_own_machine_alone(tmp_path, address):
         tools.kinds["calibrate"]({"kind": "calibrate", "what": "lag"})
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("changed", "reason"),
     [
         ({}, "no lag is being measured"),

@@ -59,7 +59,7 @@ def test_the_boards_own_is_never_replaced_and_comes_first(own, state, name):
     assert find_scene(own, "mine") == own.folder / "mine.toml"
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("toml", "said"),
     [
         (UNKNOWN, r"mine.toml: regions\[0\].effects\[0\] = 'clik' is no effect; known: .*click"),

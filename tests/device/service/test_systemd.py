@@ -8,6 +8,7 @@ from collections import deque
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device.service.systemd import PINGS_PER_TIMEOUT, Notifier, Watchdog
 
@@ -104,7 +105,7 @@ def test_the_watchdog_hears_of_progress_soon_enough_and_not_too_often(steps_s, t
         assert not any(earlier_s + period_s * (1 + 1e-9) < turn_s < later_s for turn_s in turns_s)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("environment", "watched"),
     [
         ({}, False),

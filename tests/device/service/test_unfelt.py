@@ -2,6 +2,7 @@
 
 import msgspec
 import pytest
+from tables import each_row
 
 from controller.cli import main
 from controller.commands import status as status_command
@@ -25,7 +26,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@each_row("case", CASES)
 def test_each_cause_has_a_line(case):
     arguments, begins = CASES[case]
     lines = unfelt(*arguments)

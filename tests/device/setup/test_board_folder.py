@@ -1,6 +1,7 @@
 """A board folder from answers: whole, valid, and a board whose keys follow from them; or one line and nothing left behind."""
 
 import itertools
+import tomllib
 
 import pytest
 from tables import each_row
@@ -42,6 +43,13 @@ def test_a_folder_holds_all_that_the_board_names(tmp_path):
     limits = board.limits
     assert 0.9 < limits.max_channel_edge_rate_hz * worst_edge_j(board.driver) / (limits.resistor_rating_w * limits.derating) <= 1
     assert not judge(board).odd
+
+
+def test_a_simulated_board_is_delivered_without_a_bitstream(tmp_path):
+    board = write_board(tmp_path / "panel", answers(fpga="simulated"), TOUCH["linux_input"])
+    assert (board.link.kind, board.link.device) == ("simulated", "actual.toml")
+    assert tomllib.loads((board.folder / "actual.toml").read_text()) == {"fpga": {"flash": "flash.bit"}}
+    assert not (board.folder / "flash.bit").exists()
 
 
 def test_every_glass_disc_edge_touch_panel_and_computer_makes_a_board(tmp_path):

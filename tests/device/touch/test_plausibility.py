@@ -162,6 +162,15 @@ def test_an_outlier_is_left_out_and_the_drag_goes_on():
     assert p.counted(points=6, believed=5, held=1, too_fast=1)
 
 
+@each_row(("lost", "places"), [(0, [50, 65, 80, 20, 110, 131]), (2, [50, 65, 80, 20, 125, 146])])
+def test_behind_an_outlier_the_speed_is_that_of_the_time_in_which_the_finger_may_have_moved(lost, places):
+    """1.5 m/s, and 0.6 m/s more in the last step; reports are lost before the outlier, and for two of the four it rested."""
+    p = Panel()
+    found = drag(p, *places[:3])
+    found.append(p.at((places[3], 50), after_s=(1 + lost) * PERIOD_S))
+    assert believed(found + drag(p, *places[4:])) == [[x_mm] if x_mm != 20 else [] for x_mm in places]
+
+
 def test_outliers_one_after_the_other_are_left_out():
     p = Panel()
     assert believed(drag(p, 50, 51, 52, 97, 20, 150, 56, 57)) == [[50], [51], [52], [], [], [], [56], [57]]
