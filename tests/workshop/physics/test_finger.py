@@ -92,7 +92,7 @@ def test_a_heavier_finger_takes_more_from_its_focus_and_little_from_others():
     assert kept[0] > kept[1] > kept[2] > 0
     assert [row[0]["peak_kept_by_eq_7"] for row in on_it] == pytest.approx([1.0, 1.0, 0.435], abs=0.06)
     assert elsewhere[2]["kept"]["median"] > 0.7
-    assert 0.05 < elsewhere[0]["felt_share"]["median"] < elsewhere[2]["felt_share"]["median"] < 0.6
+    assert [0.35 < row["felt_share"]["median"] < 0.5 for row in elsewhere] == [True] * 3  # a plate of six wavelengths by four
     assert elsewhere[0]["kept"] == pytest.approx({"min": 1.0, "median": 1.0, "max": 1.0}, abs=1e-9)
 
 
