@@ -93,8 +93,8 @@ def test_amplitudes_and_several_fingers_come_out_as_asked(board, bank, model):
         return np.array([((channel_bits(words) - idle) * one).sum() for one in whole])
 
     for x_m, y_m in places(4)[:6].tolist():
-        assert moved([(x_m, y_m, 0.5)]) == pytest.approx(0.5 * moved([(x_m, y_m, 1.0)]), rel=0.1), (
-            "eight channels and little rest: 7 % at worst"
+        assert moved([(x_m, y_m, 0.5)]) == pytest.approx(0.5 * moved([(x_m, y_m, 1.0)]), rel=0.12), (
+            "eight channels, 0.8 ms: 9 % at worst"
         )
     points = [(15e-3, 15e-3, 1.0), (50e-3, 35e-3, 1.0), (35e-3, 14e-3, 1.0)]
     alone = np.abs([moved([point])[0] for point in points])
