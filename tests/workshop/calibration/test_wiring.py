@@ -155,7 +155,7 @@ def test_the_command_from_the_first_points_to_a_verdict(tmp_path, capsys):
     rows = points.read_text().splitlines()
     assert len(rows) == 1 + FIRST_POINTS
     points.write_text("\n".join([*rows[:4], ""]))
-    simulate = ["calibrate", "simulate", str(folder), "--points", str(points), "--plate", "edges=free", "--snr-db", "30"]
+    simulate = ["calibrate", "simulate", str(folder), "--points", str(points), "--plate", "theory=mindlin", "--snr-db", "30"]
     wires = ["--swapped", "3", "9", "--inverted", "20", "--dead", "14"]
     assert main([*simulate, *wires]) == 0
     capsys.readouterr()
