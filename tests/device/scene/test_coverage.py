@@ -13,8 +13,8 @@ from controller.device.scene.shapes import Rectangle
 from controller.device.waveforms.selection import LATTICE_M
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("pitch_mm", [2.5, 5.0, 13.0])
+@each_row("shape", SHAPES)
+@each_row("pitch_mm", [2.5, 5.0, 13.0])
 @settings(max_examples=60)
 @given(u=fractions, v=fractions)
 def test_every_point_of_a_shape_has_its_four_cells_reached(shape, pitch_mm, u, v):
