@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from controller.device.bank.bank_file import BankFile
 from controller.device.bank.packing import CHANNELS
-from controller.device.kernel.compact_twin import Layer, Tables, along
+from controller.device.kernel.compact_twin import CompactTables, PulseLayer, along
 
 AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
 
@@ -25,7 +25,7 @@ class ResponseEntries:
         self._grid, self._samples = file.header.grid, file.header.samples
         self._entries, self._crcs, self._scales = file.tables.entries, file.tables.crcs, file.tables.scales
         self._mapped = self._common = memoryview(b"")
-        self._layer = Layer(1, 1, 1, 1, 1)  # of a compact bank, with `common`
+        self._layer = PulseLayer(1, 1, 1, 1, 1)  # of a compact bank, with `common`
         self._good = memoryview(mmap.mmap(-1, max(file.header.entries, 1)))  # shared with forked processes (`verify`)
         self._stride = file.sections["response"].stride
         self._row_bytes = file.sections["response"].row_bytes
@@ -61,7 +61,7 @@ class ResponseEntries:
         if zlib.crc32(mapped) != self._file.sections["tables"].crc:
             raise self._file.damaged("section 'tables'")
         try:
-            self._layer = Tables(mapped, self._samples, self._file.header.rest_rows).in_band
+            self._layer = CompactTables(mapped, self._samples, self._file.header.rest_rows).in_band
         except ValueError as error:
             raise self._file.unusable(f"cannot be used: {error}") from error
         self._common = mapped

@@ -316,9 +316,8 @@ class Compose(Record, frozen=True):
     """How waveforms for places between cells come about: as `bank` says, or as `bank build` chooses for the scene.
 
     Attributes:
-    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: `bank build` chooses both, and whether the bank holds
-        responses at all, or is compact, so that the bank is the smallest that keeps the two bounds; `compact`: a compact bank, a
-        twentieth of the size, whatever the scene: for boards of little memory.
+    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: the smallest bank that keeps the two bounds, compact or not,
+        with responses or not; `compact`: a twentieth of the size, for boards of little memory.
     max_error: Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
     max_time_us: Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel
         on the machine of the benchmark.

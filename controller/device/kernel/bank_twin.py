@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.kernel import compact_twin
-from controller.device.kernel.compact_twin import Tables
+from controller.device.kernel.compact_twin import CompactTables
 from controller.device.kernel.polarity_twin import SKETCH_STEP
 
 Numbers = NDArray[Any]
@@ -22,7 +22,7 @@ Point = tuple[float, float, float]  # x_m, y_m, amplitude
 Cells = list[tuple[int, int]]  # number and weight of each
 
 
-class Patch(NamedTuple):
+class PlaceCells(NamedTuple):
     """What serves a place: responses, and cells of a compact bank's rest, with their weights."""
 
     responses: Cells
@@ -99,7 +99,7 @@ class Responses:
         if not GROUP_SAMPLES <= block <= MAX_BLOCK_SAMPLES or block % GROUP_SAMPLES:
             raise ValueError(f"blocks of {block} samples: not {GROUP_SAMPLES} to {MAX_BLOCK_SAMPLES}, in eights")
         values = (samples + rest_rows(samples)) * CHANNELS
-        self.tables = Tables(tables, samples, rest_rows(samples)) if len(tables) else None
+        self.tables = CompactTables(tables, samples, rest_rows(samples)) if len(tables) else None
         across = self.tables.in_band.across if self.tables else 1
         if self.tables:
             values = compact_twin.row_bytes(self.tables.in_band.weights, self.tables.in_band.block_rows)
@@ -122,7 +122,7 @@ class Responses:
         self.stride, self.values, self.nx, self.ny = stride, values, nx, ny
         self.pitch_m, self.x0_m, self.y0_m = pitch_m, x0_m, y0_m
 
-    def patch(self, x_m: float, y_m: float) -> tuple[Patch, int]:
+    def patch(self, x_m: float, y_m: float) -> tuple[PlaceCells, int]:
         """Responses around a point that have a weight, with their weights; and -1, or the first cell without one."""
         if self.tables:
             return self._stencil(self.tables, x_m, y_m)
@@ -140,13 +140,13 @@ class Responses:
         for cell, share in cells:
             entry, scale = self._entry(cell)
             if entry < 0:
-                return Patch([], []), cell
+                return PlaceCells([], []), cell
             numbers.append(entry)
             shares.append(share * scale)
             total += share * scale
         if len(cells) == 1:
-            return Patch([(numbers[0], WEIGHT_SUM)], []), -1
-        return Patch(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0), []), -1
+            return PlaceCells([(numbers[0], WEIGHT_SUM)], []), -1
+        return PlaceCells(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0), []), -1
 
     def _entry(self, cell: int) -> tuple[int, float]:
         """Number and scale of the response of a cell; below 0 if it has none, or one that may not be used."""
@@ -160,7 +160,7 @@ class Responses:
             raise ValueError(f"the scale of response {entry} is not finite, or below 0")
         return entry, scale
 
-    def _stencil(self, tables: Tables, x_m: float, y_m: float) -> tuple[Patch, int]:
+    def _stencil(self, tables: CompactTables, x_m: float, y_m: float) -> tuple[PlaceCells, int]:
         """The same of a compact bank, whose weights are shares."""
         layer, numbers, shares, totals = tables.in_band, [], [], [0.0, 0.0]
         ix, right = compact_twin.along(x_m - self.x0_m, self.pitch_m, self.nx, layer)
@@ -169,7 +169,7 @@ class Responses:
             cell = (iy + y) * self.nx + ix + x
             entry, scale = self._entry(cell)
             if entry < 0:
-                return Patch([], []), cell
+                return PlaceCells([], []), cell
             numbers.append(entry)
             shares.append(float(share) * scale)
             totals[0] += abs(shares[-1])
@@ -181,9 +181,9 @@ class Responses:
             parts.append(float(share) * float(tables.rest_scales[cells[-1]]))
             totals[1] += abs(parts[-1])
         unit = compact_twin.SHARE_SUM / max(totals) if 0 < max(totals) < math.inf else 0.0
-        return Patch(_whole(numbers, shares, unit), _whole(cells, parts, unit)), -1
+        return PlaceCells(_whole(numbers, shares, unit), _whole(cells, parts, unit)), -1
 
-    def turned(self, patch: Patch) -> Numbers:
+    def turned(self, patch: PlaceCells) -> Numbers:
         """Response of a patch and its rest, (row, 32) in 16 bits, negated in channels that idle high."""
         turned = np.array([self.idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
         if self.tables:
@@ -195,7 +195,7 @@ class Responses:
         found: Numbers = short.reshape(-1, CHANNELS) * (1 - 2 * turned)
         return found
 
-    def _from_weights(self, tables: Tables, patch: Patch, turned: Numbers) -> Numbers:
+    def _from_weights(self, tables: CompactTables, patch: PlaceCells, turned: Numbers) -> Numbers:
         levels = np.frombuffer(self.response, np.uint8)
         rows = [(levels[entry * self.stride :][: self.values], share) for entry, share in patch.responses]
         even = compact_twin.outputs(rows, tables.in_band, tables.pulses, turned)

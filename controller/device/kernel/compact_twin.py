@@ -59,7 +59,7 @@ def unpacked(levels: NDArray[np.uint8]) -> NDArray[np.int32]:
     return 2 * numbers - LOUDEST
 
 
-class Layer(NamedTuple):
+class PulseLayer(NamedTuple):
     """What is said of the band, or of what it leaves out."""
 
     across: int
@@ -69,7 +69,7 @@ class Layer(NamedTuple):
     taps: int
 
 
-class Tables:
+class CompactTables:
     """What a compact bank has for all its cells. Raises ValueError if it is not as it should be."""
 
     def __init__(self, given: bytes | bytearray | memoryview, samples: int, rest_rows: int) -> None:
@@ -77,7 +77,7 @@ class Tables:
         if view.nbytes < TABLES_AT:
             raise ValueError("the tables of a compact bank are too short")
         numbers = HEAD.unpack_from(view)
-        self.in_band, self.rest = Layer(*numbers[:5]), Layer(*numbers[5:10])
+        self.in_band, self.rest = PulseLayer(*numbers[:5]), PulseLayer(*numbers[5:10])
         self.odd_near, self.odd_far, self.rest_nx, self.rest_ny = numbers[10:14]
         self.pitch_m, self.x0_m, self.y0_m = numbers[14:]
         even = samples // 2 + EVEN_BEYOND
@@ -101,7 +101,7 @@ class Tables:
         if not (np.isfinite(self.rest_scales) & (self.rest_scales >= 0)).all():
             raise ValueError("a scale of the compact bank's rest is not finite, or below 0")
 
-    def _layer(self, layer: Layer, outputs: int) -> tuple[Numbers, Numbers]:
+    def _layer(self, layer: PulseLayer, outputs: int) -> tuple[Numbers, Numbers]:
         half = (layer.across - 1) * layer.steps // 2 + 1
         stencil = self._take("<i2", half * half * layer.across**2).reshape(half, half, layer.across, layer.across)
         pulses = self._take("<i2", outputs * (1 + layer.taps)).reshape(outputs, -1)
@@ -120,7 +120,7 @@ class Tables:
         return found
 
 
-def tables_bytes(layers: tuple[Layer, Layer], outputs: tuple[int, int], rest_cells: int) -> int:
+def tables_bytes(layers: tuple[PulseLayer, PulseLayer], outputs: tuple[int, int], rest_cells: int) -> int:
     """Bytes of the tables."""
     total = TABLES_AT
     for layer, count in zip(layers, outputs, strict=True):
@@ -131,7 +131,7 @@ def tables_bytes(layers: tuple[Layer, Layer], outputs: tuple[int, int], rest_cel
     return total + sum(-(-size // LINE) * LINE for size in (4 * rest_cells, rest * rest_cells))
 
 
-def _possible(layer: Layer) -> bool:
+def _possible(layer: PulseLayer) -> bool:
     return (
         MIN_ACROSS <= layer.across <= MAX_ACROSS
         and 2 <= layer.steps <= MAX_STEPS
@@ -142,7 +142,7 @@ def _possible(layer: Layer) -> bool:
     )
 
 
-def along(distance_m: float, pitch_m: float, count: int, layer: Layer) -> tuple[int, int]:
+def along(distance_m: float, pitch_m: float, count: int, layer: PulseLayer) -> tuple[int, int]:
     """First cell of a stencil along one axis, and steps of the place beyond it; places outside the grid are moved into it."""
     steps = distance_m / pitch_m * layer.steps
     last = (count - 1) * layer.steps
@@ -152,7 +152,7 @@ def along(distance_m: float, pitch_m: float, count: int, layer: Layer) -> tuple[
     return first, whole - first * layer.steps
 
 
-def shares(stencil: Numbers, layer: Layer, x_steps: int, y_steps: int) -> Numbers:
+def shares(stencil: Numbers, layer: PulseLayer, x_steps: int, y_steps: int) -> Numbers:
     """Shares of the cells around a place, (across, across)."""
     all_steps = (layer.across - 1) * layer.steps
     found = stencil[min(y_steps, all_steps - y_steps), min(x_steps, all_steps - x_steps)]
@@ -161,7 +161,7 @@ def shares(stencil: Numbers, layer: Layer, x_steps: int, y_steps: int) -> Number
     return mirrored
 
 
-def outputs(rows: list[tuple[Numbers, int]], layer: Layer, pulses: Numbers, turned: Numbers) -> Numbers:
+def outputs(rows: list[tuple[Numbers, int]], layer: PulseLayer, pulses: Numbers, turned: Numbers) -> Numbers:
     """Sums of the pulses of some cells, (output, 32), each cell's row of bytes with its whole share; negated where turned."""
     level_bytes = layer.weights * CHANNELS // 2
     total = np.zeros((layer.weights, CHANNELS), np.int32)

@@ -28,7 +28,7 @@ from controller.device.kernel.bank_twin import (
     MAX_FOCI,
     REST_SAMPLES,
     BankBuffers,
-    Patch,
+    PlaceCells,
     Point,
     Responses,
     Writable,
@@ -95,7 +95,7 @@ class _Met:
 class _Nulls:
     """The bits of drive words, their margins, and the places to be kept still."""
 
-    def __init__(self, bank: Responses, words: memoryview, patches: list[Patch], points: int) -> None:
+    def __init__(self, bank: Responses, words: memoryview, patches: list[PlaceCells], points: int) -> None:
         self._samples, self._rows = bank.samples, -(-bank.samples // REST_SAMPLES)
         self._block, self._blocks = bank.block_samples, -(-bank.samples // bank.block_samples)
         self._step = max(bank.block_samples // STEPS_PER_BLOCK, 1)

@@ -38,7 +38,7 @@ from controller.device.kernel.bank_twin import (
     MAX_FOCI,
     REST_SAMPLES,
     BankBuffers,
-    Patch,
+    PlaceCells,
     Point,
     Responses,
     Writable,
@@ -87,7 +87,7 @@ def compose(
 class _Composition:
     """Responses of some points, in whole numbers."""
 
-    def __init__(self, bank: Responses, patches: list[Patch]) -> None:
+    def __init__(self, bank: Responses, patches: list[PlaceCells]) -> None:
         responses = np.array([bank.turned(patch) for patch in patches], np.int32)
         # (points, rows, 32): the rest outside the band, a mean over `REST_SAMPLES` samples each
         self.in_band, self.outside = responses[:, : bank.samples], responses[:, bank.samples :]  # (points, samples, 32)

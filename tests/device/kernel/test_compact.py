@@ -50,8 +50,10 @@ def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x
     nx, ny = random.integers(across, across + 4, 2).tolist()
     rest_nx, rest_ny = random.integers(rest_across, rest_across + 3, 2).tolist()
     weights, rest_weights = max(samples // 4, taps[0]), max(samples // 12, taps[1])
-    in_band = compact_twin.Layer(across, 2 * int(random.integers(1, 33)), weights, int(random.integers(1, weights + 1)), taps[0])
-    rest = compact_twin.Layer(rest_across, 16, rest_weights, min(7, rest_weights), taps[1])
+    in_band = compact_twin.PulseLayer(
+        across, 2 * int(random.integers(1, 33)), weights, int(random.integers(1, weights + 1)), taps[0]
+    )
+    rest = compact_twin.PulseLayer(rest_across, 16, rest_weights, min(7, rest_weights), taps[1])
     stride = -(-compact_twin.row_bytes(weights, in_band.block_rows) // 64) * 64
     plan = kernel.PLAN.pack(samples, stride, nx, ny, nx * ny, idle_word, 48, PITCH_M, 5e-3, 6e-3)
     scales = (10 ** random.uniform(-12, -11, nx * ny)).astype(np.float32)
@@ -163,10 +165,10 @@ def test_pulses_beyond_their_weights_are_refused():
     for wrong, why in ((np.int16(numbers[2] - 7), "beyond its weights"), (np.int16(-1), "beyond its weights")):
         tables[at : at + 2] = wrong.tobytes()
         with pytest.raises(ValueError, match=why):
-            compact_twin.Tables(tables, 96, 24)
+            compact_twin.CompactTables(tables, 96, 24)
     tables[at : at + 18] = np.array([0] + [2048] * 8, "<i2").tobytes()
     with pytest.raises(ValueError, match="taps"):
-        compact_twin.Tables(tables, 96, 24)
+        compact_twin.CompactTables(tables, 96, 24)
     if compiled:  # it stays within its buffers all the same
         compiled.compose(words, room, bank._replace(tables=bytes(tables)), [(9e-3, 9e-3, 1.0)])
 

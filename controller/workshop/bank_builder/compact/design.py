@@ -19,7 +19,7 @@ from controller.device.kernel import compact_twin
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.compact.pulses import Pulses, in_band_pulses, rest_pulses
 from controller.workshop.bank_builder.compact.rounding import rounded
-from controller.workshop.bank_builder.compact.stencils import STEPS, Stencil, stencil
+from controller.workshop.bank_builder.compact.stencils import STEPS, CompactStencil, stencil
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 PLACES: Final = 48  # from whose responses pulses are learned
@@ -45,8 +45,8 @@ class CompactDesign:
     rest_grid: Grid
     pulses: Pulses
     rest_pulses: Pulses
-    stencil: Stencil
-    rest_stencil: Stencil
+    stencil: CompactStencil
+    rest_stencil: CompactStencil
     samples: int
 
     @classmethod
@@ -78,11 +78,13 @@ class CompactDesign:
         ]
 
     @property
-    def layers(self) -> tuple[compact_twin.Layer, compact_twin.Layer]:
+    def layers(self) -> tuple[compact_twin.PulseLayer, compact_twin.PulseLayer]:
         """Numbers of the band, and of the rest."""
         made = []
         for pulses, own, block in ((self.pulses, self.stencil, BLOCK), (self.rest_pulses, self.rest_stencil, REST_BLOCK)):
-            made.append(compact_twin.Layer(own.across, STEPS, pulses.weights, min(block, pulses.weights), pulses.taps.shape[1]))
+            made.append(
+                compact_twin.PulseLayer(own.across, STEPS, pulses.weights, min(block, pulses.weights), pulses.taps.shape[1])
+            )
         return made[0], made[1]
 
     @property
@@ -127,7 +129,7 @@ class CompactDesign:
         return rounded(weights, self.grid.nx, self.layers[0].block_rows, self.stencil)
 
     def tables(self, source: ResponseSource) -> bytes:
-        """What all cells have in common, and the rest beside the band (`compact_twin.Tables`)."""
+        """What all cells have in common, and the rest beside the band (`compact_twin.CompactTables`)."""
         points_m, count = self.rest_grid.points(), self.samples + math.ceil(self.samples / REST_SAMPLES)
         weights = np.empty((len(points_m), self.rest_pulses.weights, CHANNELS), np.float32)
         for first in range(0, len(points_m), CELLS_AT_ONCE):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from controller.device.bank.packing import CHANNELS, SCALE_BITS
 from controller.device.kernel import compact_twin
-from controller.workshop.bank_builder.compact.stencils import Stencil
+from controller.workshop.bank_builder.compact.stencils import CompactStencil
 
 Reals = NDArray[np.floating[Any]]
 
@@ -21,7 +21,7 @@ SCALES: Final = 255  # largest scale of a block, in 256ths of the cell's
 PASSES: Final = 1  # in which cells are rounded again, each for the errors of all others
 
 
-def rounded(weights: Reals, nx: int, block_rows: int, stencil: Stencil) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+def rounded(weights: Reals, nx: int, block_rows: int, stencil: CompactStencil) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """Rows of a compact bank from the weights of all cells of a grid, (cell, weight, 32), row by row of `nx`.
 
     Returns the bytes (cell, byte), and for each cell m per V of a level (cell,).

@@ -31,7 +31,7 @@ EXPECTED_AT: Final = 16  # places a pitch, for the error that is expected
 
 
 @dataclass(frozen=True, eq=False)
-class Stencil:
+class CompactStencil:
     """Weights of `across` x `across` cells around a place on a lattice of `STEPS` a pitch, and how errors are passed on."""
 
     across: int
@@ -41,7 +41,7 @@ class Stencil:
     error: tuple[float, float]  # expected square error over that of the response, mean and at the worst place
 
 
-def stencil(plate: Plate, pitch_m: float, across: int, power: NDArray[Any], frequency_hz: NDArray[Any]) -> Stencil:
+def stencil(plate: Plate, pitch_m: float, across: int, power: NDArray[Any], frequency_hz: NDArray[Any]) -> CompactStencil:
     """The stencil for waves whose `power` at each `frequency_hz` is given."""
     back = np.array([(dy, dx) for dy in range(-REACH, 1) for dx in range(-REACH, REACH + 1) if dy < 0 or dx < 0])
     y, x = np.divmod(np.arange(across**2), across)
@@ -71,7 +71,7 @@ def stencil(plate: Plate, pitch_m: float, across: int, power: NDArray[Any], freq
     left = 1 - 2 * (weights * wanted).sum(axis=0) + np.einsum("ip,ij,jp->p", weights, alike + noise, weights)
     half = np.arange((across - 1) * STEPS // 2 + 1) / STEPS
     table = np.linalg.solve(alike + noise, to_cells(*np.meshgrid(half, half, indexing="ij")))
-    return Stencil(
+    return CompactStencil(
         across,
         np.rint(table.T * WHOLE).astype(np.int16).reshape(len(half), len(half), across**2),
         [(int(row), int(column), float(part)) for (row, column), part in zip(back, share, strict=True)],
