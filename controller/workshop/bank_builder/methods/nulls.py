@@ -2,7 +2,7 @@
 
 A finger feels with a pad that is almost a wavelength wide: a null of one point leaves the rest of it as it was. So seven places of
 the pad are kept still. Their displacement at each sample near T is linear in the bits, so a null is exact composition
-(`exact_composition.py`) with one more goal, to stay zero, for each place and sample. The plate's band makes these 189 about 50
+(`exact_composition.py`) with one more goal, to stay zero, for each place and sample. The plate's band makes these 189 about 40
 independent goals that matter; rounding to bits misses them by about a bit, and flips of bits that decide little bring the rest
 down.
 """
@@ -17,14 +17,14 @@ import numpy as np
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.device.kernel import Point
-from controller.device.waveforms.pad import OFFSETS, pad_places
+from controller.device.waveforms.pad import OFFSETS, PAD_M, pad_places
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.dual import Floats
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition, checked_points
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
-HEARD: Final = 0.05  # of the largest: directions of displacement near T that are weaker are left as they are
+HEARD: Final = 0.1  # of the largest: directions of displacement near T that are weaker are left as they are
 
 
 class ExactNulls:
@@ -43,6 +43,8 @@ class ExactNulls:
         nulls_m = np.array(nulls, np.float64).reshape(-1, 2)
         if not np.isfinite(nulls_m).all():
             raise ValueError("a null is not finite")
+        if (np.linalg.norm(places_m[:, None] - nulls_m, axis=2) < PAD_M / 2).any():
+            raise ValueError("a point to compose is where the plate shall stay still: on the pad of a null")
         pads_m = [place for null in nulls_m.tolist() for place in pad_places(*null)]
         words = self._composition.words(places_m, asked, independent(self.near_focus(pads_m)))
         most_m = np.abs(self._prediction.near_focus(words, pads_m)).max(axis=1, initial=0.0)
