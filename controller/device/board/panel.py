@@ -316,8 +316,8 @@ class Compose(Record, frozen=True):
     """How waveforms for places between cells come about: as `bank` says, or as `bank build` chooses for the scene.
 
     Attributes:
-    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: the smallest bank that keeps the two bounds, compact or not,
-        with responses or not; `compact`: a twentieth of the size, for boards of little memory.
+    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: the smallest bank that keeps the two bounds, compact or
+        not, with responses or not; `compact`: a twentieth of the size, for boards of little memory.
     max_error: Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
     max_time_us: Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel
         on the machine of the benchmark.
