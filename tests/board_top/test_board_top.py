@@ -248,4 +248,7 @@ def test_a_permit_that_is_lost_for_a_nanosecond_is_lost(pi):
         pi.board.take()
         pi.board.run(1_000_000)
         assert not any(word & outputs for word in pi.board.take()[1].tolist())
-        assert session.exchange.control(Control.CLEAR, raise_faults=False).faults == cause
+        exchange = session.exchange
+        end = pack_nop(exchange.sent, 0, exchange.sequence)
+        assert exchange.send_short(pack_nop(exchange.sent, end, exchange.sequence + 1), raise_faults=False).faults == cause
+        exchange.control(Control.CLEAR, raise_faults=False)
