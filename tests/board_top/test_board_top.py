@@ -238,8 +238,9 @@ def test_when_its_clock_stops_under_a_lock_that_stays_the_outputs_are_low_within
 
 def test_a_permit_that_is_lost_for_a_nanosecond_is_lost(pi):
     outputs = sum(channel_pins()) | signal_pins()["hv_enable"]
-    session = session_on(pi, opened(pi))
+    link = opened(pi)
     for name, cause in (("run permit", Fault.NO_PERMIT), ("temperature good", Fault.OVER_TEMPERATURE)):
+        session = session_on(pi, link)
         arm(pi, session)
         pi.board.drive(signal_pins()[name], 0)
         assert pi.board.levels & outputs == 0
@@ -251,4 +252,3 @@ def test_a_permit_that_is_lost_for_a_nanosecond_is_lost(pi):
         exchange = session.exchange
         end = pack_nop(exchange.sent, 0, exchange.sequence)
         assert exchange.send_short(pack_nop(exchange.sent, end, exchange.sequence + 1), raise_faults=False).faults == cause
-        exchange.control(Control.CLEAR, raise_faults=False)
