@@ -164,13 +164,14 @@ def shares(stencil: Numbers, layer: PulseLayer, x_steps: int, y_steps: int) -> N
 def outputs(rows: list[tuple[Numbers, int]], layer: PulseLayer, pulses: Numbers, turned: Numbers) -> Numbers:
     """Sums of the pulses of some cells, (output, 32), each cell's row of bytes with its whole share; negated where turned."""
     level_bytes = layer.weights * CHANNELS // 2
-    total = np.zeros((layer.weights, CHANNELS), np.int32)
+    total, driven = np.zeros((layer.weights, CHANNELS), np.int32), np.zeros(CHANNELS, bool)
     for row, share in rows:
         scales = np.empty((-(-layer.weights // layer.block_rows), CHANNELS), np.int32)
         scales[:, ORDER] = row[level_bytes:].reshape(-1, CHANNELS)
         weight = (share * scales >> 8) * (1 - 2 * turned)
+        driven |= weight.any(axis=0)
         total += np.repeat(weight, layer.block_rows, axis=0)[: layer.weights] * unpacked(row[:level_bytes])
-    found = np.full((len(pulses), CHANNELS), layer.taps // 2, np.int32)  # what shifts drop: half of a bit each, on average
+    found = np.tile(driven * np.int32(layer.taps // 2), (len(pulses), 1))  # what shifts drop: half of a bit each, on average
     for tap in range(layer.taps):
         found += total[pulses[:, 0] + tap] * pulses[:, 1 + tap : 2 + tap].astype(np.int32) >> TAP_BITS
     return found

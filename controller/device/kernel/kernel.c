@@ -239,11 +239,13 @@ INLINE ushorts high(ushorts value, int16_t tap) {
 #endif
 }
 
-/* Weights of a cell's numbers in a block, doubled, as numbers are half of the level above the lowest; their sums. */
-APART void block_weights(int16_t *restrict weight, int16_t *restrict sum, const uint8_t *restrict scale, const int16_t *restrict turn, int16_t share) {
+/* Weights of a cell's numbers in a block, doubled, as numbers are half of the level above the lowest; their sums; and which are not 0. */
+APART void block_weights(int16_t *restrict weight, int16_t *restrict sum, int16_t *restrict driven, const uint8_t *restrict scale, const int16_t *restrict turn,
+                         int16_t share) {
     int16_t shifted = (int16_t)(share * 8);
     for (int i = 0; i < CHANNELS; i++) {
         int16_t one = (int16_t)((int32_t)shifted * (int16_t)(scale[i] << 5) >> 16);
+        driven[i] |= one;
         one = (int16_t)((one ^ turn[i]) - turn[i]);
         sum[i] = (int16_t)(sum[i] + one);
         weight[i] = (int16_t)(2 * one);
@@ -273,8 +275,8 @@ APART void add_row_of_cells(ushorts *sum, int rows, const uint8_t *const *levels
     }
 }
 
-/* Weights of a place: the sum of its cells'. */
-static void sum_weights(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, ushorts *sum) {
+/* Weights of a place: the sum of its cells'. Channels in which any is not 0 have a bit in `driven`. */
+static void sum_weights(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, ushorts *sum, int16_t *driven) {
     int cells = layer->across * layer->across;
     int16_t weight[MAX_CELLS][CHANNELS], turn[CHANNELS];
     for (int half = 0; half < 2; half++) {
@@ -287,7 +289,7 @@ static void sum_weights(uint32_t idle_word, const struct layer *layer, const uin
         int left = layer->weights - row, rows = left < layer->block_rows ? left : layer->block_rows;
         int16_t together[CHANNELS] = {0};
         for (int cell = 0; cell < cells; cell++)
-            block_weights(weight[cell], together, levels[cell] + (layer->weights * (CHANNELS / 2) + block * CHANNELS), turn, share[cell]);
+            block_weights(weight[cell], together, driven, levels[cell] + (layer->weights * (CHANNELS / 2) + block * CHANNELS), turn, share[cell]);
         for (int part = 0; part < 4; part++) {
             ushorts lowest = (ushorts){0} - load(together + 8 * part) * LOUDEST;
             for (int i = 0; i < rows; i++) sum[4 * (row + i) + part] = lowest;
@@ -297,12 +299,12 @@ static void sum_weights(uint32_t idle_word, const struct layer *layer, const uin
     }
 }
 
-INLINE void outputs_of(const struct layer *layer, const ushorts *sum, ushorts *out, int taps) {
+INLINE void outputs_of(const struct layer *layer, const ushorts *sum, const ushorts *dropped, ushorts *out, int taps) {
     for (int64_t output = 0; output < layer->outputs; output++, out += 4) {
         const uint8_t *pulse = layer->pulses + 2 * output * (1 + taps);
         int first = read_16(pulse, 0), last = layer->weights - taps;
         const ushorts *from = sum + 4 * (first < 0 ? 0 : first < last ? first : last);
-        ushorts dropped = (ushorts){0} + (uint16_t)(taps / 2), a = dropped, b = dropped, c = dropped, d = dropped; /* half of a bit each */
+        ushorts a = dropped[0], b = dropped[1], c = dropped[2], d = dropped[3];
         for (int tap = 0; tap < taps; tap++, from += 4) {
             int16_t by = read_16(pulse, 1 + tap);
             a += high(from[0], by), b += high(from[1], by), c += high(from[2], by), d += high(from[3], by);
@@ -312,12 +314,15 @@ INLINE void outputs_of(const struct layer *layer, const ushorts *sum, ushorts *o
 }
 
 static void outputs(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, ushorts *out) {
-    ushorts sum[4 * MAX_WEIGHTS];
-    sum_weights(idle_word, layer, levels, share, sum);
+    ushorts sum[4 * MAX_WEIGHTS], dropped[4];
+    int16_t driven[CHANNELS] = {0};
+    sum_weights(idle_word, layer, levels, share, sum, driven);
+    for (int i = 0; i < CHANNELS; i++) driven[i] = driven[i] ? (int16_t)(layer->taps / 2) : 0; /* half of a bit for each tap */
+    for (int part = 0; part < 4; part++) dropped[part] = load(driven + 8 * part);
     switch (layer->taps) {
-    case 4: outputs_of(layer, sum, out, 4); break;
-    case 8: outputs_of(layer, sum, out, 8); break;
-    default: outputs_of(layer, sum, out, layer->taps);
+    case 4: outputs_of(layer, sum, dropped, out, 4); break;
+    case 8: outputs_of(layer, sum, dropped, out, 8); break;
+    default: outputs_of(layer, sum, dropped, out, layer->taps);
     }
 }
 

@@ -41,7 +41,9 @@ def test_the_wheel_for_arm_plays_as_the_twin(tmp_path):
         "-m",
         "not slow",
     ]
-    paths = os.pathsep.join(map(str, (packages, HERE.parents[1], HERE.parents[2])))  # the wheel's controller is found first
+    paths = os.pathsep.join(
+        map(str, (packages, HERE.parents[1], HERE.parents[2]))
+    )  # the wheel's own package before the tests' folder
     said = output_of(
         *emulated, *alone, "--ignore", HERE / Path(__file__).name, HERE, PYTHONPATH=paths, HAPTIC_PANEL_KERNEL="compiled"
     )

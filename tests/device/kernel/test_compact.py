@@ -17,6 +17,9 @@ except ImportError:
 needs_compiled = pytest.mark.skipif(compiled is None, reason="built without a C compiler")
 
 PITCH_M = 4e-3
+UNDRIVEN = np.flatnonzero(compact_twin.ORDER == 21)[
+    0
+]  # where the scale of a channel without an actuator lies among those of a block
 
 
 def pulses_of(random, outputs, weights, taps):
@@ -25,6 +28,13 @@ def pulses_of(random, outputs, weights, taps):
     found[:, 0] = random.integers(0, weights - taps + 1, outputs)
     found[:, 1:] = random.integers(-(1 << 14) // taps + 1, (1 << 14) // taps, (outputs, taps))
     return found
+
+
+def rows_of(random, cells, layer, stride):
+    """Random rows of cells, in which channel 21 has no weight."""
+    made = np.frombuffer(random.bytes(cells * stride), np.uint8).reshape(cells, stride).copy()
+    made[:, 16 * layer.weights + UNDRIVEN : compact_twin.row_bytes(layer.weights, layer.block_rows) : 32] = 0
+    return made.tobytes()
 
 
 def tables_of(random, samples, in_band, rest, rest_nx, rest_ny, odd=(2867, 3744)):
@@ -39,7 +49,7 @@ def tables_of(random, samples, in_band, rest, rest_nx, rest_ny, odd=(2867, 3744)
             made += part + bytes(-len(part) % 64)
     for part in (
         (10 ** random.uniform(-13, -11, cells)).astype("<f4").tobytes(),
-        random.bytes(cells * compact_twin.row_bytes(rest.weights, rest.block_rows)),
+        rows_of(random, cells, rest, compact_twin.row_bytes(rest.weights, rest.block_rows)),
     ):
         made += part + bytes(-len(part) % 64)
     return bytes(made)
@@ -62,7 +72,7 @@ def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x
         np.arange(nx * ny, dtype=np.int32).tobytes(),
         scales.tobytes(),
         bytearray(b"\1" * (nx * ny)),
-        random.bytes(nx * ny * stride),
+        rows_of(random, nx * ny, in_band, stride),
         tables_of(random, samples, in_band, rest, rest_nx, rest_ny),
     )
     return bytearray(4 * samples), bytearray(kernel.room_bytes(samples)), bank
@@ -90,6 +100,7 @@ def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, across, r
         assert nulls.null_places(words, room, bank, points, [(11e-3, 13e-3, 1.0)]) == -1
         found.append((composed, bytes(words)))
     assert found[0] == found[1]
+    assert not ((np.frombuffer(b"".join(found[0]), "<u4") ^ idle_word) & 1 << 21).any(), "a channel without weights stays idle"
 
 
 def test_a_response_is_the_sum_of_its_pulses():

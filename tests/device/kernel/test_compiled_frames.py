@@ -65,7 +65,7 @@ def test_it_refuses_arguments_of_another_number_or_kind(name):
             function(*arguments)
 
 
-def test_a_bank_that_is_no_tuple_of_five_buffers_is_refused():
-    for bank in (b"", [b""] * 5, (b"",) * 4, (b"",) * 6, (b"", b"", b"", b"", 1)):
+def test_a_bank_that_is_no_tuple_of_six_buffers_is_refused():
+    for bank in (b"", [b""] * 6, (b"",) * 5, (b"",) * 7, (b"", b"", b"", b"", b"", 1)):
         with pytest.raises(TypeError):
             compiled.compose(bytearray(9), bytearray(9), bank, [(0.0, 0.0, 1.0)])
