@@ -41,9 +41,7 @@ def test_the_wheel_for_arm_plays_as_the_twin(tmp_path):
         "-m",
         "not slow",
     ]
-    paths = os.pathsep.join(
-        map(str, (packages, HERE.parents[1], HERE.parents[2]))
-    )  # the wheel's own package before the tests' folder
+    paths = os.pathsep.join(map(str, (packages, HERE.parents[1], HERE.parents[2])))  # the wheel before the clone
     said = output_of(
         *emulated, *alone, "--ignore", HERE / Path(__file__).name, HERE, PYTHONPATH=paths, HAPTIC_PANEL_KERNEL="compiled"
     )

@@ -17,9 +17,7 @@ except ImportError:
 needs_compiled = pytest.mark.skipif(compiled is None, reason="built without a C compiler")
 
 PITCH_M = 4e-3
-UNDRIVEN = np.flatnonzero(compact_twin.ORDER == 21)[
-    0
-]  # where the scale of a channel without an actuator lies among those of a block
+UNDRIVEN = np.flatnonzero(compact_twin.ORDER == 21)[0]  # where the scale of channel 21 lies among those of a block
 
 
 def pulses_of(random, outputs, weights, taps):
