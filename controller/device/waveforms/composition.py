@@ -19,6 +19,12 @@ __all__ = ["MAX_FOCI", "Composer", "Point"]
 BLOCK_S = 96e-6  # over which the local strength of a response is taken
 
 
+def block_samples(bit_clock_hz: float) -> int:
+    """Samples of `BLOCK_S`, in groups of the kernel."""
+    groups = round(BLOCK_S * bit_clock_hz / kernel.GROUP_SAMPLES)
+    return min(max(kernel.GROUP_SAMPLES * groups, kernel.GROUP_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
+
+
 class Composer:
     """Composes drive words from a bank's responses in memory taken once.
 
@@ -33,8 +39,6 @@ class Composer:
             raise BankError(f"{bank.path}: waveforms of {bank.samples} samples cannot be composed, at most {MAX_SAMPLES}")
         common = bank.responses.common
         grid = bank.grid
-        eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.GROUP_SAMPLES)
-        block_samples = min(max(kernel.GROUP_SAMPLES * eights, kernel.GROUP_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
         self._bank = bank
         entries, scales, good = bank.responses.tables()
         plan = kernel.PLAN.pack(
@@ -44,7 +48,7 @@ class Composer:
             grid.ny,
             len(scales),
             idle_word,
-            block_samples,
+            block_samples(bank.header.bit_clock_hz),
             grid.pitch_m,
             grid.x0_m,
             grid.y0_m,

@@ -21,7 +21,7 @@ from controller.device.board.board import Board
 from controller.device.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.compact.design import CompactDesign
-from controller.workshop.bank_builder.compact.loss import loss
+from controller.workshop.bank_builder.compact.trial import Trial
 from controller.workshop.bank_builder.interpolation_error import interpolation_error
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
@@ -125,12 +125,18 @@ def _write_compact(plan: BankPlan, design: CompactDesign, entries: _Entries) -> 
         entries.count_edges(drive_words(response, plan.board.idle_word), f"cell {cell}")
 
     rows, scales = design.rows(plan.source, plan.wanted, count)
-    tables = design.tables(plan.source)
+    rest_rows, rest_scales = design.rest_rows(plan.source)
+
+    def tables_of(gain: float) -> bytes:
+        return design.tables(rest_rows, rest_scales * np.float32(gain))
+
+    trial = Trial(plan.board, plan.source, design, plan.wanted, rows, scales, tables_of)
+    gain = trial.rest_gain()
     for cell in plan.numbers.tolist():
         entries.add_row(cell, rows[cell], float(scales[cell]))
-    entries.set_tables(tables)
+    entries.set_tables(tables_of(gain))
     entries.require_motion(len(plan.numbers))
-    return loss(plan.board, plan.source, design, plan.wanted, (rows, scales, tables))
+    return trial.loss(gain)
 
 
 class _Entries:

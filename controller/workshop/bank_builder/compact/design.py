@@ -128,15 +128,18 @@ class CompactDesign:
                 use(cell, response)
         return rounded(weights, self.grid.nx, self.layers[0].block_rows, self.stencil)
 
-    def tables(self, source: ResponseSource) -> bytes:
-        """What all cells have in common, and the rest beside the band (`compact_twin.CompactTables`)."""
+    def rest_rows(self, source: ResponseSource) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+        """As `rows`, of the rest beside the band."""
         points_m, count = self.rest_grid.points(), self.samples + math.ceil(self.samples / REST_SAMPLES)
         weights = np.empty((len(points_m), self.rest_pulses.weights, CHANNELS), np.float32)
         for first in range(0, len(points_m), CELLS_AT_ONCE):
             some = points_m[first : first + CELLS_AT_ONCE]
             whole = source.entry_responses(some, out=np.empty((len(some), count, CHANNELS), np.float32))
             weights[first : first + len(some)] = np.matmul(self.rest_pulses.analysis, whole[:, self.samples :])
-        rows, scales = rounded(weights, self.rest_grid.nx, self.layers[1].block_rows, self.rest_stencil)
+        return rounded(weights, self.rest_grid.nx, self.layers[1].block_rows, self.rest_stencil)
+
+    def tables(self, rest_rows: NDArray[np.uint8], rest_scales: NDArray[np.float32]) -> bytes:
+        """What all cells have in common, and the rest beside the band (`compact_twin.CompactTables`)."""
         grid = self.rest_grid
         head = compact_twin.HEAD.pack(
             *self.layers[0], *self.layers[1], *self.pulses.odd, grid.nx, grid.ny, grid.pitch_m, grid.x0_m, grid.y0_m
@@ -145,7 +148,7 @@ class CompactDesign:
         for pulses, own in ((self.pulses, self.stencil), (self.rest_pulses, self.rest_stencil)):
             parts += [own.table.astype("<i2"), np.column_stack([pulses.first, pulses.taps]).astype("<i2")]
         made = bytearray(head.ljust(compact_twin.TABLES_AT, b"\0"))
-        for part in (*parts, scales.astype("<f4"), rows):
+        for part in (*parts, rest_scales.astype("<f4"), rest_rows):
             made += part.tobytes()
             made += bytes(-len(made) % compact_twin.LINE)
         return bytes(made)

@@ -14,10 +14,8 @@ from controller.workshop.bank_builder.compact.stencils import CompactStencil
 
 Reals = NDArray[np.floating[Any]]
 
-LOUDEST_RMS: Final = 2.2  # of a block: louder weights are cut
+LOUDEST_RMS: Final = 2.5  # of a block: louder weights are cut
 SCALES: Final = 255  # largest scale of a block, in 256ths of the cell's
-
-
 PASSES: Final = 1  # in which cells are rounded again, each for the errors of all others
 
 
