@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from controller.device.board.board import Board
 
 ROWS = {  # what is printed of each figure; numbers in brackets are those of the paper's equations
-    "amplitude_under_finger_um": "amplitude under the finger (µm)",
-    "felt_share": "of the paper's 3 µm, felt strongly",
+    "felt_um": "felt amplitude (µm), estimate",
+    "felt": "that is",
     "gains_percent": "10 % more of it adds (%)",
     "possible_amplitude_um": "amplitude in reach (µm), estimate",
     "amplitude_um": "amplitude taken (µm)",
@@ -69,15 +69,16 @@ ROWS = {  # what is printed of each figure; numbers in brackets are those of the
     "learning_pitch_mm": "its largest pitch (mm)",
     "in_wavelengths": "in wavelengths",
 }
-COLUMNS = ("amplitude_under_finger_um", "amplitude_um", "spot_mm", "contrast", "contrast_outside", "resistors_w", "edge_limit_khz",
+COLUMNS = ("felt_um", "amplitude_um", "spot_mm", "contrast", "contrast_outside", "resistors_w", "edge_limit_khz",
            "mechanical_power_mw", "points_to_learn")  # fmt: skip
-FOUND = ("thickness_mm", "disc", "discs", "channels", "amplitude_under_finger_um", "spot_mm", "contrast_outside", "resistors_w",
+FOUND = ("thickness_mm", "disc", "discs", "channels", "felt_um", "spot_mm", "contrast_outside", "resistors_w",
          "edge_limit_khz")  # fmt: skip
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    from controller.workshop.physics.design.design_inputs import FELT_UM, NUMBERS, DesignInputs
+    from controller.workshop.physics.design.design_inputs import NUMBERS, DesignInputs
+    from controller.workshop.physics.felt import DETECTION_UM
 
     command = declare(
         example="haptic-panel design --thickness-mm 1",
@@ -95,9 +96,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         metavar="WHAT",
         help="search panels that are felt, over one or more of thickness,channels,disc: fewest channels first",
     )
-    command.add_argument(
-        "--felt-um", type=float, default=FELT_UM, metavar="µm", help="amplitude under the finger that --find wants"
-    )
+    command.add_argument("--felt-um", type=float, default=DETECTION_UM[1], metavar="µm", help="felt amplitude that --find wants")
     command.add_argument(
         "--price",
         action="append",
@@ -164,7 +163,7 @@ def _find(options: argparse.Namespace, board: Board, changes: dict[str, float], 
     if not options.felt_um > 0:
         raise ConfigError(f"--felt-um {options.felt_um:g}: must be above 0")
     rows = find_designs(board, changes, parts, options.find.split(","), options.felt_um, _prices(options.price))
-    reached = rows[0]["amplitude_under_finger_um"] >= options.felt_um
+    reached = rows[0]["felt_um"] >= options.felt_um
     show(options, {"board": board.name, "felt_um": options.felt_um, "reached": reached, "designs": rows}, _found_table)
     return 0 if reached else 1
 
@@ -184,11 +183,11 @@ def _prices(given: list[str]) -> dict[str, float]:
 
 
 def _plot(picture: Path, figures: dict[str, Any]) -> None:
-    from controller.workshop.physics.design.design_inputs import FELT_UM
     from controller.workshop.physics.design.plot_design import plot_sweep
+    from controller.workshop.physics.felt import DETECTION_UM
 
     titles = {name: ROWS[name] for name in COLUMNS}
-    plot_sweep(picture, figures["swept"], figures["values"], figures["designs"], titles, {COLUMNS[0]: FELT_UM})
+    plot_sweep(picture, figures["swept"], figures["values"], figures["designs"], titles, {COLUMNS[0]: DETECTION_UM[1]})
 
 
 def _table(figures: dict[str, Any]) -> str:
@@ -206,7 +205,7 @@ def _found_table(figures: dict[str, Any]) -> str:
     reached = figures["reached"]
     priced = "cost" in figures["designs"][0]
     least = "Cheapest" if priced else "Fewest channels"
-    said = f"{f'{least} that reach' if reached else 'None reaches'} {figures['felt_um']:g} µm under the finger"
+    said = f"{f'{least} that reach' if reached else 'None reaches'} a felt amplitude of {figures['felt_um']:g} µm"
     names = ("cost", *FOUND) if priced else FOUND
     rows = [names, *([_shown(row[name]) for name in names] for row in figures["designs"])]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]

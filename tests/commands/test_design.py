@@ -41,8 +41,8 @@ def test_a_sweep_is_a_table_and_json(capsys):
 
 
 def test_a_search_is_a_table_and_json_and_says_by_its_exit_code_whether_it_found_one(capsys):
-    table = printed(capsys, "--find", "channels", "--felt-um", 2).out.splitlines()
-    assert table[0] == "Fewest channels that reach 2 µm under the finger:"
+    table = printed(capsys, "--find", "channels", "--felt-um", 1).out.splitlines()
+    assert table[0] == "Fewest channels that reach a felt amplitude of 1 µm:"
     assert table[1].split() == list(FOUND)
     assert len({len(line) for line in table[1:]}) == 1
     found = json.loads(printed(capsys, "--find", "thickness", "--felt-um", 9, "--json", code=1).out)

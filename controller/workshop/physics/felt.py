@@ -32,8 +32,10 @@ from scipy.signal import lfilter
 
 from controller.device.board.board import Board
 from controller.device.waveforms.pad import PAD_M
-from controller.workshop.physics.finger import Finger, point_motion
+from controller.workshop.physics.finger import Finger
 from controller.workshop.physics.modes.modes import Modes
+from controller.workshop.physics.pad_motion import PadMotion
+from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 
@@ -65,13 +67,30 @@ def felt_amplitudes_um(
     load: FeltLoad = LIGHT_TOUCH,
 ) -> Floats:
     """What each finger feels of an emission that ends at T: (finger,) in um."""
-    motion = point_motion(board, modes, words, fingers_m, after_s=AROUND_S, pad_m=load.pad_mm * 1e-3)
-    power = motion.history(dict.fromkeys(range(motion.free.shape[1]), load)) ** 2
-    period_s = board.waveform.bit_period_s
-    forgotten = float(np.exp(-period_s / SKIN_S))
-    remembered = lfilter([1 - forgotten], [1, -forgotten], power, axis=0)
+    found: Floats = felt_by_all_um(board, modes, volts_above_idle(board, words)[None], fingers_m, load)[0]
+    return found
+
+
+def felt_by_all_um(
+    board: Board,
+    modes: Modes,
+    volts: Floats,  # (emission, sample, 32): above rest
+    fingers_m: ArrayLike,
+    load: FeltLoad = LIGHT_TOUCH,
+) -> Floats:
+    """The same of many emissions at the same places: (emission, finger)."""
+    samples, period_s = volts.shape[1], board.waveform.bit_period_s
+    motion = PadMotion(board, modes, fingers_m, load, load.pad_mm * 1e-3, samples, AROUND_S)
     around = int(AROUND_S / period_s)
-    found: Floats = np.sqrt(2 * remembered[max(len(words) - around, 0) : len(words) + around + 1].max(axis=0)) * 1e6
+    felt_m = felt_history(motion.history(volts), period_s)[max(samples - around, 0) : samples + around + 1]
+    found: Floats = felt_m.max(axis=0).T * 1e6
+    return found
+
+
+def felt_history(pad_motion: Floats, period_s: float) -> Floats:
+    """Felt amplitude at each time of displacements of pads, (time, ...) from rest on, in their unit."""
+    forgotten = float(np.exp(-period_s / SKIN_S))
+    found: Floats = np.sqrt(2 * lfilter([1 - forgotten], [1, -forgotten], pad_motion**2, axis=0))
     return found
 
 

@@ -35,7 +35,6 @@ Complex = NDArray[np.complex128]
 WINDOW_LENGTHS = 2.0  # of the window, in times from the start to the last that is asked for
 DYING = 12.0  # sigma W
 MODES_AT_ONCE = 256  # 16 MB of resonances
-RINGS, PER_RING = 3, 12  # points of a pad
 
 
 @dataclass(frozen=True)
@@ -103,8 +102,6 @@ def point_motion(
     points_m: ArrayLike,  # (point, 2): x and y in m: where fingers are, and where displacements are wanted
     *,
     after_s: float = 20e-6,  # last time after T that will be asked for
-    # Diameter of the pads by which fingers touch: forces are spread over them and displacements are means over them, by pressure
-    pad_m: float = 0.0,
     # Whether points under a finger yield by the modes above the highest of `modes` too. A point within half a wavelength of the
     # highest mode to an edge is taken to yield as others do
     modes_above: bool = True,
@@ -120,7 +117,7 @@ def point_motion(
     volts = np.fft.fft(steps * dying[:, None], bits, axis=0)
     volts *= (DriverResponse.of(board.driver).transfer(s) / s)[:, None]  # on the piezo
     forces = channel_forces(board, modes)
-    shapes = _pad_shapes(modes, points_m, pad_m)
+    shapes = np.asarray(modes.shapes(points_m), np.float64)
     count = len(shapes)
     free: Complex = np.zeros((len(s), count), np.complex128)
     pairs: Complex = np.zeros((len(s), count * count), np.complex128)
@@ -131,37 +128,9 @@ def point_motion(
         free += (gives * (volts @ forces[some].T)) @ shapes[:, some].T
         pairs += gives @ (shapes[:, None, some] * shapes[None, :, some]).reshape(count * count, -1).T
     receptance = pairs.reshape(len(s), count, count)
-    if modes_above and not pad_m:  # waves much shorter than the pad
+    if modes_above:
         receptance[:, range(count), range(count)] += of_modes_above(board, modes, s)[:, None]
     return PointMotion(s=s, free=free, receptance=receptance, window_s=window_s, end_s=len(words) * period_s)
-
-
-def pad_points(diameter_m: float) -> tuple[Floats, Floats]:
-    """Points of a pad from its middle, (point, 2) in m, and the share of the pressure that each stands for, (point,).
-
-    The pressure is an inverted paraboloid (Pawluk and Howe, J. Biomech. Eng. 121, 1999).
-    """
-    squares, of_ring = np.polynomial.legendre.leggauss(RINGS)
-    squares = (squares + 1) / 2  # of the radius over the pad's
-    of_ring = of_ring * (1 - squares)
-    turns = 2 * np.pi * (np.arange(PER_RING) + np.arange(RINGS)[:, None] / RINGS) / PER_RING
-    radii = diameter_m / 2 * np.sqrt(squares)[:, None]
-    offsets: Floats = np.stack([radii * np.cos(turns), radii * np.sin(turns)], axis=-1).reshape(-1, 2)
-    shares: Floats = np.repeat(of_ring / of_ring.sum() / PER_RING, PER_RING)
-    return offsets, shares
-
-
-def _pad_shapes(modes: Modes, points_m: ArrayLike, pad_m: float) -> Floats:
-    """Means of mode shapes over pads around points, (point, mode); what of a pad is off the plate rests on nothing."""
-    points = np.asarray(points_m, np.float64).reshape(-1, 2)
-    if not pad_m:
-        return np.asarray(modes.shapes(points), np.float64)
-    offsets, shares = pad_points(pad_m)
-    places = points[:, None] + offsets
-    there = np.all((places >= 0) & (places <= (modes.length_m, modes.width_m)), axis=2)
-    shapes = np.asarray(modes.shapes(places.reshape(-1, 2)), np.float64).reshape(*there.shape, -1)
-    found: Floats = np.einsum("pom,po->pm", shapes, there * shares)
-    return found
 
 
 def point_receptance(board: Board, modes: Modes, points_m: ArrayLike, s: Complex) -> Complex:

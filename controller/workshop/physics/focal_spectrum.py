@@ -14,11 +14,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import trapezoid
-from scipy.special import j0
+from scipy.signal import czt
+from scipy.special import j0, k0, y0
 
 from controller.device.board.panel import Driver, Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.design.design import characteristic_time_s, one_bit_share, point_impedance_kg_s
+from controller.workshop.physics.felt import AROUND_S, SKIN_S, FeltLoad, felt_history
+from controller.workshop.physics.pad_motion import pad_points
 from controller.workshop.physics.responses.driver import DriverResponse
 
 Floats = NDArray[np.float64]
@@ -26,7 +29,12 @@ Floats = NDArray[np.float64]
 FREQUENCIES = 401
 DIRECTIONS = 91
 SAMPLED = 401  # radii of a spot, and times of a pulse
+POINT_M = 1e-7  # apart: as one
+SPARSE = 5  # of frequencies, those of which the mobility of a pad is computed
 MEMORY = 12.0  # of a signal's bits, over one over its bandwidth
+REMEMBERED = 5.0  # of the skin's filter, in its time
+PER_PERIOD = 8  # times of a felt focus, in a period of the upper edge
+REPEATED = 0.4  # of the time after which a sum over these frequencies repeats itself
 HEARD_CLOCKS, HEARD_FREQUENCIES = 4.0, 4001  # frequencies of bits that heat, up to that many bit clocks
 
 
@@ -138,6 +146,26 @@ class FocalSpectrum:
         time_s = np.linspace(-0.5, 0.5, SAMPLED) / self.frequency_hz[0]  # the mass makes the peak late
         turning = np.exp(np.multiply.outer(time_s, 2j * np.pi * self.frequency_hz))
         return float(self._sum((left * turning).real).max())
+
+    def felt_amplitude_m(self, amplitude_m: float, load: FeltLoad) -> float:
+        """What a finger feels (`felt.py`) of a focus that has `amplitude_m` on the bare plate, by its pulse on an endless plate."""
+        band_hz, omega = float(self.frequency_hz[-1] - self.frequency_hz[0]), 2 * np.pi * self.frequency_hz
+        wavenumber = _wavenumber(self.plate, self.frequency_hz)[:, None]
+        offsets, shares = pad_points(load.pad_mm * 1e-3)
+        apart, which = np.unique(np.linalg.norm(offsets[:, None] - offsets, axis=2).round(7), return_inverse=True)
+        pairs = np.bincount(which.ravel(), np.outer(shares, shares).ravel())
+        phase = wavenumber[::SPARSE] * np.maximum(apart, POINT_M)
+        waves = (j0(phase) - 1j * (y0(phase) + 2 / np.pi * k0(phase))) @ pairs  # from each point of the pad to each
+        yields = np.interp(omega, omega[::SPARSE], waves) / (1j * omega * point_impedance_kg_s(self.plate))
+        over_pad = j0(wavenumber * np.linalg.norm(offsets, axis=1)) @ shares
+        moved = self.weight_s * over_pad / (1 + yields * load.dynamic_stiffness(np.asarray(1j * omega, np.complex128)))
+        moved[[0, -1]] /= 2
+        step_hz, step_s = band_hz / (FREQUENCIES - 1), 1 / (PER_PERIOD * self.frequency_hz[-1])
+        first_s, last_s = (min(time_s, REPEATED / step_hz) for time_s in (AROUND_S + REMEMBERED * SKIN_S, AROUND_S))
+        time_s = np.arange(-first_s, last_s, step_s)
+        summed = czt(moved * step_hz, len(time_s), np.exp(2j * np.pi * step_hz * step_s), np.exp(2j * np.pi * step_hz * first_s))
+        motion = (summed * np.exp(2j * np.pi * self.frequency_hz[0] * time_s)).real
+        return amplitude_m * float(felt_history(motion, step_s)[time_s >= -AROUND_S].max())
 
     def _spot(self, radius_m: Floats) -> Floats:
         return self._sum(j0(np.multiply.outer(radius_m, _wavenumber(self.plate, self.frequency_hz))))

@@ -112,6 +112,10 @@ def test_the_papers_plate_has_the_energy_pulse_and_heat_that_other_simulations_g
     assert sound["train_50_hz_db"] == pytest.approx(sound["exposure_db"] + 10 * np.log10(50), abs=0.1)
     assert sound["arming_exposure_db"] < sound["exposure_db"] - 10
     assert row["spot_wavelengths"] == pytest.approx(row["spot_mm"] / 10.54, rel=1e-3)
+    for finger_mg, felt_um in ((70, row["felt_light_touch_um"]), (140, row["felt_1_n_um"])):
+        foreseen = design_figures(board, {"finger_mg": finger_mg})["felt_um"]
+        print(f"felt by a pad of {finger_mg} mg: design {foreseen:.3f} um, played {felt_um:.3f} um ({foreseen / felt_um - 1:+.1%})")
+        assert foreseen == pytest.approx(felt_um, rel=0.1), "the amplitude of a focus is 11 % high too"
     motion, around_s = point_motion(board, emission.twin.modes, emission.words, [(0.1, 0.07)]), np.linspace(-10e-6, 10e-6, 101)
     for finger_mg in (20.0, 100.0):
         kept = motion.displacement({0: Finger(finger_mg * 1e-6)}, around_s).max() / motion.displacement({}, around_s).max()

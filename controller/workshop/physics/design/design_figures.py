@@ -18,9 +18,10 @@ from controller.device.board.parts import Parts
 from controller.device.board.relations.bending_waves import kirchhoff_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.errors import ConfigError
 from controller.workshop.physics.design import design
-from controller.workshop.physics.design.design_inputs import FELT_UM, inputs_of
+from controller.workshop.physics.design.design_inputs import inputs_of
 from controller.workshop.physics.design.design_warnings import design_warnings
 from controller.workshop.physics.design.panel_estimate import PanelEstimate, gains_percent
+from controller.workshop.physics.felt import felt_in_words
 from controller.workshop.physics.field import OUTSIDE_M
 from controller.workshop.physics.focal_spectrum import FocalSpectrum
 from controller.workshop.physics.modes.plate_modes import modes_of
@@ -54,8 +55,8 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None, par
 
 def _felt(panel: PanelEstimate) -> Figures:
     return {
-        "amplitude_under_finger_um": panel.under_finger_m * 1e6,
-        "felt_share": panel.under_finger_m * 1e6 / FELT_UM,
+        "felt_um": panel.felt_um,
+        "felt": felt_in_words(panel.felt_um),
         "possible_amplitude_um": panel.possible_m * 1e6,
         "amplitude_um": panel.amplitude_m * 1e6,
         "finger_left": design.gate_attenuation(panel.plate, panel.given.finger_mg * 1e-6, _resolution_m(panel)),

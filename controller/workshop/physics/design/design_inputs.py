@@ -14,9 +14,8 @@ from controller.device.board.parts import Parts
 from controller.device.board.records import Record, as_record
 from controller.errors import ConfigError
 from controller.workshop.physics.design.from_parts import from_parts
+from controller.workshop.physics.felt import LIGHT_TOUCH
 
-FINGER_MG = 100.0  # at 1 N (paper, section V)
-FELT_UM: Final = 3.0  # left of 7 under a finger that pressed with 1 N, and felt strongly (paper, sections V and VI)
 MOST_STEPS = 1000
 PLATE: Final = ("length_mm", "width_mm", *OF_LAYERS)
 
@@ -44,7 +43,7 @@ class DesignInputs(Record, frozen=True):
     channels: Q, number of patches, each with its driver.
     size_mm: Edge length of a patch.
     period_ms: Tr, from emission to emission (default: T).
-    finger_mg: M, mass that a finger adds to the plate at the focus (default: 100, of a finger that presses with 1 N).
+    finger_mg: M, mass that a finger adds to the plate at the focus (default: 70, of a light touch; 140: 1 N).
     amplitude_um: A, displacement for energy and power (default: what patches and drivers can reach).
     """
 
@@ -95,7 +94,7 @@ def inputs_of(board: Board, changes: Mapping[str, float], parts: Parts | None = 
     for table in (board.plate, board.driver, board.waveform):
         own |= {name: getattr(table, name) for name in NUMBERS if hasattr(table, name)}
     sizes = sorted(actuator.size_mm for actuator in board.actuators)
-    own |= {"channels": len(sizes), "size_mm": sizes[len(sizes) // 2], "finger_mg": FINGER_MG}
+    own |= {"channels": len(sizes), "size_mm": sizes[len(sizes) // 2], "finger_mg": LIGHT_TOUCH.mass_kg * 1e6}
     given = _record({**own, **changes})
     plate, middle_hz = plate_of(board.plate, msgspec.structs.asdict(given)), (given.band_low_hz + given.band_high_hz) / 2
     return _record({**own, **changes, **from_parts(board, own, plate, middle_hz, changes, parts)})

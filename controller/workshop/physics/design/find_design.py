@@ -1,4 +1,4 @@
-"""Search for panels that are felt: glass, discs and the fewest channels that reach an amplitude under a finger."""
+"""Search for panels that are felt: glass, discs and the fewest channels that reach a felt amplitude."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def find_designs(
     felt_um: float,
     prices: Mapping[str, float] | None = None,  # of a channel with its stage ("channel"), of a disc by its name, or of any ("disc")
 ) -> list[dict[str, Any]]:
-    """At most `MOST_ROWS` panels that reach `felt_um` under the finger: those of the fewest channels, of these the strongest.
+    """At most `MOST_ROWS` panels that reach a felt amplitude of `felt_um`: those of the fewest channels, of these the strongest.
 
     `changes` are numbers that stand; `searched`, of `SEARCHED`, may differ; if no panel reaches it, the strongest alone is
     returned. With `prices` the cheapest come first, and a disc without a price is not searched. `parts` None: as the board. Raises
@@ -62,7 +62,7 @@ class _Found(NamedTuple):
 
 
 def _as_given(board: Board, numbers: Mapping[str, float], parts: Parts | None) -> _Found:
-    return _Found(PanelEstimate(board, inputs_of(board, numbers, parts)).under_finger_m * 1e6, numbers, parts)
+    return _Found(PanelEstimate(board, inputs_of(board, numbers, parts)).felt_um, numbers, parts)
 
 
 def _fewest(board: Board, numbers: Mapping[str, float], parts: Parts | None, felt_um: float) -> _Found:
@@ -103,7 +103,7 @@ def _row(board: Board, found: _Found, prices: Mapping[str, float] | None) -> dic
         "discs": discs,
         "channels": given["channels"],
         **({"cost": cost} if prices else {}),
-        "amplitude_under_finger_um": figures["amplitude_under_finger_um"],
+        "felt_um": figures["felt_um"],
         **{name: figures[name] for name in SHOWN},
         **{name: given[name] for name in ("resistance_ohm", "inductance_h", "capacitance_f")},
         "warnings": figures["warnings"],

@@ -1,9 +1,10 @@
-"""What a panel of given numbers reaches, by the statistics of its modes: amplitude, under a finger too, and heat."""
+"""What a panel of given numbers reaches, by the statistics of its modes: amplitude, what a finger feels of it, and heat."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, Final
 
@@ -16,6 +17,7 @@ from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.errors import ConfigError
 from controller.workshop.physics.design.design_inputs import DesignInputs, inputs_of, plate_of
 from controller.workshop.physics.design.sound_estimate import exposure_pa2_s, surface_density
+from controller.workshop.physics.felt import LIGHT_TOUCH
 from controller.workshop.physics.focal_spectrum import FocalSpectrum
 from controller.workshop.physics.sound import decibels
 from controller.workshop.physics.stress import ceramic_stress_pa, field_v_m, plate_stress_pa
@@ -49,13 +51,14 @@ class PanelEstimate:
 
     @cached_property
     def left(self) -> float:
-        """Share of it that a finger leaves, as a point mass on an infinite plate."""
+        """Share of it that a point mass leaves on an infinite plate."""
         return self.spectrum.mass_attenuation(self.given.finger_mg * 1e-6)
 
-    @property
-    def under_finger_m(self) -> float:
-        """Amplitude under the finger."""
-        return self.amplitude_m * self.left
+    @cached_property
+    def felt_um(self) -> float:
+        """What the finger feels, as `felt.py` has it, of a light touch's damping and stiffness."""
+        load = replace(LIGHT_TOUCH, mass_kg=self.given.finger_mg * 1e-6)
+        return self.spectrum.felt_amplitude_m(self.amplitude_m, load) * 1e6
 
     @cached_property
     def stress(self) -> dict[str, float]:
@@ -85,7 +88,7 @@ class PanelEstimate:
 
 
 def gains_percent(board: Board, changes: Mapping[str, float], parts: Parts | None, now: PanelEstimate) -> dict[str, float]:
-    """Growth of the amplitude under a finger if one number is 10 % larger, and with it what follows from it; the largest first."""
+    """Growth of the felt amplitude if one number is 10 % larger, and with it what follows from it; the largest first."""
     found: dict[str, float] = {}
     for name in STEPPED:
         try:
@@ -93,5 +96,5 @@ def gains_percent(board: Board, changes: Mapping[str, float], parts: Parts | Non
             given = inputs_of(board, {**changes, name: round(one) if name == "channels" else one}, parts)
         except ConfigError:
             continue
-        found[name] = 100 * (PanelEstimate(board, given).under_finger_m / now.under_finger_m - 1)
+        found[name] = 100 * (PanelEstimate(board, given).felt_um / now.felt_um - 1)
     return dict(sorted(found.items(), key=lambda one: -one[1]))
