@@ -29,7 +29,8 @@ from controller.device.board.relations.relation import Relation
 from controller.device.board.touch_panels import TouchPanel, touch_record, touch_records
 from controller.errors import ConfigError
 
-LATER_KEYS = {"layers": (), "damping": None}  # of the plate: where left out, they are not part of the digest
+# Where left out, these keys of plate and waveform are not part of the digest
+LATER_KEYS = {"layers": (), "damping": None, "slope": 0.0, "drift_percent": 0.0}
 SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
 
 
@@ -148,11 +149,11 @@ class Board(Record, frozen=True):
 
     def digest(self) -> bytes:
         """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform, patches, finger."""
-        plate = msgspec.to_builtins(self.plate)
-        for key, left_out in LATER_KEYS.items():
-            if getattr(self.plate, key) == left_out:
-                del plate[key]
-        tables = (plate, self.actuators, self.driver, self.waveform, *filter(None, (self.patches, self.finger)))
+        plate, waveform = (
+            {key: value for key, value in msgspec.to_builtins(table).items() if key not in LATER_KEYS or value != LATER_KEYS[key]}
+            for table in (self.plate, self.waveform)
+        )
+        tables = (plate, self.actuators, self.driver, waveform, *filter(None, (self.patches, self.finger)))
         return sha256(msgspec.json.encode(tables))  # keys in the order of the records
 
 

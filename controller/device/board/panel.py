@@ -241,12 +241,18 @@ class Waveform(Record, frozen=True):
     band_high_hz: Upper edge of the band, below half of `bit_clock_hz`.
     duration_ms: T, the length of one emission: 1 to 1000 samples of `bit_clock_hz`.
     bit_clock_hz: Drive words a second.
+    slope: Power of the frequency with which the gain of the band's filter goes: 1 for a smaller spot, -1 for fewer edges, 0 as in
+        the paper.
+    drift_percent: Drive words are made from the mean response of plates whose frequencies are this much higher and lower: for
+        panels without a temperature sensor.
     """
 
     band_low_hz: Positive
     band_high_hz: Positive
     duration_ms: Annotated[float, Meta(gt=0, le=10)]
     bit_clock_hz: Annotated[float, Meta(ge=100e3, le=2e6)]
+    slope: Annotated[float, Meta(ge=-2, le=2)] = 0.0
+    drift_percent: Annotated[float, Meta(ge=0, le=2)] = 0.0
 
     def __post_init__(self) -> None:
         if self.band_high_hz <= self.band_low_hz:

@@ -77,6 +77,46 @@ def test_the_filter_passes_the_band_and_nothing_one_can_hear():
     assert gain == pytest.approx([0, 0, 0.5, 1, 1, 1, 0.5, 0, 0], abs=1e-12)
 
 
+def sloped(slope, board=BOARD):
+    return msgspec.structs.replace(board, waveform=msgspec.structs.replace(board.waveform, slope=slope))
+
+
+def own_gain(hz, slope):
+    """20 to 70 kHz with edges of 8 kHz, times a power of the frequency over 45 kHz."""
+    risen, fallen = (np.clip(part, 0, 1) for part in ((hz - 16e3) / 8e3, (74e3 - hz) / 8e3))
+    return (1 - np.cos(np.pi * risen)) / 2 * (1 - np.cos(np.pi * fallen)) / 2 * (np.maximum(hz, 1) / 45e3) ** slope
+
+
+@each_row("slope", [-1.0, 1.0])
+@each_row("decay_ms", [1.0, 100.0])  # the second rings for longer than a transform: its poles have the gain in closed form
+def test_the_filter_has_a_slope(slope, decay_ms):
+    plate = msgspec.structs.replace(BOARD.plate, thickness_mm=5.0, decay_time_ms=decay_ms)
+    model = ResponseModel(sloped(slope, msgspec.structs.replace(BOARD, plate=plate)), 70e3)
+    some, period, length = slice(30, 150, 40), BOARD.waveform.bit_period_s, 1 << (16 if decay_ms == 1 else 20)
+    assert (model.plate_modes.angular_frequency[some] / 2 / np.pi > 20e3).any()
+    spectrum = np.fft.rfft(pulse_response(model.step.part(some), period, length // 2 + 1000), length, axis=1)
+    for wrong, caught in ((0.0, False), (0.01, True)):
+        gain = own_gain(np.fft.rfftfreq(length, period), slope + wrong)
+        filtered = np.fft.irfft(spectrum * gain, length, axis=1)[:, :1000]
+        assert (np.abs(model.modal_band[some] - filtered).max() > 1e-3 * np.abs(filtered).max()) == caught
+
+
+def test_a_slope_changes_what_is_in_the_band_and_not_what_it_leaves_out():
+    flat, board = (ResponseModel(sloped(slope), 75e3) for slope in (0.0, 1.0))
+    entry, plain = (model.entry_responses(POINTS[:2], dtype=np.float64) for model in (board, flat))
+    assert entry[:, :1000] == pytest.approx(board.drive_order_responses(POINTS[:2], dtype=np.float64), abs=1e-15)
+    assert np.array_equal(entry[:, 1000:], plain[:, 1000:])
+    in_band, of_flat = (np.abs(np.fft.rfft(found[:, :1000], axis=1)) for found in (entry, plain))
+    hz = np.fft.rfftfreq(1000, BOARD.waveform.bit_period_s)
+    for low, high in ((25e3, 35e3), (55e3, 65e3)):
+        some = (hz > low) & (hz < high)
+        assert in_band[:, some].sum() / of_flat[:, some].sum() == pytest.approx((low + high) / 90e3, rel=0.05)
+
+
+def test_a_slope_is_part_of_the_digest_unless_it_is_zero():
+    assert sloped(0.0).digest() == BOARD.digest() != sloped(1.0).digest() != sloped(0.9).digest()
+
+
 def test_responses_are_sums_over_modes_in_either_order_of_time(model):
     shapes = model.plate_modes.shapes(POINTS[:2])
     expected = np.einsum("pk,kj,kq->pjq", shapes, model.modal_band, model.forces, optimize=True)

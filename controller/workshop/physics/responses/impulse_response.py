@@ -42,7 +42,7 @@ class ResponseModel:
         self.bit_clock_hz = waveform.bit_clock_hz
         self.samples = waveform.samples
         self._bit_period_s = waveform.bit_period_s
-        self._band_hz = waveform.band_low_hz, waveform.band_high_hz
+        self._band_hz, self._slope = waveform.band_hz, waveform.slope
         self._decay_time_s = slowest_decay_s(self.plate_modes)
         self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
         self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
@@ -56,14 +56,18 @@ class ResponseModel:
     @cached_property
     def modal_band(self) -> Floats:
         """The same, band-limited."""
-        return np.concatenate([self._modal(some, band_limited=True) for some in self._blocks()])
+        return np.concatenate([self._band(some, self._slope) for some in self._blocks()])
 
     def _modal(self, some: slice, *, band_limited: bool) -> Floats:
         """Responses of some modes: (mode, sample)."""
-        step = self.step.part(some)
         if not band_limited:
-            return pulse_response(step, self._bit_period_s, self.samples)
-        return band_limited_response(step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
+            return pulse_response(self.step.part(some), self._bit_period_s, self.samples)
+        return self._band(some, self._slope)
+
+    def _band(self, some: slice, slope: float) -> Floats:
+        return band_limited_response(
+            self.step.part(some), self._bit_period_s, self.samples, self._band_hz, self._decay_time_s, slope
+        )
 
     def _blocks(self) -> list[slice]:
         """Modes in blocks whose responses are computed at once."""
@@ -124,7 +128,8 @@ class ResponseModel:
             for some in self._blocks():
                 in_band = self._modal(some, band_limited=True)
                 outside = np.zeros((len(in_band), rows * REST_SAMPLES))
-                outside[:, : self.samples] = (self._modal(some, band_limited=False) - in_band)[:, ::-1]
+                flat = self._band(some, 0.0) if self._slope else in_band
+                outside[:, : self.samples] = (self._modal(some, band_limited=False) - flat)[:, ::-1]
                 kernel[: self.samples, some] = in_band[:, ::-1].T
                 kernel[self.samples :, some] = outside.reshape(len(in_band), rows, REST_SAMPLES).mean(axis=2).T
             self._kernels[key] = kernel

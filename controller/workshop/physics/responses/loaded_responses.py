@@ -11,26 +11,23 @@ for all points, that of an endless plate, which needs no modes. Fingers are poin
 
 from __future__ import annotations
 
-from typing import Any
-
-import msgspec
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
-from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.finger import DYING, Finger, of_modes_above
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
+from controller.workshop.physics.responses.drifting_responses import DriftingResponses
 from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.physics.responses.transformed_responses import Reals, TransformedResponses
 
-Reals = NDArray[np.floating[Any]]
 POINTS_AT_ONCE = 16  # 16 MB of spectra
 
 
-class LoadedResponses:
+class LoadedResponses(TransformedResponses):
     """A `ResponseSource` of points of a board's plate under its `[finger]`, from one of the bare plate.
 
     Receptances are of `modes`, by default of the board's plate model.
@@ -38,38 +35,14 @@ class LoadedResponses:
 
     def __init__(self, board: Board, source: ResponseSource, modes: Modes | None = None) -> None:
         assert board.finger is not None
-        self._board, self._source = board, source
         given = board.finger
+        super().__init__(source, f"under a finger of {given.mass_mg:g} mg")
+        self._board = board
         self._modes = None if given.receptance == "plate" else modes_of(board) if modes is None else modes
         self._given: dict[float, _Receptances] = {}  # by the period of samples
         self._finger = Finger(given.mass_mg * 1e-6, given.damping_n_s_m, given.stiffness_n_m)
-        self.samples, self.bit_clock_hz, self.plate_m = source.samples, source.bit_clock_hz, source.plate_m
-        said = f"{source.provenance.model}, under a finger of {given.mass_mg:g} mg"
-        self.provenance = msgspec.structs.replace(source.provenance, model=said)
 
-    def responses(
-        self, points_m: ArrayLike, *, band_limited: bool = False, dtype: DTypeLike = np.float64, out: Reals | None = None
-    ) -> Reals:
-        """As `ResponseSource.responses`."""
-        found = self._source.responses(points_m, band_limited=band_limited, dtype=dtype, out=out)
-        self._load(found, points_m, 1 / self.bit_clock_hz)
-        return found
-
-    def drive_order_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
-        """As `ResponseSource.drive_order_responses`."""
-        found = self._source.drive_order_responses(points_m, out, dtype)
-        self._load(found[:, ::-1], points_m, 1 / self.bit_clock_hz)
-        return found
-
-    def entry_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
-        """As `ResponseSource.entry_responses`; what the band leaves out is loaded as the means that it is."""
-        found = self._source.entry_responses(points_m, out, dtype)
-        self._load(found[:, : self.samples][:, ::-1], points_m, 1 / self.bit_clock_hz)
-        self._load(found[:, self.samples :][:, ::-1], points_m, REST_SAMPLES / self.bit_clock_hz)
-        return found
-
-    def _load(self, free: Reals, points_m: ArrayLike, period_s: float) -> None:
-        """Load responses, (point, sample, 32) in the order of time, in place."""
+    def _transform(self, free: Reals, points_m: ArrayLike, period_s: float) -> None:
         count = free.shape[1]
         length = fft.next_fast_len(2 * count, real=True)
         sigma = DYING / (length * period_s)
@@ -111,5 +84,7 @@ class _Receptances:
 
 
 def words_source(board: Board, source: ResponseSource, modes: Modes | None = None) -> ResponseSource:
-    """The responses that drive words of a board are made from: those of `source`, under the board's `[finger]` if it has one."""
-    return source if board.finger is None else LoadedResponses(board, source, modes)
+    """The responses that drive words of a board are made from: those of `source`, under its `[finger]`, with its drift."""
+    source = source if board.finger is None else LoadedResponses(board, source, modes)
+    percent = board.waveform.drift_percent
+    return DriftingResponses(source, percent) if percent else source

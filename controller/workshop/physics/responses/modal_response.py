@@ -9,6 +9,7 @@ after T) through a real, even gain over frequency (zero phase), then cut to the 
 emission, [0, T]. It is applied to the modes, so it costs nothing per point. The gain is a half at the
 band's edges and goes from 0 to 1 over `edge_width_hz` as a raised cosine: with the paper's 20 kHz nothing
 is left below 16 kHz. Sharper edges ring for longer and lose contrast (28.0 at 0.1 kHz, 30.7 at 8 kHz).
+A `slope` multiplies it by a power of the frequency over the band's middle.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ def pulse_response(step: StepResponse, bit_period_s: float, samples: int) -> Flo
 
 
 def band_limited_response(
-    step: StepResponse, bit_period_s: float, samples: int, band_hz: tuple[float, float], decay_time_s: float
+    step: StepResponse, bit_period_s: float, samples: int, band_hz: tuple[float, float], decay_time_s: float, slope: float = 0.0
 ) -> Floats:
     """`pulse_response` of all times through a zero-phase band-pass, cut to the samples of an emission.
 
@@ -58,13 +59,13 @@ def band_limited_response(
     """
     length, whole = transform_length(bit_period_s, samples, band_hz, _slowest_s(step, decay_time_s))
     frequency: Floats = np.fft.rfftfreq(length, bit_period_s).astype(np.float64, copy=False)
-    gain = band_gain(frequency, band_hz)
+    gain = band_gain(frequency, band_hz, slope)
     bins = np.flatnonzero(gain) if whole else np.arange(len(frequency))
-    per_hz: Floats = band_gain(frequency[bins] + 0.5, band_hz) - band_gain(frequency[bins] - 0.5, band_hz)
-    slope = (per_hz / (2j * np.pi * bit_period_s)).astype(np.complex128, copy=False)
-    filtered = _Filter(np.exp(-2j * np.pi * frequency[bins] * bit_period_s), gain[bins], slope)
+    per_hz: Floats = band_gain(frequency[bins] + 0.5, band_hz, slope) - band_gain(frequency[bins] - 0.5, band_hz, slope)
+    per_bin = (per_hz / (2j * np.pi * bit_period_s)).astype(np.complex128, copy=False)
+    filtered = _Filter(np.exp(-2j * np.pi * frequency[bins] * bit_period_s), gain[bins], per_bin)
     passed, driver_passed = (
-        _passed(poles, (length - samples) * bit_period_s, band_hz) for poles in (step.poles, step.driver_poles)
+        _passed(poles, (length - samples) * bit_period_s, band_hz, slope) for poles in (step.poles, step.driver_poles)
     )
     first = (0.5 * step.residues * np.expm1(step.poles * bit_period_s))[:, None]
     positive, negative = filtered.series(np.exp(step.poles * bit_period_s), passed)
@@ -85,11 +86,11 @@ def band_limited_response(
     return modal + pulse_response(through, bit_period_s, samples)
 
 
-def _passed(pole: Complex, rest_s: float, band_hz: tuple[float, float]) -> Complex:
+def _passed(pole: Complex, rest_s: float, band_hz: tuple[float, float], slope: float) -> Complex:
     """Gain at the frequencies of poles; none where the response has decayed in `rest_s`, the transform beyond the emission."""
     at = np.zeros(pole.shape, np.complex128)
     rings = -pole.real * rest_s < SETTLED
-    gain_at = _gain(np.where(pole.imag < 0, pole.conj(), pole)[rings] / 2j / np.pi, band_hz)
+    gain_at = _gain(np.where(pole.imag < 0, pole.conj(), pole)[rings] / 2j / np.pi, band_hz, slope)
     at[rings] = np.where(pole[rings].imag < 0, gain_at.conj(), gain_at)
     return at
 
@@ -140,12 +141,15 @@ def transform_length(bit_period_s: float, samples: int, band_hz: tuple[float, fl
     return 1 << int(np.ceil(np.log2(max(LONGEST, filtered)))), False
 
 
-def band_gain(frequency_hz: Floats, band_hz: tuple[float, float]) -> Floats:
-    """Real gain at `frequency_hz`, (n,): 1 in `band_hz`, 0 outside, a raised cosine `edge_width_hz` wide centred on each edge."""
-    return _gain(frequency_hz, band_hz)
+def band_gain(frequency_hz: Floats, band_hz: tuple[float, float], slope: float = 0.0) -> Floats:
+    """Real gain at `frequency_hz`, (n,): 1 in `band_hz`, 0 outside, a raised cosine `edge_width_hz` wide centred on each edge.
+
+    Times the frequency over the band's middle to the power of `slope`.
+    """
+    return _gain(frequency_hz, band_hz, slope)
 
 
-def _gain(frequency_hz: NDArray[Any], band_hz: tuple[float, float]) -> NDArray[Any]:
+def _gain(frequency_hz: NDArray[Any], band_hz: tuple[float, float], slope: float) -> NDArray[Any]:
     """`band_gain` and its analytic continuation from the real frequency below or above each of `frequency_hz`."""
     low, high = band_hz
     edge_hz = edge_width_hz(band_hz)
@@ -156,6 +160,8 @@ def _gain(frequency_hz: NDArray[Any], band_hz: tuple[float, float]) -> NDArray[A
 
     rise, fall = risen((frequency_hz - low) / edge_hz + 0.5), risen((high - frequency_hz) / edge_hz + 0.5)
     gain: NDArray[Any] = np.sin(np.pi / 2 * rise) ** 2 * np.sin(np.pi / 2 * fall) ** 2
+    if slope:
+        gain *= np.where(gain == 0, 1, frequency_hz * 2 / (low + high)) ** slope
     return gain
 
 
