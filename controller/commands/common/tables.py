@@ -201,17 +201,18 @@ def benchmark_table(figures: dict[str, Any]) -> str:
     ]
     for fingers in dict.fromkeys(row["fingers"] for row in figures["baselines"]):
         family = f"{fingers} off grid"
-        error = "bound_loss" if fingers == 1 else "felt_loss"
-        heads = "".join(f"{head:>9}" for head in ("median", "p99 µs", "of C", "MB", "lost", "worst"))
+        error = "bound_loss" if fingers == 1 else "best_loss"
+        heads = "".join(f"{head:>9}" for head in ("median", "p99 µs", "of C", "MB", "lost", "worst", "felt µm", "other"))
         lines += ["", f"{f'{fingers} fingers, front of time':<34}{'setting':<18}{heads}"]
         for index in figures["fronts"][f"time, {family}"]:
             setting = figures["settings"][index]
-            time_us, lost = setting["time_us"][str(fingers)], setting["families"][family][error]
+            time_us, found = setting["time_us"][str(fingers)], setting["families"][family]
+            lost, felt = found[error], [found[name]["median"] for name in ("felt_um", "felt_crosstalk")]
             values = (time_us["median_us"], time_us["p99_us"], time_us["over"].get("plain C, vectors of 128 bits"))
             lines.append(
                 f"{setting['curve']:<34}{setting['setting']:<18}"
                 + "".join(f"{_number(value):>9}" for value in values)
-                + f"{setting['memory_bytes'] * 1e-6:>9.1f}{lost['median']:>9.4f}{lost['worst']:>9.4f}"
+                + f"{setting['memory_bytes'] * 1e-6:>9.1f}{lost['median']:>9.4f}{lost['worst']:>9.4f}{felt[0]:>9.3f}{felt[1]:>9.3f}"
             )
         for row in figures["baselines"]:
             if row["fingers"] == fingers:

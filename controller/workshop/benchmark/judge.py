@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from controller.device.board.board import Board
 from controller.workshop.benchmark.fingers_scenes import FingerScene
 from controller.workshop.benchmark.plate_under_test import PlateUnderTest
+from controller.workshop.physics.felt import felt_by_all_um
 from controller.workshop.physics.field import Field
 
 Floats = NDArray[np.float64]
@@ -47,13 +48,16 @@ class Judge:
     def errors(self, scene: FingerScene, words: Sequence[Words], free_polarity: Sequence[bool]) -> list[Errors]:
         """Evaluate drive words (sample,) of one scene by several methods; an emission shorter than the board's starts later.
 
-        `free_polarity`: whether a method may kick downwards. Figures: `loss`: 1 - A / A_ref, mean over the points. `worst_loss`:
-        that of the worst one. `bound_loss`: 1 - share of the worst one in the band over the bound of all words. `felt_loss`: 1 - A
-        / A_ref of the worst one over the best that any of `words` reaches. `amplitude_over_unfiltered`: A over half the supply
-        times sum |h|, mean. `quiet`: largest displacement of the finger that shall feel nothing within 25 us of T, over the mean
-        |A|. `contrast`: of the worst point, over the rms outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz
-        (`physics.audible`), `sound_pa2_s`: what is heard (`physics.sound`). `crest_m`: distance of the crest, largest of the
-        points. `stage_j`: heat in the drivers' series resistors.
+        `free_polarity`: whether a method may kick downwards. Figures: `loss`: 1 - A / A_ref, mean over the points.
+        `worst_loss`: that of the worst one. `bound_loss`: 1 - share of the worst one in the band over the bound of all words.
+        `best_loss`: 1 - A / A_ref of the worst one over the best that any of `words` reaches. `felt_um`, with a light touch
+        on each point and on the finger that shall feel nothing: felt amplitude (`physics.felt`) of the one that feels least;
+        `felt_loss`: 1 - this over the most by any of `words`; `felt_crosstalk`: what the finger feels that shall feel
+        nothing, over it. `amplitude_over_unfiltered`: A over half the supply times sum |h|, mean. `quiet`: largest
+        displacement of the finger that shall feel nothing within 25 us of T, over the mean |A|. `contrast`: of the worst
+        point, over the rms outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz (`physics.audible`), `sound_pa2_s`:
+        what is heard (`physics.sound`). `crest_m`: distance of the crest, largest of the points. `stage_j`: heat in the
+        drivers' series resistors.
         """
         plate = self._plates[scene.detuning]
         reference = plate.reference(scene.points)
@@ -64,15 +68,20 @@ class Judge:
             for played, rows in ((volts, reference.whole), (signs, reference.unit), (volts, plate.near_responses(scene.null)))
         )
         one_way = ~np.array(free_polarity)[:, None]  # what is kicked downwards then counts below zero
-        felt, in_band = (np.where(one_way, kicks, np.abs(kicks)) for kicks in (amplitudes, shares))
-        share = felt / reference.alone_m
+        kicked, in_band = (np.where(one_way, kicks, np.abs(kicks)) for kicks in (amplitudes, shares))
+        share = kicked / reference.alone_m
+        *meant_um, null_um = felt_by_all_um(plate.board, plate.model.plate_modes, volts, [*scene.points, scene.null]).T
+        felt_um = np.min(meant_um, axis=0)
         mean_m = np.maximum(np.abs(amplitudes).mean(axis=1), STILL_M)
         fields = plate.fields(volts)
         figures = {
             "loss": 1 - share.mean(axis=1),
             "worst_loss": 1 - share.min(axis=1),
             "bound_loss": 1 - in_band.min(axis=1) / reference.bound,
-            "felt_loss": share.min(axis=1),  # for now: what the others reach is not known yet
+            "best_loss": _lost(share.min(axis=1)),
+            "felt_um": felt_um,
+            "felt_loss": _lost(felt_um),
+            "felt_crosstalk": null_um / np.maximum(felt_um, STILL_M * 1e6),
             "amplitude_over_unfiltered": (share * reference.unfiltered_share).mean(axis=1),
             "quiet": np.abs(quiet).max(axis=1) / mean_m,
             "contrast": _contrasts(fields, scene, amplitudes),
@@ -81,11 +90,13 @@ class Judge:
             "crest_m": [max(_crest_m(field, point) for point in scene.points) for field in fields],
             "stage_j": plate.stage_heat_j(words),
         }
-        found = [{name: float(values[index]) for name, values in figures.items()} for index in range(len(words))]
-        most = max((errors["felt_loss"] for errors in found), default=0.0)
-        for errors in found:
-            errors["felt_loss"] = 1 - errors["felt_loss"] / most if most > 0 else 1.0
-        return found
+        return [{name: float(values[index]) for name, values in figures.items()} for index in range(len(words))]
+
+
+def _lost(reached: Floats) -> Floats:
+    """1 - what each reaches over what the best does."""
+    most = float(reached.max(initial=0.0))
+    return 1 - reached / most if most > 0 else np.ones_like(reached)
 
 
 def detuned(board: Board, ratio: float) -> Board:

@@ -40,8 +40,8 @@ def cost(setting: Figures, axis: str, family: str) -> float | None:
 
 
 def main_error(family: str) -> str:
-    """The error by which methods are compared first: of one finger in the band, of several what the worst one feels."""
-    return "bound_loss" if family.startswith("1 ") else "felt_loss"
+    """The error by which methods are compared first: of one finger in the band, of several the worst one over the best method."""
+    return "bound_loss" if family.startswith("1 ") else "best_loss"
 
 
 def front(settings: Sequence[Figures], axis: str, family: str) -> list[int]:

@@ -33,7 +33,7 @@ Figures = dict[str, Any]
 Progress = Callable[[int, int], None]
 SCHEMA_VERSION = 1
 PLACES_AT_ONCE = 40  # whose cells are held: 0.3 GB
-BETTER_HIGH = {"contrast", "amplitude_over_unfiltered"}  # the worst of these is the smallest
+BETTER_HIGH = {"contrast", "amplitude_over_unfiltered", "felt_um"}  # the worst of these is the smallest
 
 
 @dataclass(frozen=True)

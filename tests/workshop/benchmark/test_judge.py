@@ -11,6 +11,7 @@ from controller.workshop.benchmark.focus.focus_figures import emit
 from controller.workshop.benchmark.judge import Judge
 from controller.workshop.benchmark.plate_under_test import bound
 from controller.workshop.physics.audible import surface_energy
+from controller.workshop.physics.felt import felt_amplitudes_um
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.sound import PlateSound
 
@@ -52,6 +53,19 @@ def test_a_point_alone_loses_nothing_by_its_own_sign_and_much_on_another_plate(s
     assert 0.6 < here["amplitude_over_unfiltered"] < 0.9
 
 
+def test_what_fingers_feel_is_the_figure_of_merit_with_all_of_them_on_the_plate(small_board, judge, small_model):
+    designed = [
+        SignOfSum(small_board, small_model).design([(*place, 1.0) for place in some]).words for some in (PLACES, PLACES[:1])
+    ]
+    both, one = judge.errors(still("two", PLACES, NULL), [designed[0], designed[1][100:]], [False, False])
+    for found, words in ((both, designed[0]), (one, designed[1][100:])):
+        *meant, other = felt_amplitudes_um(small_board, small_model.plate_modes, words, [*PLACES, NULL])
+        assert found["felt_um"] == pytest.approx(min(meant), rel=1e-4)
+        assert found["felt_crosstalk"] == pytest.approx(other / min(meant), rel=1e-4)
+    assert (both["felt_loss"], one["felt_loss"]) == pytest.approx((0, 1 - one["felt_um"] / both["felt_um"]))
+    assert one["felt_loss"] > 0.3, "the second finger has nothing but what spills"
+
+
 def test_polarity_counts_unless_a_method_may_choose_it(small_board, judge, small_model):
     words = SignOfSum(small_board, small_model).design([(*PLACES[0], 1.0)]).words
     upside_down = drive_words(1.0 - 2.0 * channel_bits(words))
@@ -65,8 +79,8 @@ def test_an_emission_that_is_shorter_starts_later(small_board, judge, small_mode
     losses = [judge.errors(still("one", PLACES[:1], NULL), [words[start:]], [False])[0]["loss"] for start in (187, 125, 0)]
     assert losses[0] > losses[1] > losses[2]
     late, whole = judge.errors(still("one", PLACES[:1], NULL), [words[125:], words], [False, False])
-    assert whole["felt_loss"] == pytest.approx(0, abs=1e-12)  # the best of those compared
-    assert late["felt_loss"] == pytest.approx(losses[1], abs=1e-9)
+    assert whole["best_loss"] == pytest.approx(0, abs=1e-12)  # the best of those compared
+    assert late["best_loss"] == pytest.approx(losses[1], abs=1e-9)
 
 
 @pytest.mark.parametrize("count", [2, 3])

@@ -50,11 +50,11 @@ class LoadedResponses(TransformedResponses):
         if period_s not in self._given:
             self._given[period_s] = _Receptances(self._board, self._modes, s)
         points, stiffness = np.asarray(points_m, np.float64).reshape(-1, 2), self._finger.dynamic_stiffness(s)[:, None]
-        dying = np.exp(-sigma * period_s * np.arange(count))[:, None]
+        dying = np.exp(-sigma * period_s * np.arange(count)).astype(free.dtype)[:, None]
         for first in range(0, len(points), POINTS_AT_ONCE):
             some = slice(first, first + POINTS_AT_ONCE)
             spectrum = fft.rfft(free[some] * dying, length, axis=1)
-            spectrum *= (1 / (1 + self._given[period_s].of(points[some]) * stiffness)).T[:, :, None]
+            spectrum *= (1 / (1 + self._given[period_s].of(points[some]) * stiffness)).T[:, :, None].astype(spectrum.dtype)
             free[some] = fft.irfft(spectrum, length, axis=1)[:, :count] / dying
 
 
