@@ -99,11 +99,13 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
 
 
 def _compact_settings(board: Board, scene: Scene, source: ResponseSource) -> list[Setting]:
-    """Compact banks of the whole plate; none where it or the bit clock is too small."""
+    """Compact banks of the whole plate; none where none can be; ConfigError if only such a bank will do."""
     pitches_m = [compact_pitch_m(board, share) for share in PITCHES]
     try:
         designs = CompactDesign.of(board, source, [compact_grid(board, pitch_m) for pitch_m in pitches_m])
     except ConfigError:
+        if board.compose.method == "compact":
+            raise
         return []
     time_us, lone_us = (TEN_US * COMPACT_TEN if _full(scene) else TEN_LESS_US * COMPACT_TEN_LESS), ONE_US * COMPACT_ONE
     made = []

@@ -25,6 +25,7 @@ from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.loaded_responses import words_source
 from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.physics.responses.transformed_responses import TransformedResponses
 
 Reals = NDArray[np.floating[Any]]
 
@@ -80,7 +81,8 @@ class BankPlan:
             parameters=parameters,
             compositions=len(composed),
         )
-        blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, bare, design.working_bytes if design else 0.0))
+        more_bytes = sum(one.working_bytes for one in (design, found) if isinstance(one, (CompactDesign, TransformedResponses)))
+        blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, bare, more_bytes))
         modes = bare.modes if isinstance(bare, ResponseModel) else None
         return cls(board, wanted, numbers, grid.points()[numbers], found, modes, header, composed, blocks, design)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import CHANNELS
 from controller.errors import ConfigError
@@ -10,6 +12,7 @@ from controller.workshop.physics.responses.impulse_response import POINTS_PER_GE
 from controller.workshop.physics.responses.modal_response import WORKING_BYTES
 from controller.workshop.physics.sound import radiation_bytes
 
+POINTS_LOADED = 16  # at once
 DEFAULT_MB = 1500.0  # of 10^6 bytes; a plate with as many modes as are computed with (`closed_form.MAX_MODES`) needs less
 BASE_BYTES = 140e6  # Python, NumPy, SciPy, Matplotlib and the buffers of the linear algebra
 TABLE_BYTES = 128e6  # of a table of the twin that is kept; a larger one is computed in parts, each time
@@ -30,6 +33,13 @@ def entries_bytes(modes: Modes, samples: int, cells: int) -> float:
 def cell_bytes(samples: int) -> float:
     """Bytes of the response of one cell, in float32, with its rest outside the band."""
     return 4.0 * CHANNELS * (samples + -(-samples // REST_SAMPLES))
+
+
+def loaded_bytes(modes: Modes, samples: int, bit_clock_hz: float) -> float:
+    """Bytes in which responses are loaded by a finger, at the receptances of their points."""
+    frequencies = 2 * samples * min(0.5, float(modes.angular_frequency.max()) / (2 * np.pi * bit_clock_hz))
+    resonances = 16.0 * modes.count * frequencies  # for the band, and for its rest
+    return 2 * resonances + 2 * 8.0 * POINTS_LOADED * CHANNELS * samples
 
 
 def focus_bytes(modes: Modes, samples: int, times: int) -> float:

@@ -1,5 +1,7 @@
 """Responses under a finger, against plates with the finger in their matrices; what words made of them give a finger."""
 
+import tracemalloc
+
 import msgspec
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from controller.workshop.physics.design.design import point_impedance_kg_s
 from controller.workshop.physics.felt import LIGHT_TOUCH, ONE_NEWTON, FeltLoad, felt_amplitudes_um
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.focusing import focus
+from controller.workshop.physics.memory import POINTS_LOADED
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses import loaded_responses
 from controller.workshop.physics.responses.impulse_response import ResponseModel
@@ -68,6 +71,18 @@ def test_what_a_bank_keeps_is_the_loaded_response_in_and_beyond_the_band(recepta
     assert np.all(np.mean(off**2, axis=0) < 0.01**2)
     lost = np.einsum("psc,bsc->bp", whole - in_band, bits) / (30 * abs(in_band).sum(axis=(1, 2)))
     assert np.all(np.mean(lost**2, axis=0) > 0.02**2), "without the rest"
+
+
+def test_its_memory_is_what_a_build_counts_with():
+    model, points_m = ResponseModel(WHOLE), [(0.01 * number, 0.05) for number in range(1, POINTS_LOADED + 1)]
+    found = model.entry_responses(points_m)  # what it keeps is there then
+    source = LoadedResponses(with_finger(WHOLE), model, model.plate_modes)
+    tracemalloc.start()
+    source.entry_responses(points_m, out=found)
+    taken = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    print(f"{taken * 1e-6:.1f} MB, counted with {source.working_bytes * 1e-6:.1f}")
+    assert 0.7 * source.working_bytes < taken < source.working_bytes
 
 
 PLACES_M = np.random.default_rng(1).uniform((0.03, 0.03), (0.18, 0.118), (5, 2))

@@ -51,7 +51,12 @@ class CompactDesign:
 
     @classmethod
     def of(cls, board: Board, source: ResponseSource, grids: Sequence[Grid]) -> list[CompactDesign]:
-        """Designs for some grids; ConfigError if the plate or the bit clock is too small for them."""
+        """Designs for some grids; ConfigError if the plate or the bit clock is too small for them, or points yield to fingers."""
+        if board.finger is not None and board.finger.receptance == "point":
+            raise ConfigError(
+                f"board {board.name!r}: a compact bank holds waves, not how each point yields to a finger:"
+                ' take finger.receptance = "plate", or a bank that is not compact'
+            )
         waveform, plate = board.waveform, board.plate
         rest_grids = [_rest_grid(board, grid) for grid in grids]
         random = np.random.default_rng(SEED)

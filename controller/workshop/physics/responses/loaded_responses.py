@@ -18,13 +18,12 @@ from scipy import fft
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.finger import DYING, Finger, of_modes_above
+from controller.workshop.physics.memory import POINTS_LOADED, loaded_bytes
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.drifting_responses import DriftingResponses
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.physics.responses.transformed_responses import Reals, TransformedResponses
-
-POINTS_AT_ONCE = 16  # 16 MB of spectra
 
 
 class LoadedResponses(TransformedResponses):
@@ -42,6 +41,11 @@ class LoadedResponses(TransformedResponses):
         self._given: dict[float, _Receptances] = {}  # by the period of samples
         self._finger = Finger(given.mass_mg * 1e-6, given.damping_n_s_m, given.stiffness_n_m)
 
+    @property
+    def working_bytes(self) -> float:
+        """As `TransformedResponses.working_bytes`."""
+        return 0.0 if self._modes is None else loaded_bytes(self._modes, self.samples, self.bit_clock_hz)
+
     def _transform(self, free: Reals, points_m: ArrayLike, period_s: float) -> None:
         count = free.shape[1]
         length = fft.next_fast_len(2 * count, real=True)
@@ -51,8 +55,8 @@ class LoadedResponses(TransformedResponses):
             self._given[period_s] = _Receptances(self._board, self._modes, s)
         points, stiffness = np.asarray(points_m, np.float64).reshape(-1, 2), self._finger.dynamic_stiffness(s)[:, None]
         dying = np.exp(-sigma * period_s * np.arange(count)).astype(free.dtype)[:, None]
-        for first in range(0, len(points), POINTS_AT_ONCE):
-            some = slice(first, first + POINTS_AT_ONCE)
+        for first in range(0, len(points), POINTS_LOADED):
+            some = slice(first, first + POINTS_LOADED)
             spectrum = fft.rfft(free[some] * dying, length, axis=1)
             spectrum *= (1 / (1 + self._given[period_s].of(points[some]) * stiffness)).T[:, :, None].astype(spectrum.dtype)
             free[some] = fft.irfft(spectrum, length, axis=1)[:, :count] / dying

@@ -23,6 +23,11 @@ class TransformedResponses(ABC):
         self.samples, self.bit_clock_hz, self.plate_m = source.samples, source.bit_clock_hz, source.plate_m
         self.provenance = msgspec.structs.replace(source.provenance, model=f"{source.provenance.model}, {said}")
 
+    @property
+    def working_bytes(self) -> float:
+        """Bytes that it takes beyond those of responses that nothing changes, if they are worth counting."""
+        return self._source.working_bytes if isinstance(self._source, TransformedResponses) else 0.0
+
     @abstractmethod
     def _transform(self, free: Reals, points_m: ArrayLike, period_s: float) -> None:
         """Change responses, (point, sample, 32) in the order of time, in place."""
