@@ -9,6 +9,8 @@ MORE = "(--verbose: every count and latency; --json: for programs)"
 
 def felt(figures: dict[str, Any]) -> str:
     """Report of a simulated run: what the fingers felt, how late, and how it ended."""
+    from controller.workshop.physics.felt import felt_in_words
+
     focus, recording, total = figures["focus"], figures["recording"], figures["latency_us"]["total"]["uploads"]
     touches, share = _count(recording["contacts"], "touch", "touches"), focus["exact_share"]
     if focus["count"]:
@@ -21,6 +23,8 @@ def felt(figures: dict[str, Any]) -> str:
     lines = [f"{touches} of {recording['file']} {found}"]
     if figures["spoiled"]:
         lines.append(f"what was felt at worst is left out: {figures['spoiled']}")
+    if (felt_um := focus["felt_light_touch_um"]) is not None:
+        lines.append(f"a light touch feels {felt_um:.2f} µm of the median pulse: {felt_in_words(felt_um)}")
     lines += figures["unfelt"]
     if total["count"]:
         median_ms, worst_ms = total["p50"] * 1e-3, total["worst"] * 1e-3

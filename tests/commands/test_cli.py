@@ -125,6 +125,8 @@ def test_run_prints_one_json_object_with_every_figure(capsys, small_board):
     assert wire == pytest.approx(8 * (4096 + 4 * 36) / 25, rel=0.01), "µs at 25 MHz; 1 % for the pauses between frames"
     for name in ("relative_amplitude", "exact_share", "amplitude_um", "contrast", "contrast_all", "spot_mm", "distance_mm"):
         assert set(figures["focus"][name]) == {"median", "worst"}
+    felt_um, amplitude_um = figures["focus"]["felt_light_touch_um"], figures["focus"]["amplitude_um"]["median"]
+    assert 0.14 < felt_um / amplitude_um < 0.2, "1.36 of 8 um on the paper's plate"
     assert figures["focus"]["exact_share"] == figures["focus"]["relative_amplitude"], "one finger, full amplitude"
     (alone,) = figures["together"]
     assert (alone["fingers"], alone["emissions"]) == (1, 1)
@@ -593,7 +595,8 @@ def test_the_table_of_a_spoiled_run_has_no_worst_figures_of_foci(capsys, small_b
     row = re.compile(r"^relative amplitude +(\S+) +(\S+)$", re.MULTILINE)
     median, worst = row.search(printed(capsys, *run, "--verbose").out).groups()
     assert float(median) == float(worst), "of its one emission"
-    felt, *_ = printed(capsys, *run).out.splitlines()
+    felt, of_light_touch, *_ = printed(capsys, *run).out.splitlines()
+    assert re.fullmatch(r"a light touch feels 1\.\d\d µm of the median pulse: felt", of_light_touch)
     said = r"1 touch of demo\.evemu felt 1 pulse: (\d+) % of what this panel can do at the median, \1 % at the weakest"
     assert re.fullmatch(said, felt)
     monkeypatch.setattr(run_figures, "spoiled", lambda *_, **__: "the host was late by 40 ms")

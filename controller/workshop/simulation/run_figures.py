@@ -11,9 +11,12 @@ import numpy as np
 from controller.device.service.unfelt import left_out, unfelt
 from controller.device.touch.reports import describe_warnings, off_plate_warning
 from controller.metrics import STAGES, Counters
+from controller.workshop.physics.felt import felt_amplitudes_um
+from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.simulation.focus_evaluation import Focus
 from controller.workshop.simulation.simulated_run import Run
 
+MOST_MODES = 10_000  # with which what is felt takes half a second
 # Host latency from which figures of foci are not those of the panel: a finger moves by a third of a spot meanwhile.
 SPOILED_S = 10e-3
 
@@ -73,7 +76,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},
         "drift": _drift(run),
         "spoiled": spoiled(counters, real_time=run.real_time),
-        "focus": _figures(tracked),
+        "focus": _figures(tracked) | {"felt_light_touch_um": _felt_um(run, tracked)},
         "together": _together(tracked),
         "fixed_emitters": _figures([focus for focus in foci if focus.emission.finger is None]),
     }
@@ -126,6 +129,23 @@ def _figures(foci: list[Focus]) -> dict[str, Any]:
         "distance_mm": ([f.distance_m * 1e3 for f in foci], max),
     }
     return {"count": len(foci)} | {name: _median_and(worst, values) for name, (values, worst) in columns.items()}
+
+
+def _felt_um(run: Run, tracked: list[Focus]) -> float | None:
+    """What a light touch feels (`physics.felt`) of the pulse with the median `exact_share`, with all its fingers on the plate.
+
+    None without one, on a plate that drifts, and where this would take seconds.
+    """
+    known = sorted((focus for focus in tracked if np.isfinite(focus.exact_share)), key=lambda focus: focus.exact_share)
+    if not known or run.drift is not None or (modes := modes_of(run.plate)).count > MOST_MODES:
+        return None
+    median, board = known[len(known) // 2], run.plate
+    tick = min(run.capture.focus_ticks.tolist(), key=lambda tick: abs(run.link.time_s(tick) - run.start_s - median.time_s))
+    starts = tick - np.arange(board.waveform.samples, 0, -1) * board.bit_ticks
+    words = run.capture.words[np.searchsorted(run.capture.ticks, starts, "right") - 1]
+    together = [focus for focus in tracked if focus.time_s == median.time_s]
+    felt_um = felt_amplitudes_um(board, modes, words, [(focus.x_m, focus.y_m) for focus in together])
+    return float(felt_um[together.index(median)])
 
 
 def _together(tracked: list[Focus]) -> list[dict[str, Any]]:
