@@ -130,6 +130,8 @@ def header_of(path: Path) -> Header:
 def bounds_of(board: Board) -> dict[str, Any]:
     """The bounds of a board whose bank is chosen."""
     bounds: dict[str, Any] = {"max_error": board.compose.max_error, "max_time_us": board.compose.max_time_us}
+    if board.compose.max_bank_mb is not None:
+        bounds["max_bank_mb"] = board.compose.max_bank_mb
     return bounds | ({"method": "compact"} if board.compose.method == "compact" else {})
 
 

@@ -1,4 +1,4 @@
-"""Which pitch and snap distance a bank gets, and whether it holds responses: the smallest bank that keeps two bounds for a scene.
+"""Which pitch and snap distance a bank gets, and whether it holds responses: the smallest bank that keeps a scene's bounds.
 
 Candidates are settings that a device has: cells at some pitch that are played as they are, or responses interpolated between
 them, with cells played within a snap distance. Each has an error, measured on the plate's model at places of the scene; a time,
@@ -7,6 +7,7 @@ from the table of the benchmark; and bytes. Those that no other pulses in all th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -121,12 +122,12 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source
 
     `margin_m` is as of `cells_needed`; responses come from the board's plate model by default. Returns the fields of the chosen
     `Setting`; `asked`, as `bank_fit.asked_of`; `scene`; `why`, a line for people; `front`: pitch, snap (None: no responses),
-    error, time of a lone finger and bytes of each setting on the front. Raises ConfigError if no setting keeps both bounds.
+    error, time of a lone finger and bytes of each setting on the front. Raises ConfigError if no setting keeps all bounds.
     """
     found = settings(board, scene, margin_m, source)
     front = [one for one in found if not any(one.beaten_by(other) for other in found)]
-    bounds = board.compose
-    kept = [one for one in front if one.error <= bounds.max_error and one.time_us <= bounds.max_time_us]
+    bounds, most_bytes = board.compose, 1e6 * (board.compose.max_bank_mb or math.inf)
+    kept = [one for one in front if one.error <= bounds.max_error and one.time_us <= bounds.max_time_us and one.bytes <= most_bytes]
     if not kept:
         raise ConfigError(_none(board, scene_file.name, found))
     best = min(kept, key=lambda one: (one.bytes, one.lone_us))
@@ -152,12 +153,17 @@ def _rounded(length_mm: float) -> float:
 def _none(board: Board, called: str, found: Sequence[Setting]) -> str:
     bounds = board.compose
     said = f"board {board.name!r}: compose.max_error = {bounds.max_error:g} and compose.max_time_us = {bounds.max_time_us:g}"
+    together = "both"
+    if bounds.max_bank_mb is not None:
+        said, together = f"{said} and compose.max_bank_mb = {bounds.max_bank_mb:g}", "all"
     if not found:
         return f"{said}: {called} reaches no cell of a grid between {FINEST:g} and 0.5 wavelengths"
     least, fastest = min(found, key=lambda one: one.error), min(found, key=lambda one: one.time_us)
+    smallest = min(found, key=lambda one: (one.bytes, one.error))
     return (
-        f"{said} cannot both be kept for {called}: the least error is {least.error:g} ({least.time_us:g} us), the least time"
-        f" {fastest.time_us:g} us (error {min(one.error for one in found if one.time_us == fastest.time_us):g})"
+        f"{said} cannot {together} be kept for {called}: the least error is {least.error:g} ({least.time_us:g} us), the least time"
+        f" {fastest.time_us:g} us (error {min(one.error for one in found if one.time_us == fastest.time_us):g}), the smallest bank"
+        f" {smallest.bytes / 1e6:.2g} MB (error {smallest.error:g})"
     )
 
 

@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from tables import each_row
 
-from controller.device.bank.inspection import wrong_pitch
+from controller.device.bank.inspection import bounds_of, wrong_pitch
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import ApplicationSocket
@@ -75,7 +75,7 @@ def test_shipped_scenes_get_different_banks_for_a_reason(board):
         assert "the smallest of" in reported["why"]
 
 
-def test_the_choice_is_the_smallest_on_the_front_within_both_bounds(monkeypatch, tmp_path):
+def test_the_choice_is_the_smallest_on_the_front_within_all_bounds(monkeypatch, tmp_path):
     board, file = auto(small_board()), tmp_path / "keys.toml"
     file.write_text(KEYS)
     scene = load_scene(file, board)
@@ -89,6 +89,12 @@ def test_the_choice_is_the_smallest_on_the_front_within_both_bounds(monkeypatch,
     with pytest.raises(ConfigError, match=r"compose.max_error = 0.001 and compose.max_time_us = 1 cannot both be kept") as raised:
         choose(auto(board, max_error=0.001, max_time_us=1.0), scene, file, MARGIN_M)
     assert "\n" not in str(raised.value)
+    size = choose(auto(board, max_error=0.05), scene, file, MARGIN_M)["bytes"]
+    fits = auto(board, max_error=0.05, max_bank_mb=size / 1e6)
+    assert choose(fits, scene, file, MARGIN_M)["asked"].items() >= bounds_of(fits).items()
+    assert bounds_of(fits)["max_bank_mb"] == size / 1e6
+    with pytest.raises(ConfigError, match=r"and compose.max_bank_mb = [\d.]+ cannot all be kept .* the smallest bank 0\.\d+ MB"):
+        choose(auto(board, max_error=0.05, max_bank_mb=0.999 * size / 1e6), scene, file, MARGIN_M)
 
 
 def test_a_setting_is_beaten_by_one_that_is_as_good_in_all_and_better_in_one():
