@@ -49,8 +49,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     build.add_argument(
         "--optimise",
-        choices=("contrast", "quiet", "balanced"),
-        help="optimise every entry: more contrast, less sound, or both; about half a second of a core a cell (default: neither)",
+        choices=("contrast", "quiet", "balanced", "loud", "cool"),
+        help="optimise every entry: more contrast, less sound, both, a fifth more amplitude, or less heat in the stages; about half"
+        " a second of a core a cell (default: none)",
     )
     build.add_argument(
         "--compact",

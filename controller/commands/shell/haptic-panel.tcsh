@@ -20,7 +20,7 @@ complete haptic-panel \
         'c/--wrong=/f/' \
         'c/--netlist=/f/' \
         'c/--out=/f/' \
-        'c/--optimise=/(contrast quiet balanced)/' \
+        'c/--optimise=/(contrast quiet balanced loud cool)/' \
         'c/--when=/(command press enter leave)/' \
         'c/--capacitance-f=/f/' \
         'c/--field-out=/f/' \
@@ -51,7 +51,7 @@ complete haptic-panel \
         'n/--wrong/f/' \
         'n/--netlist/f/' \
         'n/--out/f/' \
-        'n/--optimise/(contrast quiet balanced)/' \
+        'n/--optimise/(contrast quiet balanced loud cool)/' \
         'n/--when/(command press enter leave)/' \
         'n/--capacitance-f/f/' \
         'n/--field-out/f/' \

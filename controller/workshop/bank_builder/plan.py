@@ -58,8 +58,10 @@ class BankPlan:
             raise ConfigError(f"responses that are {kind} cannot be optimised: that takes a model of the whole plate")
         if request.compact and request.aim is not None:
             raise ConfigError("a compact bank holds no waveforms of cells that could be optimised")
-        if request.aim is not None and board.finger is not None:
-            raise ConfigError(f"board {board.name!r}: entries are optimised for a bare plate: leave out [finger], or --optimise")
+        if request.aim is not None and (board.finger is not None or board.waveform.drift_percent):
+            key = "[finger]" if board.finger is not None else "waveform.drift_percent"
+            what = "a bare plate that does not drift"
+            raise ConfigError(f"board {board.name!r}: entries are optimised for {what}: leave out {key}, or --optimise")
         pitch_m = board.bank.pitch_mm * 1e-3 if request.pitch_m is None else request.pitch_m
         grid = compact_grid(board, pitch_m) if request.compact else Grid.of(board.plate, pitch_m)
         wanted = _wanted(request, grid)

@@ -8,6 +8,10 @@ import pytest
 from small_plate import WHOLE, small_board
 
 from controller.device.board.panel import AssumedFinger
+from controller.errors import ConfigError
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.drifting_responses import resampling
@@ -70,6 +74,11 @@ def test_a_drift_is_part_of_the_digest_and_goes_with_a_finger():
     drifting_alone = words_source(drifting(small_board(), 0.4), ResponseModel(small_board()))
     under, bare = (one.drive_order_responses(POINTS_M) for one in (source, drifting_alone))
     assert 0.3 < np.corrcoef(under.ravel(), bare.ravel())[0, 1] < 0.99
+
+
+def test_entries_are_not_optimised_for_a_plate_that_drifts(tmp_path):
+    with pytest.raises(ConfigError, match=r"leave out waveform\.drift_percent, or --optimise"):
+        build_bank(BankRequest(drifting(small_board(), 0.4), tmp_path / "bank", aim=AIMS["quiet"]))
 
 
 def test_words_of_the_mean_keep_more_of_a_plate_that_is_off():

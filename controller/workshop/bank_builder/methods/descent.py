@@ -6,6 +6,7 @@ What is maximised is, each term relative to the sign of the band-limited respons
 
 Amplitude and field are those of all modes, so frequencies outside the band help too, as far as silence lets them. `a` is found for
 each cell so that the amplitude becomes the plain one's: an entry that kicks harder than what is composed beside it would be felt.
+The aim "loud" is for banks that play cells alone: there it becomes a fifth more.
 
 1. Relaxation: accelerated projected gradient steps on levels between 0 and 1 (Beck and Teboulle, FISTA, with restarts).
 2. Rounding: sample by sample in time order, channel by channel; what one bit's rounding costs, the next ones make up for.
@@ -62,6 +63,7 @@ class DescentAim:
     amplitude: float  # worth of the amplitude that the relaxation begins with
     steps: int  # of the relaxation
     passes: int = 1  # of the descent
+    share: float = 1.0  # of the plain amplitude, that the relaxation aims at
 
 
 AIMS = {
@@ -70,6 +72,8 @@ AIMS = {
         DescentAim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
         DescentAim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
         DescentAim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
+        DescentAim("loud", contrast=0.0, silence=0.5, calm=0.1, amplitude=1.5, steps=100, share=1.2),
+        DescentAim("cool", contrast=0.0, silence=0.02, calm=1.4, amplitude=0.6, steps=20, passes=2, share=0.95),
     )
 }
 
@@ -144,7 +148,11 @@ class Descent:
                 cells.edge[busy] = np.maximum(cells.edge[busy], self._least_edge_cost(cells)[busy]) * CALMER
                 self._pass(cells, levels)
             share = _dot(cells.shapes, self._field.modal(levels)) / cells.amplitude
-            fit = (self._own_edges(levels).max(axis=1) <= self._most_edges) & (share >= LEAST_SHARE) & (share <= MOST_SHARE)
+            fit = (
+                (self._own_edges(levels).max(axis=1) <= self._most_edges)
+                & (share >= LEAST_SHARE)
+                & (share <= MOST_SHARE * self._aim.share)
+            )
             bits = levels.transpose(1, 0, 2)[fit].astype(np.uint8)
             packed = np.packbits(bits, axis=2, bitorder="little").view("<u4")[:, :, 0]
             words[good[fit]] = packed
@@ -178,7 +186,7 @@ class Descent:
         share = np.array([place.share for place in cells.places])
         curvature = cells.field * share / 2  # of half the squared modes
         rate = 1 / (curvature * self._field.largest + 2 * cells.sound * self._audible.largest)
-        aimed = cells.amplitude
+        aimed = cells.amplitude * self._aim.share
         levels, ahead = cells.plain, cells.plain
         pull = None if self._aim.contrast else self._field.gradient(cells.shapes)
         momentum = np.ones(len(aimed))
