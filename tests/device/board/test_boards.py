@@ -59,7 +59,7 @@ lint_off -file "*/primitives.v"
 lint_off -rule DECLFILENAME -file "*/top.v"
 lint_off -rule PROCASSINIT -file "*/top.v" -match "*released_q*"
 lint_off -rule SYNCASYNCNET -file "*/top.v" -match "*'g?'*"
-"""  # all builds ask for top; a reset generator begins with a value of its own; SCK and the permits share the bus of a header with others
+"""  # all builds ask for top; a reset generator begins with a value of its own; SCK and permits share a header's bus
 
 
 def site_of(board):
