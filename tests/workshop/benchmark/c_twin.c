@@ -494,15 +494,29 @@ static void patch_at(double x_m, double y_m, struct patch *p)
     for (int i = p->cells; i < 4; i++) p->from[i] = p->from[0];
 }
 
-/* Samples 0, 4, 8, .. of a response, then 2, 6, 10, .. */
-static int16_t sketch_of[POINTS][VALUES / 2];
-static int32_t sketch_sum[VALUES / 2];
+/* What the bits do outside the band: means of four samples, behind the response in the band. */
+enum { RESTS = VALUES / 4 };
+static int16_t rest_of[POINTS][RESTS];
+
+static void take_rest(const struct patch *p, int16_t *out)
+{
+    const int8_t *a = p->from[0] + VALUES, *b = p->from[1] + VALUES, *d = p->from[2] + VALUES, *e = p->from[3] + VALUES;
+    int16_t weight[4] = {0};
+    for (int cell = 0; cell < p->cells; cell++) weight[cell] = p->weight[cell];
+    for (int n = 0; n < RESTS; n += CHANNELS)
+        for (int q = 0; q < CHANNELS; q++)
+            out[n + q] = (int16_t)((a[n + q] * weight[0] + b[n + q] * weight[1] + d[n + q] * weight[2] + e[n + q] * weight[3]) * flip[q]);
+}
+
+/* Samples 0, 4, 8, .. of a response. */
+static int16_t sketch_of[POINTS][VALUES / 4];
+static int32_t sum_all[VALUES];
+static int16_t bit_all[VALUES], bits_of_four[RESTS];
 
 static void sketch(const int16_t *response, int16_t *out)
 {
-    for (int first = 0; first < 4; first += 2)
-        for (int n = first; n < SAMPLES; n += 4, out += CHANNELS)
-            for (int q = 0; q < CHANNELS; q++) out[q] = response[n * CHANNELS + q] >> 4;
+    for (int n = 0; n < SAMPLES; n += 4, out += CHANNELS)
+        for (int q = 0; q < CHANNELS; q++) out[q] = response[n * CHANNELS + q] >> 4;
 }
 
 static int64_t inner_product(const int16_t *a, const int16_t *b)
@@ -524,17 +538,53 @@ static void whole_weights(const double *divisor, const double *weight, int count
     for (int i = 0; i < count; i++) whole[i] = (int16_t)rint(weight[i] / divisor[i] * (32767 / total));
 }
 
-/* What each point gets of the sketch, with these weights. */
-static void got_of_sketch(const int16_t *weight, int count, int32_t *got)
+/* Bits of a sum of `length` values of responses with these weights. */
+static void bits_of_sum(const int16_t *const *response, const int16_t *weight, int count, int length)
 {
-    for (int v = 0; v < VALUES / 2; v++) sketch_sum[v] = weight[0] * sketch_of[0][v];
+    for (int v = 0; v < length; v++) sum_all[v] = weight[0] * response[0][v];
     for (int i = 1; i < count; i++)
-        for (int v = 0; v < VALUES / 2; v++) sketch_sum[v] += weight[i] * sketch_of[i][v];
-    for (int i = 0; i < count; i++) {
-        int32_t sum = 0;
-        for (int v = 0; v < VALUES / 2; v++) sum += sketch_sum[v] > 0 ? sketch_of[i][v] : 0;
-        got[i] = sum;
-    }
+        for (int v = 0; v < length; v++) sum_all[v] += weight[i] * response[i][v];
+    for (int v = 0; v < length; v++) bit_all[v] = sum_all[v] > 0;
+}
+
+/* 32,000 values of 15 bits at most, or 8,000 of 17 */
+static int32_t total_of_bits(const int16_t *values, const int16_t *bits, int length)
+{
+    int32_t sum = 0;
+    for (int v = 0; v < length; v++) sum += values[v] * bits[v];
+    return sum;
+}
+
+/* Divide weights by what their points got. */
+static void correct(const double *share, int count, double *balance)
+{
+    double mean = 0;
+    for (int i = 0; i < count; i++) mean += share[i];
+    mean /= count;
+    for (int i = 0; i < count; i++) balance[i] *= share[i] > 0 ? fmin(fmax(mean / share[i], 0.5), 2) : 2;
+}
+
+/* Balance weights in the sketches, then with all that bits do. */
+static void balanced(const double *divisor, const int16_t *const *response, int count, double *balance)
+{
+    const int16_t *sketches[POINTS] = {0};
+    int16_t weight[POINTS];
+    double share[POINTS];
+    for (int i = 0; i < count; i++) sketches[i] = sketch_of[i];
+    whole_weights(divisor, balance, count, weight);
+    bits_of_sum(sketches, weight, count, VALUES / 4);
+    for (int i = 0; i < count; i++) share[i] = total_of_bits(sketches[i], bit_all, VALUES / 4) / divisor[i];
+    correct(share, count, balance);
+    whole_weights(divisor, balance, count, weight);
+    bits_of_sum(response, weight, count, VALUES);
+    for (int n = 0; n < RESTS; n += CHANNELS)
+        for (int q = 0; q < CHANNELS; q++) {
+            const int16_t *four = bit_all + 4 * n + q;
+            bits_of_four[n + q] = four[0] + four[CHANNELS] + four[2 * CHANNELS] + four[3 * CHANNELS];
+        }
+    for (int i = 0; i < count; i++)
+        share[i] = ((double)total_of_bits(response[i], bit_all, VALUES) + total_of_bits(rest_of[i], bits_of_four, RESTS)) / divisor[i];
+    correct(share, count, balance);
 }
 
 /* Weights of responses, of the sums of whose absolute values: polarities with which the energy of the sum is largest, then balanced
@@ -567,17 +617,7 @@ static void weigh(const int64_t *size, const int16_t *const *response, int count
     for (int i = 0; i < count; i++) negative += best << 1 >> i & 1;
     for (int i = 0; i < count; i++)
         if ((best << 1 >> i & 1) != (2 * negative > count)) divisor[i] = -divisor[i];
-    for (int round = 0; round < 2; round++) {
-        double share[POINTS], mean = 0;
-        int32_t got[POINTS];
-        whole_weights(divisor, balance, count, weight);
-        got_of_sketch(weight, count, got);
-        for (int i = 0; i < count; i++) mean += share[i] = got[i] / divisor[i];
-        mean /= count;
-        for (int i = 0; i < count; i++) balance[i] *= share[i] > 0 ? fmin(fmax(mean / share[i], 0.5), 2) : 2;
-    }
-    for (int i = 0; i < count; i++) divisor[i] /= balance[i];
-    for (int i = 0; i < count; i++) balance[i] = 1;
+    balanced(divisor, response, count, balance);
     whole_weights(divisor, balance, count, weight);
 }
 
@@ -645,6 +685,7 @@ static void compose(const double (*points)[2], int count)
     for (int i = 0; i < count; i++) {
         struct patch patch, *p = &patch;
         patch_at(points[i][0], points[i][1], p);
+        take_rest(p, rest_of[i]);
         for (int n = 0; n < SAMPLES;) {
             u16x8 low = {0}, high = {0}; /* bytes of the absolute values: 32 samples of them fit 16 bits */
             for (int end = n + 32 < SAMPLES ? n + 32 : SAMPLES; n < end; n++)
@@ -731,6 +772,7 @@ static void compose(const double (*points)[2], int count)
     for (int i = 0; i < count; i++) {
         struct patch p;
         patch_at(points[i][0], points[i][1], &p);
+        take_rest(&p, rest_of[i]);
         add_up(&p);
         for (int n = 0; n < SAMPLES; n++) {
             int part = 0;
