@@ -24,11 +24,11 @@ It is not a model of the throw itself, for which there is `skin.py`.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import lfilter
 
 from controller.device.board.board import Board
 from controller.device.waveforms.pad import PAD_M
@@ -90,7 +90,10 @@ def felt_by_all_um(
 def felt_history(pad_motion: Floats, period_s: float) -> Floats:
     """Felt amplitude at each time of displacements of pads, (time, ...) from rest on, in their unit."""
     forgotten = float(np.exp(-period_s / SKIN_S))
-    found: Floats = np.sqrt(2 * lfilter([1 - forgotten], [1, -forgotten], pad_motion**2, axis=0))
+    power = 2 * (1 - forgotten) * pad_motion**2
+    for before, here in itertools.pairwise(power):  # scipy.signal has this, and takes a second to import
+        np.add(here, forgotten * before, out=here)
+    found: Floats = np.sqrt(power)
     return found
 
 
