@@ -17,7 +17,7 @@ from controller.workshop.calibration.interpolated import InterpolatedResponses, 
 from controller.workshop.calibration.kriging import Prior, SpectralField, Waves, krige
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.modal_prior import ModalPrior, unforeseen
-from controller.workshop.calibration.plate_size import PlateSize, fit_size
+from controller.workshop.calibration.plate_size import GlassSize, fit_size
 from controller.workshop.calibration.point_fit import fit_points
 from controller.workshop.calibration.point_plan import scattered_count
 from controller.workshop.calibration.spectra import Bins, Spectra
@@ -86,7 +86,8 @@ def interpolate(
     provenance = msgspec.structs.replace(
         learned.provenance, kind=found.kind, model=found.words, points=len(points_m), kept=(median, least)
     )
-    source = InterpolatedResponses(board, bins, found.field, provenance, found.leave_out, found.reach, points_m, errors, found.size)
+    reach = None if found.reach is None else (found.reach, points_m)
+    source = InterpolatedResponses(board, bins, found.field, provenance, found.leave_out, reach, errors, found.size)
     return source, waves
 
 
@@ -103,7 +104,7 @@ class _Interpolation(NamedTuple):
     kind: Literal["measured", "completed"]
     words: str
     reach: Prior | None  # says how far from the measured points the field is known; None where it is known on the whole plate
-    size: PlateSize | None = None  # of the glass, where the model is of another size than board.toml says
+    size: GlassSize | None = None  # of the glass, where the model is of another size than board.toml says
 
 
 def _between_cells(board: Board, lattice: Lattice, measured: Measured, prior: Waves, progress: Progress) -> _Interpolation:
@@ -146,7 +147,7 @@ def _between_points(
 
 def _model_of(
     model: Callable[[Board], Modes], board: Board, waves: WaveFit, measured: Measured, progress: Progress
-) -> tuple[Modes | None, PlateSize | None]:
+) -> tuple[Modes | None, GlassSize | None]:
     """The model if it foresees points left out better than waves do; and the size of the glass if that of another does much better.
 
     A bank is not made by that one: glass of another size is like other edges, and less right than waves if these are.

@@ -13,7 +13,7 @@ from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
 from controller.workshop.calibration.kriging import Prior, SpectralField, foreseen_shares
-from controller.workshop.calibration.plate_size import PlateSize
+from controller.workshop.calibration.plate_size import GlassSize
 from controller.workshop.calibration.point_fit import PointFit
 from controller.workshop.calibration.spectra import Bins
 
@@ -48,12 +48,10 @@ class InterpolatedResponses:
         field: SpectralField,
         provenance: Provenance,
         leave_out: LeaveOut,
-        # prior, points_m: what says how far from the measured points the field is known; None where it is known on the
-        # whole plate
-        prior: Prior | None,
-        points_m: Floats,
+        # what says how far from the measured points, (point, 2) in m, the field is known; None where it is known on the whole plate
+        reach: tuple[Prior, Floats] | None,
         errors: PointFit | None = None,  # of the points, corrected; None where they were not looked for
-        size: PlateSize | None = None,  # of the glass, where the model is of another than board.toml's
+        size: GlassSize | None = None,  # of the glass, where the model is of another than board.toml's
     ) -> None:
         self.provenance = provenance
         self.leave_out = leave_out
@@ -64,16 +62,15 @@ class InterpolatedResponses:
         self.plate_m = (board.plate.length_m, board.plate.width_m)
         self._bins = bins
         self._field = field
-        self._prior = prior
-        self._points_m = points_m
+        self._reach = reach
 
     def foreseen(self, points_m: ArrayLike) -> Floats:
         """Share of the amplitude that is foreseen from the places of the measured points alone, at (point, 2) in m: (point,)."""
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
-        if self._prior is None:
+        if self._reach is None:
             return np.ones(len(points))
         some = self._bins.in_band
-        return foreseen_shares(self._prior, self._points_m, points, some[:: max(len(some) // BINS_ASKED, 1)])
+        return foreseen_shares(*self._reach, points, some[:: max(len(some) // BINS_ASKED, 1)])
 
     def near_enough(self, points_m: Floats) -> NDArray[np.bool_]:
         """Whether responses are estimated at points, (point, 2) in m: (point,)."""

@@ -22,7 +22,7 @@ FINE_MM: Final = np.array([-0.5, 0.0, 0.5])
 SEARCHES: Final = (COARSE_MM, COARSE_MM, FINE_MM, FINE_MM)  # of length and width in turn; the last two say how sure they are
 
 
-class PlateSize(NamedTuple):
+class GlassSize(NamedTuple):
     """By how much the glass is larger than board.toml says, with standard deviations."""
 
     longer_mm: float
@@ -46,7 +46,7 @@ def fit_size(
     board: Board,
     left: Callable[[Board], Floats],  # of the glass of a board: share of the energy that is not foreseen, (bin,)
     progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the work done and all of it
-) -> PlateSize:
+) -> GlassSize:
     """Search length, then width, then both finer; errors from the scatter over frequencies, as a jackknife."""
     size, error, done = np.zeros(2), np.zeros(2), 0
     for number, offsets_mm in enumerate(SEARCHES):
@@ -54,7 +54,7 @@ def fit_size(
         shares = []
         for off_mm in offsets_mm:
             there = size + off_mm * np.eye(2)[axis]
-            shares.append(left(PlateSize(float(there[0]), float(there[1])).of(board)))
+            shares.append(left(GlassSize(float(there[0]), float(there[1])).of(board)))
             progress(done := done + 1, sum(map(len, SEARCHES)))
         table = np.array(shares)  # (size, bin)
         if offsets_mm is COARSE_MM:
@@ -63,7 +63,7 @@ def fit_size(
         without = [_lowest(np.delete(table, bin_, axis=1).mean(axis=1)) for bin_ in range(table.shape[1])]
         error[axis] = np.sqrt((len(without) - 1) * np.var(without))
         size[axis] += _lowest(table.mean(axis=1))
-    return PlateSize(float(size[0]), float(size[1]), float(error[0]), float(error[1]))
+    return GlassSize(float(size[0]), float(size[1]), float(error[0]), float(error[1]))
 
 
 def _lowest(shares: Floats) -> float:
