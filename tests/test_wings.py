@@ -267,3 +267,18 @@ def test_without_the_application_socket_the_service_says_so_and_goes_on(serial_b
         service.send_signal(signal.SIGTERM)
         communicate(service)
     assert service.returncode == 0
+
+
+def test_help_of_every_command_needs_no_offline_tools():
+    """Nor does completion: both ask what every command takes."""
+    program = """
+import sys
+class Absent:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in ("scipy", "matplotlib", "tqdm", "pyuff", "dask", "distributed"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Absent())
+from controller.cli import COMMANDS, parser
+assert len(parser(COMMANDS).format_help()) > 1000
+"""
+    subprocess.run([sys.executable, "-c", program], check=True)

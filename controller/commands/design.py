@@ -78,7 +78,6 @@ FOUND = ("thickness_mm", "disc", "discs", "channels", "felt_um", "spot_mm", "con
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     from controller.workshop.physics.design.design_inputs import NUMBERS, DesignInputs
-    from controller.workshop.physics.felt import DETECTION_UM
 
     command = declare(
         example="haptic-panel design --thickness-mm 1",
@@ -96,7 +95,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         metavar="WHAT",
         help="search panels that are felt, over one or more of thickness,channels,disc: fewest channels first",
     )
-    command.add_argument("--felt-um", type=float, default=DETECTION_UM[1], metavar="µm", help="felt amplitude that --find wants")
+    command.add_argument(
+        "--felt-um", type=float, metavar="µm", help="felt amplitude that --find wants (default: from which it is known to be felt)"
+    )
     command.add_argument(
         "--price",
         action="append",
@@ -159,12 +160,14 @@ def _parts(board: Board, options: argparse.Namespace) -> Parts | None:
 
 def _find(options: argparse.Namespace, board: Board, changes: dict[str, float], parts: Parts | None) -> int:
     from controller.workshop.physics.design.find_design import find_designs
+    from controller.workshop.physics.felt import DETECTION_UM
 
-    if not options.felt_um > 0:
-        raise ConfigError(f"--felt-um {options.felt_um:g}: must be above 0")
-    rows = find_designs(board, changes, parts, options.find.split(","), options.felt_um, _prices(options.price))
-    reached = rows[0]["felt_um"] >= options.felt_um
-    show(options, {"board": board.name, "felt_um": options.felt_um, "reached": reached, "designs": rows}, _found_table)
+    felt_um = DETECTION_UM[1] if options.felt_um is None else options.felt_um
+    if not felt_um > 0:
+        raise ConfigError(f"--felt-um {felt_um:g}: must be above 0")
+    rows = find_designs(board, changes, parts, options.find.split(","), felt_um, _prices(options.price))
+    reached = rows[0]["felt_um"] >= felt_um
+    show(options, {"board": board.name, "felt_um": felt_um, "reached": reached, "designs": rows}, _found_table)
     return 0 if reached else 1
 
 

@@ -24,7 +24,6 @@ It is not a model of the throw itself, for which there is `skin.py`.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,8 +90,8 @@ def felt_history(pad_motion: Floats, period_s: float) -> Floats:
     """Felt amplitude at each time of displacements of pads, (time, ...) from rest on, in their unit."""
     forgotten = float(np.exp(-period_s / SKIN_S))
     power = 2 * (1 - forgotten) * pad_motion**2
-    for before, here in itertools.pairwise(power):  # scipy.signal has this, and takes a second to import
-        np.add(here, forgotten * before, out=here)
+    for n in range(1, len(power)):  # scipy.signal has this, and takes a second to import
+        power[n] += forgotten * power[n - 1]
     found: Floats = np.sqrt(power)
     return found
 

@@ -9,8 +9,8 @@ that many emissions at the same places cost a matrix product.
 from __future__ import annotations
 
 import numpy as np
+from numpy import fft
 from numpy.typing import ArrayLike, NDArray
-from scipy import fft
 
 from controller.device.board.board import Board
 from controller.workshop.physics.finger import DYING, MODES_AT_ONCE, WINDOW_LENGTHS, Finger
