@@ -92,7 +92,7 @@ def test_nothing_is_accused_that_is_right_and_nothing_wrong_passes(edges, count,
             assert set(found.inverted) == there.get("inverted", set())
             assert found.points_needed == count
         else:
-            assert count < found.points_needed <= 45
+            assert count < found.points_needed <= 40
         verdicts += not found.undecided
     if count == 3:
         assert verdicts == 0
