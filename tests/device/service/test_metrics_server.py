@@ -59,6 +59,11 @@ class Served:
         head, _, body = answer.partition(b"\r\n\r\n")
         return head.decode(), body.decode()
 
+    async def connected(self):
+        """Until a connection is accepted: it stays one for at least a turn of the loop."""
+        while not self.server._connections:
+            await asyncio.sleep(0)
+
     async def idle(self):
         """Until all connections are over."""
         while self.server._connections:
@@ -169,6 +174,7 @@ def test_who_is_slow_to_read_is_cut_off():
             loop = asyncio.get_running_loop()
             await loop.sock_connect(reader, ("127.0.0.1", served.port))
             await loop.sock_sendall(reader, ASK)
+            await served.connected()
             await served.idle()
             got = 0
             with contextlib.suppress(ConnectionResetError):
