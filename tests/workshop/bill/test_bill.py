@@ -26,6 +26,9 @@ def with_channels(count):
     return replace(BOARD, actuators=BOARD.actuators[:count])
 
 
+EIGHT = with_channels(8)
+
+
 def quantities(board, group="stages"):
     found = defaultdict(float)
     for item in bill(board):
@@ -34,23 +37,23 @@ def quantities(board, group="stages"):
     return found
 
 
-def parsed(board):
+@pytest.fixture(scope="module")
+def parsed():
     """Of KiCad's netlist, by another program: value and footprint by reference, nets as sets of (reference, pad)."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # names that pyparsing has other ones for
-        netlist = kinparse.parse_netlist(kicad_netlist(circuit(board), "a test"))
+        netlist = kinparse.parse_netlist(kicad_netlist(circuit(EIGHT), "a test"))
     parts = {part.ref: (part.value, part.footprint) for part in netlist.parts}
     return parts, {net.name: {(pin.ref, pin.num) for pin in net.pins} for net in netlist.nets}
 
 
-def test_quantities_are_those_of_the_netlist():
-    board = with_channels(8)
-    parts, _ = parsed(board)
+def test_quantities_are_those_of_the_netlist(parsed):
+    parts, _ = parsed
     of_values = defaultdict(int)
     for value, _ in parts.values():
         of_values[value] += 1
     listed = defaultdict(float)
-    for name, count in quantities(board).items():
+    for name, count in quantities(EIGHT).items():
         listed[name.split(" ", 1)[1]] += count
     del listed["board"]
     assert listed == of_values
@@ -86,13 +89,12 @@ PADS = {  # by data sheets: of SOT-23, SOT-223 and SOD-123
 }  # fmt: skip
 
 
-def test_connectivity_is_that_of_the_checked_netlists():
+def test_connectivity_is_that_of_the_checked_netlists(parsed):
     """Pad by pad: each node of a subcircuit is one net, and no two nodes share one."""
-    board = with_channels(4)
-    parts, nets = parsed(board)
+    parts, nets = parsed
     net_of = {pin: name for name, pins in nets.items() for pin in pins}
     seen = set()
-    for name, prefixes in (("stage", [1, 2, 3, 4]), ("supply", [0])):
+    for name, prefixes in (("stage", range(1, 9)), ("supply", [0])):
         for prefix in prefixes:
             of_node = {}
             gates = []
@@ -119,9 +121,8 @@ def test_connectivity_is_that_of_the_checked_netlists():
     assert all(parts[reference][0] in ("100n", "10u") for reference in left if reference[0] == "C")
 
 
-def test_every_channel_comes_from_the_fpga_and_goes_to_its_disc():
-    board = with_channels(8)
-    _, nets = parsed(board)
+def test_every_channel_comes_from_the_fpga_and_goes_to_its_disc(parsed):
+    _, nets = parsed
     for channel in range(8):
         assert len([pin for pin in nets[f"CH{channel:02d}"] if pin[0] == "J1"]) == 1
         assert len([pin for pin in nets[f"CH{channel:02d}_patch"] if pin[0] == f"J{21 + channel // 4}"]) == 1
