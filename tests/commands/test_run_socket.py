@@ -18,7 +18,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path / "haptic-panel"
 
 
-@each_row("name", ["ulx3s", "ulx3s_pi5", "ice40_hx8k"])
+@each_row("name", ["ulx3s", "ulx3s_pi5"])
 def test_a_board_with_devices_has_one_for_the_groups_of_the_package(name):
     settings = load_board(find_board(name)).application_socket
     groups = (settings.group, settings.operate_group, settings.regions_group, settings.look_group)

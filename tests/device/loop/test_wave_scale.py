@@ -48,7 +48,7 @@ def banks(tmp_path_factory):
         bank.close()
 
 
-@each_row("name", ["simulated", "ulx3s", "ulx3s_pi5", "ice40_hx8k"])
+@each_row("name", ["simulated", "ulx3s", "ulx3s_pi5"])
 def test_on_the_shipped_boards_nothing_changes(name):
     board = load_board(find_board(name))
     assert wave_scale(board) == 1.0

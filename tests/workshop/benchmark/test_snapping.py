@@ -18,7 +18,7 @@ from controller.workshop.bank_builder.request import BankRequest, cells_around
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 
-@each_row("name", ["simulated", "ulx3s", "ulx3s_pi5", "ice40_hx8k"])
+@each_row("name", ["simulated", "ulx3s", "ulx3s_pi5"])
 def test_a_board_snaps_no_farther_than_places_are_rounded(name):
     assert load_board(find_board(name)).bank.snap_mm * 1e-3 <= LATTICE_M
 
