@@ -141,7 +141,9 @@ def _wheels(
         if not project.is_file():
             raise UpdateError(f"{project}: is not there: make releases in a checkout, or have {DISTRIBUTION}'s wheel in --wheels")
         wheel_folder.must_be_here(target, DISTRIBUTION)
-        own = wheel_folder.built_here(project.parent, time_s, tools, cache, scratch, mypyc=not options.interpreted, workshop=workshop)
+        own = wheel_folder.built_here(
+            project.parent, time_s, tools, cache, scratch, mypyc=not options.interpreted, workshop=workshop
+        )
     wheel_folder.check_wing(own, workshop=workshop)
     (versioned := scratch / "versioned").mkdir()
     return with_version(own, options.version, versioned), others
