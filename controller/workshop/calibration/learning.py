@@ -17,8 +17,9 @@ from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.cores import on_all_cores
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
-from controller.workshop.calibration.frame import MeasuringFrame, enough, locate, middle_m
+from controller.workshop.calibration.frame import MeasuringFrame, middle_m
 from controller.workshop.calibration.learned import LearnedResponses
+from controller.workshop.calibration.locating import enough, locate
 from controller.workshop.calibration.point_cache import PointCache
 from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
 from controller.workshop.calibration.records.measurements import Measurement, read_measurement, sha256_of

@@ -20,7 +20,7 @@ from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import Objection
 from controller.workshop.calibration.direct_wave import Complex, Floats, direct_transfer
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.frame import away_from_edges
+from controller.workshop.calibration.locating import away_from_edges
 from controller.workshop.calibration.transfers import RawBins
 
 ORDERS = (-2, -1, 0, 1, 2)  # by which the records are derivatives of what their unit says

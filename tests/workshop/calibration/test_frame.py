@@ -7,7 +7,8 @@ from small_plate import WHOLE, small_board
 from workshop.calibration.true_plate import TruePlate
 
 from controller.workshop.calibration.direct_wave import direct_transfer
-from controller.workshop.calibration.frame import MIRRORS, MeasuringFrame, locate, middle_m
+from controller.workshop.calibration.frame import MIRRORS, MeasuringFrame, middle_m
+from controller.workshop.calibration.locating import locate
 from controller.workshop.calibration.point_plan import grid_points, scattered_points
 from controller.workshop.calibration.transfers import RawBins
 
@@ -52,11 +53,26 @@ def test_a_frame_is_found_whatever_unit_and_delay_the_records_have(plate, true):
     assert tuple(value != 0 for value in changed) == found.sure, "what the waves leave open is as stated"
 
 
-@pytest.mark.parametrize("stated_m", [grid_points(SMALL), scattered_points(SMALL, 110, 3e-3)])
-def test_edges_feign_no_frame_where_all_discs_are_at_one(stated_m):
-    """They made 2 % of scale and half a millimetre, at five standard deviations."""
-    found = located(TruePlate(SMALL, 4.0, edges="free", theory="mindlin"), stated_m, stated_m=stated_m)
-    assert found.places(stated_m, middle_m(SMALL)) == pytest.approx(stated_m)
+@pytest.mark.parametrize(
+    ("board", "edges", "stated_m"),
+    [
+        (SMALL, "free", grid_points(SMALL)),
+        (SMALL, "free", scattered_points(SMALL, 110, 3e-3)),
+        (SMALL, "simply_supported", grid_points(SMALL)[::4]),
+        pytest.param(SMALL, "simply_supported", grid_points(SMALL), marks=pytest.mark.slow),
+        pytest.param(BOARD, "simply_supported", grid_points(SMALL), marks=pytest.mark.slow),
+    ],
+)
+def test_echoes_feign_no_frame(board, edges, stated_m):
+    """They made -5 % of scale at 16 standard deviations, 1.3 degrees, and half a millimetre, on regular points or with all discs
+    at one edge."""
+    theory = "kirchhoff" if edges == "simply_supported" else "mindlin"
+    found = located(TruePlate(board, 4.0, edges=edges, theory=theory), stated_m, stated_m=stated_m)
+    print(found.in_words())
+    assert found.places(stated_m, middle_m(board)) == pytest.approx(stated_m)
+    if edges == "simply_supported" and board is SMALL:
+        assert found.scale_error > 0.03
+        assert "scale as stated: the waves do not tell it" in found.in_words()
 
 
 def test_direct_waves_alone_give_the_frame_to_a_tenth_of_a_millimetre():

@@ -16,7 +16,8 @@ from controller.device.board.lookup import find_board
 from controller.workshop.calibration.checking.checks import wrong_wires
 from controller.workshop.calibration.checking.wiring import FIRST_POINTS, wiring_of
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
-from controller.workshop.calibration.frame import locate, middle_m
+from controller.workshop.calibration.frame import middle_m
+from controller.workshop.calibration.locating import locate
 from controller.workshop.calibration.point_plan import scattered_points, wiring_points
 from controller.workshop.calibration.transfers import RawBins
 from controller.workshop.physics.modes.plate_modes import modes_of
