@@ -26,6 +26,7 @@ TALK = [  # what is asked, and the answers of somebody who errs; an empty one ta
     ("Number of discs", "7"),
     ("to the rim of a disc", ""),
     ("Power rating", ""),
+    ("Drive words", ""),
     ("FPGA board", "ulx3s_pi5"),
     ("Kind of touch panel", "gt911"),
     ("I2C bus", "/dev/i2c-1"),

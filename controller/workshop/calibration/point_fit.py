@@ -67,7 +67,8 @@ def fit_points(
 ) -> PointFit:
     """Fit the errors of points that are known as a whole; others are left as they are."""
     whole, channels = of_one_pattern(known)
-    inside = np.flatnonzero(bins.outside < 0.5)
+    low_hz, high_hz = board.waveform.band_hz
+    inside = np.flatnonzero((bins.frequency_hz > low_hz) & (bins.frequency_hz < high_hz))
     of_fit, others = inside[np.linspace(0, len(inside) - 1, 2 * BINS).astype(int)].reshape(-1, 2).T  # in turn
     records, judges = (
         _Records(board, points_m[whole], responses[whole][:, :, channels], bins, some, waves) for some in (of_fit, others)

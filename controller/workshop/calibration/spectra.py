@@ -33,7 +33,6 @@ class Bins:
     samples: int  # of an emission
     frequency_hz: Floats  # (bin,)
     gain: Floats  # (bin,): of the band's filter
-    outside: Floats  # (bin,): what the band leaves out
 
     @classmethod
     def of(cls, waveform: Waveform, record_samples: int) -> Bins:
@@ -42,8 +41,8 @@ class Bins:
         band_hz = waveform.band_hz
         frequency_hz = np.arange(length // 2 + 1, dtype=np.float64) * (waveform.bit_clock_hz / length)
         frequency_hz = frequency_hz[frequency_hz < waveform.band_high_hz + edge_width_hz(band_hz) / 2]
-        gain, flat = (band_gain(frequency_hz, band_hz, slope) for slope in (waveform.slope, 0.0))
-        return cls(length, waveform.samples, frequency_hz, gain, 1 - flat)
+        gain = band_gain(frequency_hz, band_hz, waveform.slope)
+        return cls(length, waveform.samples, frequency_hz, gain)
 
     @property
     def in_band(self) -> NDArray[np.intp]:
@@ -57,7 +56,7 @@ class Bins:
 
     def part(self, chosen: NDArray[np.intp]) -> Bins:
         """Some of the bins."""
-        return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen], outside=self.outside[chosen])
+        return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen])
 
     def of_records(
         self,
@@ -89,7 +88,7 @@ class Bins:
 
     def rest(self, spectra: Spectra) -> NDArray[np.float32]:
         """What the band leaves out, reversed in time, as means over `REST_SAMPLES`: (point, row, channel)."""
-        outside = self.whole(spectra * self.outside[:, None, None].astype(np.float32))
+        outside = self.whole(spectra * (1 - self.gain[:, None, None]).astype(np.float32))
         rows = self.rest_rows
         padded = np.zeros((len(outside), rows * REST_SAMPLES, outside.shape[2]), np.float32)
         padded[:, : self.samples] = outside[:, ::-1]

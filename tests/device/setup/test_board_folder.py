@@ -1,8 +1,10 @@
 """A board folder from answers: whole, valid, and a board whose keys follow from them; or one line and nothing left behind."""
 
 import itertools
+import re
 import tomllib
 
+import msgspec
 import pytest
 from tables import each_row
 
@@ -68,6 +70,17 @@ def test_the_axes_of_a_smaller_screen_lie_in_the_middle_of_the_glass(tmp_path):
     board = write_board(tmp_path / "panel", answers(screen_length_mm=200.0, screen_width_mm=120.0), TOUCH["linux_input"])
     assert board.touch.x_mm_from_axes == (200.0, 0.0, 8.5)
     assert board.touch.y_mm_from_axes == (0.0, 120.0, 8.0)
+
+
+def test_words_of_a_new_board_have_the_slope_that_is_felt_more_or_are_the_papers(tmp_path):
+    felt, paper = (
+        write_board(tmp_path / name, answers(**given), TOUCH["linux_input"])
+        for name, given in (("felt", {}), ("paper", {"waveform": "paper"}))
+    )
+    assert felt.waveform == msgspec.structs.replace(paper.waveform, slope=-1.0)
+    assert paper.waveform == load_board(data_folder("boards") / "ulx3s").waveform
+    texts = [(board.folder / "board.toml").read_text() for board in (felt, paper)]
+    assert re.sub(r"slope = -1  # felt .*\n", "", texts[0]).replace('"felt"', '"paper"') == texts[1]
 
 
 @each_row(

@@ -34,6 +34,7 @@ BOARDS = {
     "`slope = 1`": ({}, {"slope": 1.0}),
     "`drift_percent = 0.3`": ({}, {"drift_percent": 0.3}),
     "`drift_percent = 0.4`": ({}, {"drift_percent": 0.4}),
+    "`slope = -1`, `drift_percent = 0.3`": ({}, {"slope": -1.0, "drift_percent": 0.3}),
     "`[finger]`, `drift_percent = 0.3`": (FINGER, {"drift_percent": 0.3}),
 }
 HEADS = ("amplitude", "off by 0.5 %", "light touch", "1 N", "contrast", "spot mm", "edges", "heat", "below 16 kHz dB", "dB(A)")

@@ -1,5 +1,8 @@
 """What composed words do on the plate: the twin's own way from pins to displacement, against what was asked for."""
 
+import contextlib
+
+import msgspec
 import numpy as np
 import pytest
 
@@ -37,18 +40,23 @@ def scenes(board):
     return made
 
 
-@pytest.fixture(scope="module")
-def composer(board, scenes, tmp_path_factory):
-    """Of a bank of just the cells that the scenes need."""
+@contextlib.contextmanager
+def composing(board, scenes, path):
+    """A composer of a bank of just the cells that the scenes need."""
     grid = Grid.of(board.plate, PITCH_M)
     cells = np.zeros(grid.cells, bool)
     for scene in scenes:
         for x_m, y_m, _ in scene:
             cells[list(grid.corners(x_m, y_m)[0])] = True
-    path = tmp_path_factory.mktemp("bank") / "bank"
     build_bank(BankRequest(board, path, PITCH_M, cells))
     with Bank.open(path, board) as bank:
         yield Composer(bank, board.idle_word)
+
+
+@pytest.fixture(scope="module")
+def composer(board, scenes, tmp_path_factory):
+    with composing(board, scenes, tmp_path_factory.mktemp("bank") / "bank") as found:
+        yield found
 
 
 def test_every_finger_gets_the_amplitude_it_asks_for_of_what_exact_composition_gives(board, scenes, composer):
@@ -86,6 +94,19 @@ def test_a_lone_finger_gets_the_least_amplitude_within_5_percent(scenes, board, 
         words = np.frombuffer(composer.compose([(x_m, y_m, MIN_AMPLITUDE)]), "<u4").copy()
         (reached_m,) = np.abs(emit(twin, words).at([(x_m, y_m)]))
         assert reached_m / twin.exact_amplitudes(((x_m, y_m),))[0] == pytest.approx(MIN_AMPLITUDE, rel=0.05)
+
+
+def test_amplitudes_are_displacements_with_a_slope_too(board, scenes, tmp_path):
+    """The bits of less amplitude have another spectrum; by responses with a slope alone, a quarter would be 11 % too much."""
+    sloped = msgspec.structs.replace(board, waveform=msgspec.structs.replace(board.waveform, slope=-1.0))
+    twin = PlateTwin(sloped)
+    with composing(sloped, scenes[3:5], tmp_path / "bank") as composer:
+        for scene in scenes[3:5]:
+            places = tuple((x_m, y_m) for x_m, y_m, _ in scene)
+            for amplitude in (0.25, 0.5):
+                words = np.frombuffer(composer.compose([(*place, amplitude) for place in places]), "<u4").copy()
+                found = np.abs(emit(twin, words).at(places)) / twin.exact_amplitudes(places) / amplitude
+                assert found == pytest.approx(1, abs=0.05)
 
 
 @pytest.mark.slow

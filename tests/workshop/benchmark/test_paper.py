@@ -11,6 +11,7 @@ from tables import each_row
 from controller.cli import main
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
+from controller.device.board.panel import AssumedFinger
 from controller.errors import ConfigError
 from controller.workshop.benchmark.paper import paper, paper_equations
 from controller.workshop.benchmark.paper.paper import PaperEffort, paper_figures
@@ -95,6 +96,16 @@ def test_equal_seeds_give_equal_rows(found):
     again = {row["key"]: row["here"] for row in found["rows"]}
     assert [row.figures()["here"] for row in part] == [again[row.key] for row in part]
     assert part != paper.paper_losses.place_rows(paper.PaperPanel(small_board(), 5, 2))
+
+
+def test_words_are_the_papers_whatever_the_board_has(found):
+    board = small_board()
+    waveform = msgspec.structs.replace(board.waveform, slope=-1.0, drift_percent=0.3)
+    board = msgspec.structs.replace(board, waveform=waveform, finger=AssumedFinger())
+    panel = paper.PaperPanel(board, 4, 2)
+    rows = [*paper.paper_focus.focus_rows(panel), *paper.paper_focus.four_foci_rows(panel)]
+    papers = {row["key"]: row["here"] for row in found["rows"]}
+    assert [row.figures()["here"] for row in rows] == [papers[row.key] for row in rows]
 
 
 @each_row("draw", [*CURVES, *LISTS])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -27,7 +28,7 @@ DIRECTIONS = 8
 
 
 class PaperPanel:
-    """A board's plate, and `count` foci on it; `random` is for what else is drawn.
+    """A board's plate with the paper's own drive words, and `count` foci on it; `random` is for what else is drawn.
 
     Raises ConfigError if the plate is too small for foci `MARGIN_M` from its edges.
     """
@@ -38,7 +39,8 @@ class PaperPanel:
             raise ConfigError(
                 f"board {board.name!r}: a plate of {size} has no point {MARGIN_M * 1e3:g} mm from its edges: too small"
             )
-        self.board = board
+        waveform = msgspec.structs.replace(board.waveform, slope=0.0, drift_percent=0.0)
+        self.board = board = msgspec.structs.replace(board, waveform=waveform, finger=None)
         self.seed = seed
         self.points_m = random_points(board, seed, count, MARGIN_M)  # (point, 2)
         self.twin = PlateTwin(board)

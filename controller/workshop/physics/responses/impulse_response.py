@@ -56,17 +56,14 @@ class ResponseModel:
     @cached_property
     def modal_band(self) -> Floats:
         """The same, band-limited."""
-        return np.concatenate([self._band(some, self._slope) for some in self._blocks()])
+        return np.concatenate([self._modal(some, band_limited=True) for some in self._blocks()])
 
     def _modal(self, some: slice, *, band_limited: bool) -> Floats:
         """Responses of some modes: (mode, sample)."""
         if not band_limited:
             return pulse_response(self.step.part(some), self._bit_period_s, self.samples)
-        return self._band(some, self._slope)
-
-    def _band(self, some: slice, slope: float) -> Floats:
         return band_limited_response(
-            self.step.part(some), self._bit_period_s, self.samples, self._band_hz, self._decay_time_s, slope
+            self.step.part(some), self._bit_period_s, self.samples, self._band_hz, self._decay_time_s, self._slope
         )
 
     def _blocks(self) -> list[slice]:
@@ -110,9 +107,9 @@ class ResponseModel:
     def entry_responses(
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
-        """`drive_order_responses`, followed by what they leave out: responses outside the band, as means over 4 samples.
+        """`drive_order_responses`, followed by what they leave out: beside the band, and by its slope, as means over 4 samples.
 
-        With the latter the displacement that bits give at a point is known to 1 %, not only in the band.
+        With the latter the displacement that bits give at a point is known to 1 %, not only in the band; with a slope of -1 to 3 %.
 
         Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 4 samples; what
         the last row has beyond the last sample is zero.
@@ -128,8 +125,7 @@ class ResponseModel:
             for some in self._blocks():
                 in_band = self._modal(some, band_limited=True)
                 outside = np.zeros((len(in_band), rows * REST_SAMPLES))
-                flat = self._band(some, 0.0) if self._slope else in_band
-                outside[:, : self.samples] = (self._modal(some, band_limited=False) - flat)[:, ::-1]
+                outside[:, : self.samples] = (self._modal(some, band_limited=False) - in_band)[:, ::-1]
                 kernel[: self.samples, some] = in_band[:, ::-1].T
                 kernel[self.samples :, some] = outside.reshape(len(in_band), rows, REST_SAMPLES).mean(axis=2).T
             self._kernels[key] = kernel
