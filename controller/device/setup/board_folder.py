@@ -36,9 +36,7 @@ EMPTY: Final = """# What is there of this simulated panel, where it is not as bo
 flash = "flash.bit"  # written by `gateware load`; not there: the FPGA is empty, as it is delivered
 """
 KEPT: Final = ("waveform", "link", "gateware", "application_socket")
-SLOPE: Final = (
-    "slope = -1  # felt 16 % more with 18 % fewer edges; more sound (+2.7 dB(A)), less contrast (26 for 31); 0: the paper's\n"
-)
+SLOPE: Final = "slope = -1  # felt 16 % more, 18 % fewer edges; 2.7 dB(A) louder, contrast 26 for 31; 0: the paper's\n"
 PITCH: Final = 0.6  # of half the shortest wave: that of the simulated board
 NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
 
