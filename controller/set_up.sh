@@ -7,8 +7,8 @@ extra=${1:-}
 packages='build-essential python3-dev python3-venv' megabytes=80
 case $extra in
   offline) ;;
-  test) packages="$packages iverilog strace" megabytes=250 ;;
-  test,gateware) packages="$packages iverilog strace ngspice" megabytes=280 ;;
+  test) packages="$packages iverilog liblz4-dev strace zlib1g-dev" megabytes=250 ;;
+  test,gateware) packages="$packages iverilog liblz4-dev strace zlib1g-dev ngspice" megabytes=280 ;;
   *) echo "usage: sh controller/set_up.sh offline | test | test,gateware" >&2 && exit 2 ;;
 esac
 echo "haptic-panel: Debian packages, then Python packages (about $megabytes MB): 1 to 4 minutes"

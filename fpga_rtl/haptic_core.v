@@ -48,7 +48,8 @@ module haptic_core #(
     output wire        fault_o
 );
     generate
-        if (CLOCK_HZ == 32'd0 || SLOTS == 32'd0 || SLOTS > 32'd16 || BIT_PERIOD_RESET == 32'd0 || RAMP_SAMPLES_RESET == 32'd0) begin : not_given
+        if (CLOCK_HZ == 32'd0 || SLOTS == 32'd0 || SLOTS > 32'd16 || BIT_PERIOD_RESET == 32'd0
+            || RAMP_SAMPLES_RESET == 32'd0) begin : not_given
             clock_and_slots_of_the_board_are_missing from_the_parameters ();
         end
     endgenerate
@@ -139,17 +140,20 @@ module haptic_core #(
     wire [6:0]   payload_words, word_number;
     frame_select frame_select (
         .clk_i(clk_i), .rst_i(rst_i),
-        .spi_taken_i(spi_select || spi_byte_valid), .spi_accept_i(spi_accept), .spi_kind_i(spi_kind), .spi_sequence_i(spi_sequence),
-        .spi_argument_i(spi_argument), .spi_payload_words_i(spi_payload_words),
+        .spi_taken_i(spi_select || spi_byte_valid), .spi_accept_i(spi_accept), .spi_kind_i(spi_kind),
+        .spi_sequence_i(spi_sequence), .spi_argument_i(spi_argument), .spi_payload_words_i(spi_payload_words),
         .spi_landing_busy_i(spi_landing_busy), .spi_landing_live_i(spi_landing_live), .spi_fast_i(spi_fast),
-        .spi_word_valid_i(spi_word_valid), .spi_load_word_i(spi_load_word), .spi_word_number_i(spi_word_number), .spi_word_i(spi_word),
+        .spi_word_valid_i(spi_word_valid), .spi_load_word_i(spi_load_word), .spi_word_number_i(spi_word_number),
+        .spi_word_i(spi_word),
         .uart_begin_i(uart_begin), .uart_turn_i(from_uart), .uart_accept_i(uart_accept),
         .uart_kind_i(uart_kind), .uart_sequence_i(uart_sequence), .uart_argument_i(uart_argument),
         .uart_payload_words_i(uart_payload_words),
         .uart_landing_busy_i(uart_landing_busy), .uart_landing_live_i(uart_landing_live),
         .uart_word_valid_i(uart_word_valid), .uart_load_word_i(uart_load_word), .uart_word_number_i(uart_word_number),
         .uart_word_i(uart_word),
-        .judge_o(judge), .accept_o(accept), .read_o(read), .write_o(write), .load_o(load), .store_o(store), .play_o(play), .kind_o(kind), .sequence_o(sequence_number), .argument_o(argument),
+        .judge_o(judge), .accept_o(accept),
+        .read_o(read), .write_o(write), .load_o(load), .store_o(store), .play_o(play),
+        .kind_o(kind), .sequence_o(sequence_number), .argument_o(argument),
         .payload_words_o(payload_words), .words_o(words), .landing_busy_o(landing_was_busy), .landing_live_o(landing_was_live),
         .fast_o(fast), .load_word_o(load_word), .play_word_o(play_word), .lengths_o(lengths),
         .word_number_o(word_number), .word_o(word)
@@ -166,7 +170,8 @@ module haptic_core #(
         .kind_i(kind), .sequence_i(sequence_number), .page_i(argument[15:6]),
         .spi_sequence_i(spi_last), .uart_sequence_i(uart_last), .gap_o(gap),
         .write_result_i(write_result), .load_result_i(load_result), .store_result_i(store_result), .play_result_i(play_result),
-        .register_result_i(register_result), .memory_result_i(memory_result), .crc_result_i(crc_result), .queue_result_i(queue_result),
+        .register_result_i(register_result), .memory_result_i(memory_result), .crc_result_i(crc_result),
+        .queue_result_i(queue_result),
         .register_data_i(register_data), .memory_data_i(memory_data), .crc_data_i(crc_data), .queue_data_i(queue_data),
         .done_o(done), .read_o(done_read), .result_o(done_result), .sequence_o(done_sequence), .data_o(done_data)
     );
@@ -198,7 +203,8 @@ module haptic_core #(
         .judge_i(judge), .accept_i(accept), .read_i(read), .write_i(write),
         .address_i(argument), .words_i(words[127:0]),
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
-        .off_i(off), .faulted_i(faulted), .quiet_i((off || armed) && quiet && queue == 4'd0), .permitted_i(run_permit && temperature_ok),
+        .off_i(off), .faulted_i(faulted), .quiet_i((off || armed) && quiet && queue == 4'd0),
+        .permitted_i(run_permit && temperature_ok),
         .uart_i(from_uart), .refused_i({uart_refuse, spi_refuse}), .gap_i(gap),
         // generated: connections
         .fault_i(fault),
@@ -239,7 +245,8 @@ module haptic_core #(
     wire [7:0]             chunks;
     wire [2:0]             read_chunk;
     wire [6:0]             read_within;
-    wire                   missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
+    wire                   missing, underrun, play_read, play_live, pop;
+    wire                   head, head_live, head_polarity, head_delayed, head_delayed_one;
     wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
     wire [15:0]            head_count;
     wire                   head_triggered, head_scheduled, head_immediate;
@@ -254,7 +261,8 @@ module haptic_core #(
         .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .look_i(kind == `TYPE_STORE),
         .write_i(load_word), .write_word_i(word_number), .write_data_i(word),
         .load_i(load), .store_i(store),
-        .argument_i(argument), .word0_i(words[`STORE_LENGTH_WORDS_BITS]), .word1_i(words[`STORE_CRC_BITS]), .load_words_i(payload_words),
+        .argument_i(argument), .word0_i(words[`STORE_LENGTH_WORDS_BITS]), .word1_i(words[`STORE_CRC_BITS]),
+        .load_words_i(payload_words),
         .load_busy_i(landing_was_busy), .load_live_i(landing_was_live), .live_i(landing_live),
         .load_result_o(load_result), .store_result_o(store_result),
         .slot_good_o(slot_good), .slot_buffer_o(slot_buffer), .slot_words_o(slot_words),
@@ -284,8 +292,10 @@ module haptic_core #(
         .push_i(play && play_good), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
         .pop_i(pop), .drop_i(stop || disarm || shut),
         .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
-        .triggered_o(head_triggered), .scheduled_o(head_scheduled), .immediate_o(head_immediate), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
-        .when_o(head_when), .delayed_o(head_delayed), .delayed_one_o(head_delayed_one), .live_o(head_live), .landing_i(landing), .landing_used_o(queue_uses_landing),
+        .triggered_o(head_triggered), .scheduled_o(head_scheduled), .immediate_o(head_immediate),
+        .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
+        .when_o(head_when), .delayed_o(head_delayed), .delayed_one_o(head_delayed_one), .live_o(head_live),
+        .landing_i(landing), .landing_used_o(queue_uses_landing),
         .queued_o(queue), .full_o(queue_full),
         .address_i(argument[5:0]), .read_result_o(queue_result), .read_data_o(queue_data)
     );
@@ -302,9 +312,11 @@ module haptic_core #(
         .head_i(head), .head_buffer_i(head_buffer), .head_first_i(head_first), .head_length_i(head_length),
         .head_triggered_i(head_triggered), .head_scheduled_i(head_scheduled), .head_immediate_i(head_immediate),
         .head_count_i(head_count), .head_polarity_i(head_polarity),
-        .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_delayed_i(head_delayed), .head_delayed_one_i(head_delayed_one), .head_live_i(head_live),
+        .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when),
+        .head_delayed_i(head_delayed), .head_delayed_one_i(head_delayed_one), .head_live_i(head_live),
         .pop_o(pop), .landing_i(landing), .landing_used_o(player_uses_landing), .live_o(player_live),
-        .read_o(play_read), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
+        .read_o(play_read), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk),
+        .read_within_o(read_within),
         .missing_i(missing), .read_data_i(play_data), .underrun_o(underrun),
         .ramping_i(ramp_up || ramp_down), .ramp_bit_i(ramp_bit),
         .drive_o(drive), .start_o(start), .ended_o(ended), .playing_o(playing), .delayed_o(delayed),
@@ -320,7 +332,8 @@ module haptic_core #(
         .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX), .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX), .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX),
         .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
     ) safety_island (
-        .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i), .run_permit_i(run_permit_i), .temperature_ok_i(temperature_ok_i),
+        .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i),
+        .run_permit_i(run_permit_i), .temperature_ok_i(temperature_ok_i),
         .arm_i(arm), .disarm_i(disarm), .clear_i(clear), .heard_i(accept), .link_i(from_uart),
         .channel_mask_i(channel_mask), .heartbeat_ticks_i(heartbeat_ticks), .pulse_ticks_i(pulse_ticks),
         .channel_edges_i({8'd0, channel_edges}), .total_edges_i({3'd0, total_edges}), .emission_ticks_i(emission_ticks),
@@ -330,7 +343,8 @@ module haptic_core #(
         .run_permit_o(run_permit), .temperature_ok_o(temperature_ok),
         .off_o(off), .settling_o(settling), .ramp_up_o(ramp_up), .armed_o(armed), .stopping_o(stopping), .ramp_down_o(ramp_down),
         .alive_o(alive), .shut_o(shut),
-        .fault_o(fault), .faulted_o(faulted), .fault_channels_o(fault_channels), .fault_count_o(fault_count), .fault_time_o(fault_time),
+        .fault_o(fault), .faulted_o(faulted), .fault_channels_o(fault_channels), .fault_count_o(fault_count),
+        .fault_time_o(fault_time),
         .duty_level_o(duty_level), .underruns_o(underruns), .emissions_o(emissions),
         .channel_o(channel_o), .hv_enable_o(hv_enable_o), .hv_alive_o(hv_alive_o), .focus_o(focus_o)
     );
@@ -396,6 +410,10 @@ module haptic_core #(
             assign {uart_word_number, uart_word, uart_last} = 48'd0;
         end
     endgenerate
+
+`ifdef FORMAL
+    `include "haptic_core_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

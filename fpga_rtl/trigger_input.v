@@ -30,6 +30,10 @@ module trigger_input (
 
     assign level_o   = trigger_q[1];
     assign trigger_o = (high && !triggered_q) || command_q;
+
+`ifdef FORMAL
+    `include "trigger_input_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

@@ -189,7 +189,11 @@ def set_up(folder, extra, missing=False, user=0, programs=("apt-get", "sudo")):
 
 @each_row(
     ("user", "prefix", "extra", "more"),
-    [(0, "", "offline", ""), (1000, "sudo ", "test", " iverilog strace"), (0, "", "test,gateware", " iverilog strace ngspice")],
+    [
+        (0, "", "offline", ""),
+        (1000, "sudo ", "test", " iverilog liblz4-dev strace zlib1g-dev"),
+        (0, "", "test,gateware", " iverilog liblz4-dev strace zlib1g-dev ngspice"),
+    ],
 )
 def test_what_is_missing_is_installed_and_then_the_package_into_venv(tmp_path, user, prefix, extra, more):
     done = set_up(tmp_path, [extra], missing=True, user=user)
@@ -220,7 +224,10 @@ def test_who_may_install_nothing_gets_one_line_with_what_to_ask_the_administrato
     done = set_up(tmp_path, ["test"], missing=there, user=1000, programs=("apt-get",))
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
-    assert "ask the administrator for: apt-get install build-essential iverilog strace; then call this again" in done.stderr
+    assert (
+        "ask the administrator for: apt-get install build-essential iverilog liblz4-dev strace zlib1g-dev; then call this again"
+        in done.stderr
+    )
     assert "pip install" not in done.stdout
 
 

@@ -11,6 +11,9 @@
 #include "Vhaptic_core.h"
 #include "Vhaptic_core___024root.h"
 #include "verilated.h"
+#if VM_TRACE
+#include "verilated_fst_c.h"
+#endif
 
 double sc_time_stamp() { return 0; }  // wanted by Verilator's run time
 
@@ -38,6 +41,9 @@ public:
         core_.spi_cs_n_i = 1;
         core_.uart_rx_i = 1;
         core_.rst_i = 1;
+#if VM_TRACE
+        context_.traceEverOn(true);
+#endif
         core_.eval();
         core_.clk_i = 1;
         core_.eval();  // from here on clock() has seen it high
@@ -45,6 +51,25 @@ public:
         core_.rst_i = 0;
     }
     ~Panel() { core_.final(); }
+
+#if VM_TRACE
+    // Write the ticks from `from` to `to` to an FST file, whose unit is a ps: the pins and what frame_view.sv says, or all signals.
+    // False if the file cannot be written.
+    bool trace(const char *path, double tick_ps, uint64_t from, uint64_t to, bool inside) {
+        core_.trace(&fst_, 99);
+        fst_.set_time_unit("1ps");
+        fst_.set_time_resolution("1ps");
+        if (!inside) {
+            fst_.dumpvars(1, "TOP");
+            fst_.dumpvars(1, "TOP.haptic_core.frames");
+        }
+        half_tick_ps_ = tick_ps / 2, from_ = from, to_ = to;
+        fst_.open(path);
+        return fst_.isOpen();
+    }
+
+    void close_trace() { fst_.close(); }
+#endif
 
     uint64_t now() const { return now_; }
 
@@ -98,6 +123,25 @@ public:
     std::vector<uint8_t> levels;
 
 private:
+#if VM_TRACE
+    // The clock that ends a tick, with which inputs were set at its fall, in the middle
+    void clock() {
+        core_.clk_i = 0;
+        core_.eval();
+        dump(1);
+        core_.clk_i = 1;
+        core_.eval();
+        dump(2);
+    }
+
+    void dump(uint64_t half) {
+        if (from_ <= now_ && now_ < to_) fst_.dump(static_cast<uint64_t>((2 * now_ + half) * half_tick_ps_));
+    }
+
+    VerilatedFstC fst_;
+    double half_tick_ps_ = 0;
+    uint64_t from_ = NEVER, to_ = 0;
+#else
     // A rise of the clock; nothing happens at its fall, which is therefore only noted. Where no other edge comes with it, or of
     // it, nobody has to look for edges.
     void clock() {
@@ -117,6 +161,7 @@ private:
             if (reset_moved()) Vhaptic_core___024root___eval(&root);
         }
     }
+#endif
 
     uint8_t &level_of(Pin pin) {
         switch (pin) {
@@ -199,6 +244,14 @@ void panel_take(Panel *panel, uint64_t *ticks, uint32_t *words, uint8_t *levels,
     move_to(levels, panel->levels);
     move_to(focus_ticks, panel->focus_ticks);
 }
+
+#if VM_TRACE
+uint32_t panel_trace(Panel *panel, const char *path, double tick_ps, uint64_t from, uint64_t to, uint32_t inside) {
+    return panel->trace(path, tick_ps, from, to, inside);
+}
+
+void panel_close_trace(Panel *panel) { panel->close_trace(); }
+#endif
 
 #pragma GCC visibility pop
 }  // extern "C"

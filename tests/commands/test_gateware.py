@@ -78,7 +78,7 @@ def tools(monkeypatch, tmp_path):
     """The working folder is the test's."""
     found = Tools()
     monkeypatch.setattr(bitstream_build, "_run", found.run)
-    monkeypatch.setattr(island_proof, "prove_island", found.proven.append)
+    monkeypatch.setattr(island_proof, "prove_island", lambda parameters, **_: found.proven.append(parameters))
     known = importlib.metadata.version
     monkeypatch.setattr(importlib.metadata, "version", lambda name: "0.1" if name.startswith("yowasp-") else known(name))
     monkeypatch.chdir(tmp_path)
@@ -134,7 +134,7 @@ def test_the_island_is_proven_with_the_limits_of_the_board_before_anything_is_bu
     assert given["DUTY_SHARE_MAX"] == "16384"
     assert {name for name in proven if re.search("_MAX|_MIN|WINDOW|SETTLE", name)} == set(given)
 
-    def fails(parameters):
+    def fails(parameters, **_):
         raise GatewareError("the safety island is not proven with these limits: it breaks the promise armer_is_linked")
 
     monkeypatch.setattr(island_proof, "prove_island", fails)
@@ -155,8 +155,10 @@ def test_each_board_s_island_is_proven_and_one_with_a_fault_is_not(board, tmp_pa
     island = tmp_path / "fpga_rtl" / "safety_island.v"
     island.write_text(island.read_text().replace("link_q          <= link_i;", "link_q          <= link_i || link_q;"))
     monkeypatch.setattr(island_proof, "data_folder", lambda name: tmp_path / name)
-    with pytest.raises(GatewareError, match="it breaks the promise armer_is_linked"):
-        island_proof.prove_island(parameters)
+    trace = tmp_path / "unproven.vcd"
+    with pytest.raises(GatewareError, match=r"it breaks the promise armer_is_linked; .*unproven\.vcd shows how"):
+        island_proof.prove_island(parameters, trace=trace)
+    assert "$var wire 1 " in trace.read_text()
 
 
 def test_a_clock_without_a_constraint_and_an_sck_above_its_own_are_refused(tools, panel, capsys):

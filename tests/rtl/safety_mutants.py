@@ -90,6 +90,7 @@ def failed(name, tests, simulator, folder):
         import sys
         from pathlib import Path
         import benches
+        benches.TRACED = False
         benches.RTL = Path({str(folder / "fpga_rtl")!r})
         benches.RUNS[{bench.removeprefix("tb_")!r}](simulator={simulator!r}, folder=Path({str(folder)!r}), test_filter={chosen!r})
     """

@@ -16,6 +16,7 @@ from controller.commands.common.tables import check_table
 from controller.commands.gateware import build as gateware_build
 from controller.commands.gateware import info as gateware_info
 from controller.commands.gateware import load as gateware_load
+from controller.commands.gateware import waves as gateware_waves
 from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
@@ -56,6 +57,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         ("build", gateware_build, [common], "build a board's bitstream, and the file of figures beside it"),
         ("info", gateware_info, [], "what a bitstream is, and whether a board's bring-up would take it"),
         ("load", gateware_load, [common], "load a bitstream into the FPGA's memory; arms nothing"),
+        ("waves", gateware_waves, [common], "write the signals of a run or of a script to an FST file, for a wave viewer"),
     ):
         module.add(gateware.add_parser(name, parents=parents, help=text, description=f"{text[0].upper()}{text[1:]}."))
 

@@ -58,7 +58,7 @@ def gateware_build(options: argparse.Namespace) -> int:
     design = FpgaDesign.of(board, top, part, device)
     if not options.unproven:
         tell(f"proving the safety island with the limits of {board.name}")
-        prove_island(design.parameters)
+        prove_island(design.parameters, trace=out.with_suffix(".vcd"))
     with _work_folder(options.work) as work:
         tell(f"synthesising {design.top} with the limits of {board.name}")
         synthesise(design, work)

@@ -20,6 +20,7 @@ complete haptic-panel \
         'c/--wrong=/f/' \
         'c/--netlist=/f/' \
         'c/--out=/f/' \
+        'c/--script=/f/' \
         'c/--optimise=/(contrast quiet balanced loud cool)/' \
         'c/--when=/(command press enter leave)/' \
         'c/--capacitance-f=/f/' \
@@ -37,7 +38,7 @@ complete haptic-panel \
         'c/--passphrase-file=/f/' \
         'c/--role=/(root targets snapshot timestamp)/' \
         'c/--settings=/f/' \
-        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s compact counter csv dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from full-scale gain-percent gateware ghosts glass grid held help high-hz host idle-figures inductance-h interpreted inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter mirror missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms netlist no-chirps no-pictures no-skip no-timing noise offset-mm once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port position-mm power price publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root rotation-deg same-as scale scattered scene screen-length-mm screen-width-mm seconds sectors seed seeds sensor sensor-mass-mg serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold top touch touch-key touched-s unproven v-per-m v-per-m-s v-per-m-s2 verbose version waveform wheels when width-mm work workers write wrong www yes young-modulus-pa)/' \
+        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s compact counter csv dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms emission felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from from-ms full-scale gain-percent gateware ghosts glass grid held help high-hz host idle-figures inductance-h inside interpreted inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb minimum-counter mirror missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms netlist no-chirps no-pictures no-skip no-timing noise offset-mm once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port position-mm power price publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root rotation-deg same-as scale scattered scene screen-length-mm screen-width-mm script seconds sectors seed seeds sensor sensor-mass-mg serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold to-ms top touch touch-key touched-s unproven v-per-m v-per-m-s v-per-m-s2 verbose version waveform wheels when width-mm work workers write wrong www yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -51,6 +52,7 @@ complete haptic-panel \
         'n/--wrong/f/' \
         'n/--netlist/f/' \
         'n/--out/f/' \
+        'n/--script/f/' \
         'n/--optimise/(contrast quiet balanced loud cool)/' \
         'n/--when/(command press enter leave)/' \
         'n/--capacitance-f/f/' \
@@ -71,7 +73,7 @@ complete haptic-panel \
         'p/1/(run serve status client doctor setup rehearse board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)/' \
         'n/client/(play touches contacts emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)/' \
         'n/board/(check bom reference schema)/' \
-        'n/gateware/(check build info load)/' \
+        'n/gateware/(check build info load waves)/' \
         'n/bank/(build choices info verify)/' \
         'n/effect/(import export)/' \
         'n/benchmark/(skipping paper)/' \

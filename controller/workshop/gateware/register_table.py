@@ -15,7 +15,7 @@ from dataclasses import fields
 from pathlib import Path
 
 from controller.device.fpga.build_parameters import BuildParameters
-from controller.device.fpga.registers import CONSTANTS, Kind, Register
+from controller.device.fpga.registers import CONSTANTS, FrameType, Kind, Register, Result
 from controller.workshop.gateware.frame_lines import kernel_c, kernel_twin, places
 from controller.workshop.gateware.frame_lines import table as frames_table
 from controller.workshop.gateware.register_lines import (
@@ -72,6 +72,10 @@ def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Pa
                 *(f".{signal(register)}_o({signal(register)})," for register in settings(registers)),
             ],
         },
+    }
+    blocks["simulation/frame_view.sv"] = {
+        "kinds": [f"{kind.name} = `TYPE_{kind.name}," for kind in FrameType],
+        "results": [f"{result.name} = `RESULT_{result.name}," for result in Result],
     }
     texts = {folder / name: _with_blocks((folder / name).read_text(), name, lines) for name, lines in blocks.items()}
     texts[folder / "registers.vh"] = _with_numbers(texts[folder / "registers.vh"])

@@ -28,10 +28,12 @@ from controller.regular_file import open_private
 
 VERILATE = ["--cc", "-O3", "-fno-table", "-fno-dfg", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
 COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
-COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TRACE", "TIMING")]
+COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TIMING")]
 COMPILE_S = 1800.0  # that a compiler may take on a slow computer
 KILLED = "Killed"  # what g++ says of its compiler when the kernel ended it for want of memory
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called, and slow to optimise: compiled with -O0
+TRACE = "--trace-fst"  # option of Verilator, whose run time then needs more
+TRACE_HEADERS = ("lz4.h", "zlib.h")
 
 
 class Design(NamedTuple):
@@ -48,6 +50,13 @@ def core_design() -> Design:
     """The design that `RtlGateware` loads: `haptic_core` with its wrapper."""
     folder = data_folder("fpga_rtl")
     return Design("haptic_core", (folder / "haptic_core.v",), folder / "simulation" / "wrapper.cpp")
+
+
+def traced_design() -> Design:
+    """The same with its signals written to an FST file, and frames decoded beside the pins: a build of its own, which is slower."""
+    design = core_design()
+    view = data_folder("fpga_rtl") / "simulation" / "frame_view.sv"
+    return design._replace(sources=(*design.sources, view), options=(TRACE,))
 
 
 def verilator_root() -> Path | None:
@@ -119,13 +128,17 @@ def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path)
     top, include_verilog = ["--prefix", f"V{design.top}", "--top-module", design.top], f"-I{data_folder('fpga_rtl')}"
     verilator: list[str | Path] = [root / "bin" / "verilator_bin", *VERILATE, *design.options, *top, "--Mdir", folder]
     _run([*verilator, include_verilog, *values, *design.sources], VERILATOR_ROOT=str(root))
-    include = [f"-I{path}" for path in (folder, root / "include", root / "include" / "vltstd")]
+    timing, traced = "--timing" in design.options, TRACE in design.options
+    more = ["verilated_timing.cpp"] * timing + ["verilated_fst_c.cpp"] * traced
+    flags = [f"-DVM_TRACE={traced:d}", f"-DVM_TRACE_FST={traced:d}", "-std=c++20" if timing else "-std=c++17"]  # coroutines
+    flags += [f"-I{path}" for path in (root / "include", root / "include" / "vltstd")]
     all_of_it, runtime = folder / "design.cpp", folder / "runtime.cpp"
-    timing = ["verilated_timing.cpp"] if "--timing" in design.options else []
-    include.append("-std=c++20" if timing else "-std=c++17")  # coroutines
     _include_all(all_of_it, [design.wrapper, *sorted(folder.glob(f"V{design.top}*.cpp"))])
-    _include_all(runtime, [root / "include" / name for name in (*RUNTIME, *timing)])
-    parts = [_object(runtime, "-O0", include), _object(all_of_it, design.optimise, include)]
+    _include_all(runtime, [root / "include" / name for name in (*RUNTIME, *more)])
+    kept = _kept_runtime(folder.parent, [*flags, *more])
+    parts = [_object(all_of_it, design.optimise, [f"-I{folder}", *flags])]
+    if not kept.exists():
+        parts.append(_object(runtime, "-O0", flags))
     with ThreadPoolExecutor(2) as together:
         both = [together.submit(_run, part) for part in parts]
     for part, compiled in zip(parts, both, strict=True):
@@ -135,17 +148,26 @@ def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path)
             if KILLED not in str(error):
                 raise
             _run(part)  # alone: for both at once there was not enough memory
+    if not kept.exists():
+        runtime.with_suffix(".o").replace(kept)
     library = folder / f"{design.top}.so"
-    _run(["g++", "-shared", "-o", library, all_of_it.with_suffix(".o"), runtime.with_suffix(".o"), "-pthread"])
+    libraries = ["-llz4", "-lz"] * traced
+    _run(["g++", "-shared", "-o", library, all_of_it.with_suffix(".o"), kept, "-pthread", *libraries])
     return library
+
+
+def _kept_runtime(folder: Path, made_with: Sequence[str]) -> Path:
+    """Verilator's run time, compiled: the same for every library with these flags."""
+    settings = repr((importlib.metadata.version("verilator"), COMPILE, made_with))
+    return folder / f"runtime-{hashlib.sha256(settings.encode()).hexdigest()[:16]}.o"
 
 
 def _include_all(file: Path, sources: Sequence[Path]) -> None:
     file.write_text("".join(f'#include "{source}"\n' for source in sources))
 
 
-def _object(source: Path, optimise: str, include: list[str]) -> list[str]:
-    return ["g++", *COMPILE, optimise, *include, "-c", str(source), "-o", str(source.with_suffix(".o"))]
+def _object(source: Path, optimise: str, flags: Sequence[str]) -> list[str]:
+    return ["g++", *COMPILE, optimise, *flags, "-c", str(source), "-o", str(source.with_suffix(".o"))]
 
 
 def _run(command: Sequence[str | Path], **environment: str) -> None:
@@ -154,4 +176,6 @@ def _run(command: Sequence[str | Path], **environment: str) -> None:
     except ProgramError as error:  # what matters is the first line with an error
         lines = [line.strip() for line in error.said.splitlines() if "rror" in line]
         said = f"{Path(command[0]).name} failed: {lines[0]}" if error.code is not None and lines else str(error)
+        if any(f"{header}: No such file" in said for header in TRACE_HEADERS):
+            said = "traces need two libraries: apt-get install liblz4-dev zlib1g-dev"
         raise LinkError(f"the Verilog cannot be compiled: {said}") from error

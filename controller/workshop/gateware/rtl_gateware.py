@@ -7,6 +7,7 @@ captures pass through this module.
 from __future__ import annotations
 
 import ctypes
+import os
 import weakref
 from collections.abc import Callable
 from functools import cache
@@ -20,7 +21,7 @@ from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.capture import Capture
 from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, UartTiming
-from controller.workshop.gateware.rtl_build import build_library
+from controller.workshop.gateware.rtl_build import Design, build_library
 
 TRIGGER: Final = 0  # pins, as in wrapper.cpp
 PINS: Final = {Permit.RUN: 1, Permit.TEMPERATURE: 2}
@@ -31,11 +32,14 @@ LINES: Final = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "ua
 class RtlGateware:
     """`haptic_core.v` with its pins: a `Gateware`.
 
-    `compiling` is called before the library is built, which takes several seconds. Raises LinkError if the library cannot be built.
+    `compiling` is called before the library is built, which takes several seconds; its design is `core_design()` by default.
+    Raises LinkError if the library cannot be built.
     """
 
-    def __init__(self, parameters: BuildParameters, compiling: Callable[[], None] = lambda: None) -> None:
-        self._library = _load(build_library(parameters.verilog(), compiling))
+    def __init__(
+        self, parameters: BuildParameters, compiling: Callable[[], None] = lambda: None, design: Design | None = None
+    ) -> None:
+        self._library = _load(build_library(parameters.verilog(), compiling, design))
         self._panel = self._library.panel_open()
         weakref.finalize(self, self._library.panel_close, self._panel)
         self._timing = InputTiming()
@@ -104,6 +108,18 @@ class RtlGateware:
             self._library.panel_take_line(self._panel, number, getattr(capture, name).ctypes.data)
         return capture
 
+    def trace(self, path: Path, tick_ps: float, ticks: range, *, inside: bool) -> None:
+        """Write these ticks of the pins and of decoded frames to an FST file, or with `inside` all signals; of `traced_design`.
+
+        Raises OSError if it cannot be written.
+        """
+        if not self._library.panel_trace(self._panel, os.fsencode(path), tick_ps, ticks.start, ticks.stop, inside):
+            raise OSError(f"{path}: cannot be written")
+
+    def close_trace(self) -> None:
+        """Write what is left of the trace."""
+        self._library.panel_close_trace(self._panel)
+
     def _not_past(self, what: str, tick: int) -> None:
         if tick < self.now:
             raise ValueError(f"{what} at tick {tick}, after the gateware has gone to tick {self.now}")
@@ -127,7 +143,11 @@ def _load(path: Path) -> Any:
         ("panel_take", None, [panel, address, address, address, address]),
         ("panel_line_changes", number, [panel, ctypes.c_uint32]),
         ("panel_take_line", None, [panel, ctypes.c_uint32, address]),
+        ("panel_trace", ctypes.c_uint32, [panel, ctypes.c_char_p, ctypes.c_double, tick, tick, ctypes.c_uint32]),
+        ("panel_close_trace", None, [panel]),
     ):
-        function = getattr(library, name)
+        function = getattr(library, name, None)
+        if function is None:  # of a build without traces
+            continue
         function.restype, function.argtypes = result, arguments
     return library

@@ -50,9 +50,9 @@ TABLE = [
 def folder(tmp_path):
     """A copy of what is written into."""
     folder = tmp_path / "fpga_rtl"
-    folder.mkdir()
-    for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md"):
-        shutil.copy(data_folder("fpga_rtl") / name, folder)
+    (folder / "simulation").mkdir(parents=True)
+    for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md", "simulation/frame_view.sv"):
+        shutil.copy(data_folder("fpga_rtl") / name, folder / name)
     return folder
 
 
