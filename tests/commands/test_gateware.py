@@ -34,8 +34,9 @@ def hop(kind, cell, delay):
     return {"type": kind, "delay": delay, "from": {"cell": cell}, "to": {"cell": cell}}
 
 
-def report(mhz):
+def report(mhz, miso_ns=3.75):
     """Of nextpnr, with as much as is read of it."""
+    miso = [hop("clk-to-q", "core.spi.next_q_TRELLIS_FF_Q", 0.5), hop("routing", "spi_miso_pad", miso_ns - 0.5)]
     path = [hop("clk-to-q", "core.ramp.up_q_TRELLIS_FF_Q_6", 0.5), hop("setup", "core.gate.left_q_TRELLIS_FF_Q", 1e3 / mhz - 0.5)]
     sck = [hop("clk-to-q", "core.spi.even_q_TRELLIS_FF_Q", 9.0)]
     return {
@@ -44,6 +45,7 @@ def report(mhz):
             {"from": "posedge clk", "to": "posedge clk", "path": path},
             {"from": "posedge SCK", "to": "negedge SCK", "path": sck},
             {"from": "posedge clk", "to": "<async>", "path": [hop("clk-to-q", "led", 99.0)]},
+            {"from": "negedge core.spi_link.spi_sck_i", "to": "<async>", "path": miso},
         ],
         "utilization": {"TRELLIS_COMB": {"used": 7, "available": 24}, "ALU54B": {"used": 0, "available": 14}},
     }
@@ -54,6 +56,7 @@ class Tools:
 
     def __init__(self):
         self.mhz = {SEED: 77.0}
+        self.miso_ns = 3.75
         self.ports = {"gp": {"direction": "inout", "bits": [2, 3]}, "led": {"direction": "output", "bits": ["0"]}}
         self.read = None
         self.proven = []
@@ -64,7 +67,7 @@ class Tools:
             (work / "top.json").write_text(json.dumps({"modules": {"top": {"ports": self.ports}, "IB": {}}}))
         elif command[0].startswith("yowasp-nextpnr"):
             seed = int(command[command.index("--seed") + 1])
-            (work / "report.json").write_text(json.dumps(report(self.mhz[seed])))
+            (work / "report.json").write_text(json.dumps(report(self.mhz[seed], self.miso_ns)))
             if self.mhz[seed] < 62.5:
                 raise GatewareError("nextpnr-ecp5: ERROR: Max frequency for clock 'clk'")
             (work / "top.placed").write_text(f".device LFE5U-25F\n\n.comment Part: LFE5U\n\n.seed {seed}\n")
@@ -216,6 +219,29 @@ def test_a_missed_clock_names_its_longest_path_and_leaves_no_file(tools, capsys)
     line = said(capsys, "build", "--board", "ulx3s", code=1)
     assert f"too slow: 60.0 MHz of 62.5 with seed {SEED}; longest path: 16.67 ns from core.ramp.up_q to core.gate.left_q" in line
     assert not Path("build/ulx3s.bit").exists()
+
+
+def test_a_missed_sck_is_what_counts():
+    missed = report(77.0)
+    missed["fmax"]["SCK"]["achieved"] = 24.0
+    found = bitstream_build.read_report(missed, 1, b"")
+    assert (found.fmax_mhz, found.clock_mhz, found.longest_path[:7]) == (24.0, 25.0, "9.00 ns")
+
+
+def test_an_answer_that_comes_too_late_for_the_host_is_refused(tools, panel, capsys):
+    """Half a period of 25 MHz has 20 ns, of which pads and host take 13."""
+    tools.miso_ns = 6.9
+    assert main(["gateware", "build", "--board", "ulx3s"]) == 0
+    assert "; MISO 6.9 ns behind the fall of SCK" in capsys.readouterr().out
+    assert main(["gateware", "info", "build/ulx3s.bit"]) == 0
+    assert "; MISO 6.9 ns behind the fall of SCK" in capsys.readouterr().out
+    tools.miso_ns = 7.1
+    line = said(capsys, "build", "--board", "ulx3s", "--out", "late.bit", code=1)
+    assert "MISO comes 7.1 ns behind the fall of SCK, and 13 ns later to the host's flip-flop" in line
+    assert not Path("late.bit").exists()
+    text = (panel / "board.toml").read_text()
+    (panel / "board.toml").write_text(re.sub(r"^sck_hz = [\d_]+", "sck_hz = 20_000_000", text, flags=re.MULTILINE))
+    assert main(["gateware", "build", "--board", str(panel), "--out", "slower.bit"]) == 0
 
 
 def test_of_several_seeds_the_fastest_is_kept(tools, capsys):

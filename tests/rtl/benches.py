@@ -104,7 +104,7 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
     if not failures(module, parameters, simulator, folder, beside, which, waves=False):
         return
     if TRACED and simulator == "verilator":
-        again = folder / "traced"
+        again = folder.with_name(f"{folder.name}-traced")  # not within: make would find the objects in the folder above
         again.mkdir(exist_ok=True)
         failures(module, parameters, simulator, again, beside, which, waves=True)
         print(f"signals of the bench that failed: {again / 'dump.vcd'}: open it with gtkwave or surfer", flush=True)

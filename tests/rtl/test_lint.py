@@ -94,15 +94,15 @@ def test_verilator_warns_of_nothing(module):
 SYNTHESIS = "+define+SYNTHESIS"  # what Yosys reads, and no simulation of a module
 
 
-@each_row("module", sorted(path.stem for path in RTL.glob("*.v") if "SYNTHESIS" in path.read_text()) + [TOP])
+@each_row("module", [*sorted(path.stem for path in RTL.glob("*.v") if "SYNTHESIS" in path.read_text()), TOP])
 def test_verilator_warns_of_nothing_that_is_synthesised(module):
     assert verilator(module, RTL / f"{module}.v", more=[SYNTHESIS]) == (0, "")
 
 
 @each_row("board", ["ulx3s"])
 def test_a_board_s_top_has_no_warning_either(tmp_path, board):
-    """Beside models of the FPGA's own cells, of which nothing is asked: they have a time scale. A header is one bus of pins, of which
-    the permits' clear without a clock and others are sampled."""
+    """Beside models of the FPGA's own cells, of which nothing is asked: they have a time scale. A header is one bus of pins: the
+    permits' clear without a clock, others are sampled."""
     models = tmp_path / "models.vlt"
     meant = ['-file "*/board_top/*.v"', "-rule TIMESCALEMOD", '-rule SYNCASYNCNET -file "*/top.v"', "-rule ZERODLY"]
     models.write_text("".join(f"{line}\n" for line in ["`verilator_config", *(f"lint_off {waived}" for waived in meant)]))

@@ -72,6 +72,7 @@ def gateware_build(options: argparse.Namespace) -> int:
         fmax_mhz=fastest.fmax_mhz,
         longest_path=fastest.longest_path,
         cells=fastest.cells,
+        miso_ns=fastest.miso_ns,
     )
     _write(out, data)
     _write(figures_path(out), msgspec.json.format(msgspec.json.encode(figures, order="sorted")) + b"\n")
@@ -134,7 +135,8 @@ def _write(path: Path, data: bytes) -> None:
 def _table(built: dict[str, Any]) -> str:
     used = ", ".join(f"{kind} {used:,} of {there:,}" for kind, (used, there) in built["cells"].items())
     speed = f"{built['fmax_mhz']} MHz of {built['clock_mhz']:g}, seed {built['identity']['seed']}"
+    miso = "" if built["miso_ns"] is None else f"; MISO {built['miso_ns']} ns behind the fall of SCK"
     return (
         f"{built['file']}: {built['bytes']:,} bytes, SHA-256 {built['sha256']}\n"
-        f"{speed}; longest path: {built['longest_path']}\n{used}"
+        f"{speed}; longest path: {built['longest_path']}{miso}\n{used}"
     )

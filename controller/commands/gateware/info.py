@@ -32,7 +32,7 @@ def gateware_info(options: argparse.Namespace) -> int:
     identity, figures = read_identity(file), read_figures(file)
     board = _board_to_compare(options.board, identity)
     complaints = [] if board is None else differences(identity, board, gateware_hash())
-    shown = ("clock_mhz", "fmax_mhz", "longest_path")
+    shown = ("clock_mhz", "fmax_mhz", "longest_path", "miso_ns")
     reported = {
         "file": str(file),
         "bytes": file.stat().st_size,
@@ -71,7 +71,8 @@ def _table(reported: dict[str, Any]) -> str:
         f"by {tools}, of sources {identity['sources']}",
     ]
     if figures:
-        lines.append(f"{figures['fmax_mhz']} MHz of {figures['clock_mhz']:g}; longest path: {figures['longest_path']}")
+        miso = "" if figures["miso_ns"] is None else f"; MISO {figures['miso_ns']} ns behind the fall of SCK"
+        lines.append(f"{figures['fmax_mhz']} MHz of {figures['clock_mhz']:g}; longest path: {figures['longest_path']}{miso}")
     lines += ["", f"{'built in':<22}{'this file':>12}{board['name']:>22}"]
     for name, value in sorted(identity["parameters"].items()):
         wanted = board["parameters"].get(name)

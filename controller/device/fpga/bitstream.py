@@ -54,6 +54,7 @@ class Figures(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     fmax_mhz: float
     longest_path: str  # of that clock: time, and the cells where it begins and ends
     cells: dict[str, tuple[int, int]]  # used and available, by kind
+    miso_ns: float | None = None  # from the fall of SCK to MISO's pad, as far as nextpnr knows it
 
 
 def figures_path(bitstream: Path) -> Path:

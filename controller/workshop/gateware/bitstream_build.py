@@ -32,6 +32,8 @@ from controller.workshop.gateware.fpga_part import TOP, FpgaPart
 SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
 TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself
 DEFAULT_MHZ = 12.0  # what nextpnr takes for a clock of which nothing is said
+SCK_NET = "spi_sck_i"  # as its clock's name ends
+BEYOND_NS = 13.0  # that nextpnr does not know: 8 for pads and the way of SCK to the flip-flop, 5 for the host's set-up time
 LOG_LINES = 5  # of a tool that failed without a line that tells an error
 
 
@@ -114,6 +116,7 @@ class PlacedDesign:
     fmax_mhz: float
     longest_path: str
     cells: dict[str, tuple[int, int]]
+    miso_ns: float | None
 
 
 def synthesise(design: FpgaDesign, work: Path, *more: str) -> None:
@@ -146,7 +149,7 @@ def lost_pins(ports: Mapping[str, Any]) -> list[str]:
 def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> PlacedDesign:
     """Place and route what was synthesised, with further arguments of nextpnr.
 
-    Raises GatewareError if it does not fit, or a path is longer than the clock's period; the message names it.
+    Raises GatewareError if it does not fit, a path is longer than its clock's period, or MISO comes too late; the message names it.
     """
     report = work / REPORT
     report.unlink(missing_ok=True)
@@ -159,7 +162,13 @@ def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> PlacedDesign
                 speed = f"{found.fmax_mhz:.1f} MHz of {found.clock_mhz:g} with seed {seed}"
                 raise GatewareError(f"too slow: {speed}; longest path: {found.longest_path}; --seeds 5 tries others") from None
         raise
-    return read_report(json.loads(report.read_bytes()), seed, (work / PLACED).read_bytes())
+    placed = read_report(json.loads(report.read_bytes()), seed, (work / PLACED).read_bytes())
+    link = design.board.link
+    half_ns = 0.5e9 / link.sck_hz
+    if link.kind == "spi" and placed.miso_ns is not None and placed.miso_ns + BEYOND_NS > half_ns:
+        late = f"MISO comes {placed.miso_ns} ns behind the fall of SCK, and {BEYOND_NS:g} ns later to the host's flip-flop"
+        raise GatewareError(f"{late}: half a period of link.sck_hz has {half_ns:.1f} ns; --seeds 5 tries others")
+    return placed
 
 
 def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> PlacedDesign:
@@ -184,8 +193,20 @@ def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> PlacedDesi
         clock_mhz=round(clocks[name]["constraint"], 3),
         fmax_mhz=round(clocks[name]["achieved"], 2),
         longest_path=f"{sum(hop['delay'] for hop in longest):.2f} ns from {ends[0]} to {ends[1]}",
+        miso_ns=_answer_ns(report),
         cells={kind: (use["used"], use["available"]) for kind, use in sorted(report["utilization"].items()) if use["used"]},
     )
+
+
+def _answer_ns(report: Mapping[str, Any]) -> float | None:
+    """Time from an edge of SCK to MISO's pad, the only output that it clocks: flip-flop and wires; None if it clocks none.
+
+    nextpnr counts neither the way of SCK to the flip-flop nor the pads.
+    """
+    paths = [
+        found["path"] for found in report["critical_paths"] if found["from"].endswith(SCK_NET) and found["to"].startswith("<async>")
+    ]
+    return max((round(sum(hop["delay"] for hop in path), 2) for path in paths), default=None)
 
 
 def _net_name(cell: str) -> str:
