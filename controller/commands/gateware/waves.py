@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from controller.device.fpga.build_parameters import BuildParameters
     from controller.workshop.gateware.input_script import InputRecorder, InputScript
 
-VIEWERS = ("gtkwave", "surfer")
-
 
 def add(step: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
@@ -65,7 +63,14 @@ def gateware_waves(options: argparse.Namespace) -> int:
         )
     tell(f"{out}: {shown}, at most {most / 1e6:.1f} MB; simulating, about {takes_s:.0f} s")
     waves.trace(script, ticks, out, lambda: tell("compiling the gateware with traces, about 20 s"), inside=options.inside)
-    figures = {"file": str(out), "bytes": out.stat().st_size, "from_ms": ticks.start / per_ms, "to_ms": ticks.stop / per_ms}
+    view = waves.write_view(out, ticks, 1e9 / per_ms)
+    figures = {
+        "file": str(out),
+        "view": str(view),
+        "bytes": out.stat().st_size,
+        "from_ms": ticks.start / per_ms,
+        "to_ms": ticks.stop / per_ms,
+    }
     show(options, figures | {"ticks": len(ticks), "tick_ps": 1e9 / per_ms, "inside": options.inside}, _table)
     return 0
 
@@ -122,4 +127,4 @@ def _window(options: argparse.Namespace, script: InputScript) -> range:
 def _table(written: dict[str, Any]) -> str:
     shown = f"{written['from_ms']:.3f} to {written['to_ms']:.3f} ms in {written['ticks']:,} ticks of {written['tick_ps']:g} ps"
     file = written["file"]
-    return f"{file}: {written['bytes']:,} bytes, {shown}\nopen it: {' or '.join(f'{name} {file}' for name in VIEWERS)}"
+    return f"{file}: {written['bytes']:,} bytes, {shown}\nopen it: gtkwave {written['view']}, or surfer {file}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +15,15 @@ from controller.workshop.gateware.rtl_gateware import RtlGateware
 LEAD_MS, TAIL_MS = 3.5, 0.5  # shown before and behind the end of an emission
 FILE_BYTES, PINS_BYTES, INSIDE_BYTES = 10_000, 1.0, 60.0  # of a file, and for a tick, at most; measured: 0.1 to 0.6, 30
 TRACED_BYTES_MAX = 2e9
+BIT, HEX, NAMED = "@28", "@22", "@100000028"  # how GTKWave shows what follows; by the names of an enumeration
+FRAMES = "TOP.haptic_core.frames"
+VIEW = [  # what it shows at first
+    *(BIT, "TOP.spi_cs_n_i", "TOP.spi_sck_i"),
+    *(NAMED, f"{FRAMES}.spi_kind[7:0]", f"{FRAMES}.done_kind[7:0]", f"{FRAMES}.done_result[7:0]", f"{FRAMES}.gate[5:0]"),
+    *(BIT, "TOP.trigger_i", "TOP.waiting_o", "TOP.focus_o", "TOP.hv_enable_o", "TOP.fault_o"),
+    *(HEX, "TOP.channel_o[31:0]"),
+]
+WHOLE = 2.45  # of GTKWave's zoom, by which all of the file is seen in a window of 1,400 pixels
 TICKS_PER_S, TRACED_TICKS_PER_S, INSIDE_TICKS_PER_S = 1.5e6, 4e5, 5e4  # simulated before the traced ones; and of those
 
 
@@ -62,6 +72,19 @@ def trace(script: InputScript, ticks: range, path: Path, compiling: Callable[[],
         _perform(script, gateware, ticks.stop)
     finally:
         gateware.close_trace()
+
+
+def write_view(path: Path, ticks: range, tick_ps: float) -> Path:
+    """Write a GTKWave save file beside a trace of these ticks, with the pins and frames that one looks at first; its path.
+
+    Raises OSError if it cannot be written.
+    """
+    view = path.with_suffix(".gtkw")
+    begin_ps, zoom = ticks.start * tick_ps, math.log2(len(ticks) * tick_ps) - WHOLE
+    head = f'[dumpfile] "{path.resolve()}"\n[timestart] {begin_ps:.0f}\n[size] 1400 420\n*-{zoom:.2f} {begin_ps:.0f}\n'
+    head += "[sst_expanded] 0\n[signals_width] 180\n"
+    view.write_text(head + "\n".join([*VIEW, ""]), encoding="utf-8")
+    return view
 
 
 def _perform(script: InputScript, gateware: Simulated, end_tick: int) -> None:

@@ -170,6 +170,9 @@ def test_the_file_shows_what_the_model_does_and_each_frame_by_its_name(traced, c
     report = json.loads(capsys.readouterr().out)
     assert report["ticks"] == SCRIPT.end_tick
     assert Path(report["file"]).stat().st_size == report["bytes"] < waves.most_bytes(range(report["ticks"]), inside=False)
+    view = Path(report["view"]).read_text().splitlines()
+    assert view[0] == f'[dumpfile] "{report["file"]}"'
+    assert {line.partition("[")[0] for line in view if line.startswith("TOP.")} < set(signals)
 
     channels = changes(signals, "channel_o")[1:]
     moved = np.flatnonzero(np.diff(CAPTURE.words, prepend=np.uint32(0)))
