@@ -207,7 +207,8 @@ class Counters:
 
     def export(self, *, histograms: bool = True) -> dict[str, Any]:
         """All counters and latencies, ready for JSON; with histograms it takes 12 ms and 200 kB, without 0.4 ms and 2 kB."""
-        plain = {name: getattr(self, name) for name in self.__slots__ if isinstance(getattr(self, name), int | float | str)}
+        each = {one.name: getattr(self, one.name) for one in fields(self)}  # compiled by mypyc it has no __slots__
+        plain = {name: value for name, value in each.items() if isinstance(value, int | float | str)}
         return plain | {
             "outage_causes": dict(self.outage_causes),
             "link_counts": asdict(self.link),
