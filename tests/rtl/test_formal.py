@@ -9,7 +9,7 @@ import re
 
 import pytest
 import z3
-from proofs import FORMAL, PROOFS, RTL, WITHOUT_YOSYS, failed_promises, inputs_hash, problem_path, run
+from proofs import FORMAL, PROOFS, RTL, WITHOUT_YOSYS, failed_promises, inputs_hash, keep_traces, problem_path, run
 
 BUGS = [pytest.param(name, what, id=f"{name}: {what}") for name, proof in PROOFS.items() for what in proof.bugs]
 TASKS = [(name, task) for name, tasks in WITHOUT_YOSYS.items() for task in tasks]
@@ -153,3 +153,13 @@ def test_is_not_proven_without_yosys_where_registers_do_anything(name, task):
     assert following
     loose = problem.replace(following[0], following[0].removesuffix("(and") + "(or true")
     assert not holds(loose, name, WITHOUT_YOSYS[name][task])
+
+
+def test_the_trace_of_a_proof_that_fails_is_kept_and_named(tmp_path):
+    made = tmp_path / "formal" / "crc32_long" / "engine_0" / "trace_induct.vcd"
+    made.parent.mkdir(parents=True)
+    made.write_text("$var")
+    kept = tmp_path / "traces" / "crc32_long-trace_induct.vcd"
+    assert keep_traces("crc32", tmp_path / "formal", tmp_path / "traces") == f"trace: {kept}: open it with gtkwave or surfer\n"
+    assert kept.read_text() == "$var"
+    assert keep_traces("play_queue", tmp_path / "formal", tmp_path / "traces") == ""
