@@ -61,7 +61,7 @@ def gateware_waves(options: argparse.Namespace) -> int:
         raise ConfigError(
             f"{shown}: up to {most / 1e9:.1f} GB, and {waves.TRACED_BYTES_MAX / 1e9:g} are written at most: show less"
         )
-    tell(f"{out}: {shown}, at most {most / 1e6:.1f} MB; simulating, about {takes_s:.0f} s")
+    tell(f"{out}: {shown}, at most {most / 1e3:,.0f} kB; simulating, about {takes_s:.0f} s")
     waves.trace(script, ticks, out, lambda: tell("compiling the gateware with traces, about 20 s"), inside=options.inside)
     view = waves.write_view(out, ticks, 1e9 / per_ms)
     figures = {
