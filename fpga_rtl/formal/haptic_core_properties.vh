@@ -28,6 +28,10 @@
 (* hierconn *) wire [16:0] \register_file.duty_share_o ;
 (* hierconn *) wire [15:0] \register_file.pulse_ticks_o ;
 (* hierconn *) wire [2:0]  \register_file.inputs_i ;
+(* hierconn *) wire        \register_file.quiet_i , \register_file.off_i , \waveform_player.quiet_o , \safety_island.off_o ;
+(* hierconn *) wire        \safety_island.armed_o , \safety_island.settling_o , \safety_island.ramp_up_o ;
+(* hierconn *) wire        \safety_island.stopping_o , \safety_island.ramp_down_o ;
+(* hierconn *) wire [3:0]  \play_queue.queued_o ;
 (* hierconn *) wire        \spi_link.accept_o , \spi_encoder.echo_i , \trigger_input.trigger_o , \trigger_input.command_i ;
 (* hierconn *) wire [7:0]  \spi_link.kind_o ;
 (* hierconn *) wire        \uart.uart_link.accept_o , \uart.uart_link.turn_o ;
@@ -68,8 +72,13 @@ always @* begin
     only_tests_echo:   assert (\spi_encoder.echo_i == (\spi_link.kind_o == `TYPE_TEST));
 end
 
-// Settings reach what they limit
+// The bit clock changes only where nothing sounds, waits or glides; settings reach what they limit
+wire moves = \safety_island.settling_o || \safety_island.ramp_up_o || \safety_island.stopping_o || \safety_island.ramp_down_o ;
+wire rests = \waveform_player.quiet_o && \play_queue.queued_o == 4'd0;
 always @* begin
+    off_is_the_island_s: assert (\register_file.off_i == \safety_island.off_o );
+    if (\register_file.quiet_i ) quiet_is_at_rest: assert (!moves && rests);
+    if ((\safety_island.off_o || \safety_island.armed_o ) && rests) rest_is_quiet: assert (\register_file.quiet_i );
     limits_are_the_set_ones: assert (\safety_island.heartbeat_ticks_i == \register_file.heartbeat_ticks_o
         && \safety_island.pulse_ticks_i == \register_file.pulse_ticks_o && \safety_island.duty_share_i == \register_file.duty_share_o
         && \safety_island.channel_edges_i == {8'd0, \register_file.channel_edges_o } && \safety_island.duty_ticks_i == \register_file.duty_ticks_o

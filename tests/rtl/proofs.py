@@ -331,7 +331,7 @@ PROOFS = {
             "one clock is a trigger": Bug("high = trigger_q[3:1] == 3'b111;", "high = trigger_q[1];", "triggers_as_it_should"),
             "a level of the clock before": Bug("= trigger_q[1];", "= trigger_q[1] && trigger_q[0];", "level_is_the_pin"),
             "a level of the clock behind": Bug("= trigger_q[1];", "= trigger_q[1] || trigger_q[0];", "level_is_the_pin"),
-            "a bounce that triggers again": Bug("(triggered_q && !low)", "1'b0", "triggers_as_it_should"),
+            "a bounce that triggers again": Bug("(triggered_q && !low)", "1'b0", "triggers_as_it_should|ready_is_linked"),
             "a command that is lost": Bug("|| command_q;", ";", "triggers_as_it_should"),
         },
         "for_all_time",
@@ -357,6 +357,10 @@ PROOFS = {
             "a share that no host can lower": Bug(
                 ".duty_share_i(duty_share)", ".duty_share_i(17'h10000)", "limits_are_the_set_ones"
             ),
+            "a bit clock that changes within an emission": Bug(
+                "&& quiet && queue == 4'd0)", "&& queue == 4'd0)", "quiet_is_at_rest"
+            ),
+            "a bit clock that changes under a play that waits": Bug("&& quiet && queue == 4'd0)", "&& quiet)", "quiet_is_at_rest"),
             "a fault that no pin shows": Bug(".fault_i(faulted),\n", ".fault_i(1'b0),\n", "fault_pin_is_the_fault"),
             "a word of the memory on the way to the pins": Bug(".drive_i(drive)", ".drive_i(play_data)", "only_the_player_drives"),
         },
