@@ -61,6 +61,7 @@ SLOWER = [
     "workshop/calibration/test_simulated_measurement.py",
     "workshop/calibration/test_wiring.py",
     "workshop/clips/test_mutated_files.py",
+    "workshop/gateware/test_waves.py",
     "workshop/physics/test_design.py",
     "workshop/physics/test_impulse_response.py",
     "workshop/physics/test_ritz.py",
