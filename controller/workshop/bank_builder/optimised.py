@@ -38,7 +38,7 @@ Words = NDArray[np.uint32]
 
 # Raised whenever the words that methods/ finds for a cell change; an optimised bank of another version is optimised again.
 # tests/workshop/bank_builder/test_optimised.py has the words of this version.
-METHOD_VERSION = 1
+METHOD_VERSION = 2
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
 CELLS_OF_A_STRANGER = 8  # some seconds of work
 ONE_AT_A_TIME = threading.Lock()  # in a process: the response model has one workspace, and a dask worker may have several threads

@@ -1,4 +1,6 @@
-"""Energy at the surface below 16 kHz as a quadratic form of the drive bits (`workshop/physics/audible.py` has its definition).
+"""Energy at the surface that is heard as a quadratic form of the drive bits: A-weighted, up to 20 kHz.
+
+It is that of `workshop/physics/audible.py`, weighted by `workshop/physics/sound.py`.
 
 The spectrum of the levels is taken in bins narrow against one over an emission's length; in each bin the energy is a quadratic
 form of the 32 channels, positive by construction. Samples that are close in time are joined by the form's lags instead.
@@ -12,9 +14,9 @@ from numpy.typing import NDArray
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.workshop.bank_builder.methods.exact import rounded
-from controller.workshop.physics.audible import AUDIBLE_HZ
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.sound import HEARD_HZ, a_weighting
 
 Floats = NDArray[np.float64]
 
@@ -29,16 +31,17 @@ class AudibleForm:
     def __init__(self, board: Board, model: ResponseModel, longest_lag: int) -> None:
         waveform = board.waveform
         period_s, samples = waveform.bit_period_s, model.samples
-        count = int(np.ceil(AUDIBLE_HZ * waveform.duration_s * BINS_PER_LINE))
-        fine_hz = AUDIBLE_HZ / count / FINE * (np.arange(count * FINE) + 0.5)
+        count = int(np.ceil(HEARD_HZ * waveform.duration_s * BINS_PER_LINE))
+        fine_hz = HEARD_HZ / count / FINE * (np.arange(count * FINE) + 0.5)
         modes, driver = model.plate_modes, DriverResponse.of(board.driver)
-        rate = np.maximum(modes.decay_rate, 2 * np.pi * AUDIBLE_HZ / count / FINE)  # a mode that is narrower is not met by chance
+        rate = np.maximum(modes.decay_rate, 2 * np.pi * HEARD_HZ / count / FINE)  # a mode that is narrower is not met by chance
         form = np.empty((count, CHANNELS, CHANNELS))
         for index, some_hz in enumerate(fine_hz.reshape(count, FINE)):
             s = 2j * np.pi * some_hz
             stiffness = modes.mass_kg[:, None] * (modes.angular_frequency[:, None] ** 2 + 2 * rate[:, None] * s + s**2)
             gain = np.abs(driver.transfer(s) * (1 - np.exp(-s * period_s)) / stiffness)
             form[index] = (model.forces * (modes.mean_square * np.sum(gain**2, axis=1))[:, None]).T @ model.forces
+        form *= (a_weighting(fine_hz).reshape(count, FINE) ** 2).mean(axis=1)[:, None, None]
         self._form = rounded(form / form.max(), FORM_BITS, (1, 2))
         hz = fine_hz.reshape(count, FINE).mean(axis=1)
         turns = 2 * np.pi * np.outer(np.arange(samples), hz * period_s)

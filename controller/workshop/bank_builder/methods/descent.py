@@ -2,7 +2,7 @@
 
 What is maximised is, each term relative to the sign of the band-limited response of the same point (the plain waveform):
 
-    a amplitude - contrast * (mean square field outside the focus) - silence * (energy below 16 kHz) - calm * (edges)
+    a amplitude - contrast * (mean square field outside the focus) - silence * (audible energy) - calm * (edges)
 
 Amplitude and field are those of all modes, so frequencies outside the band help too, as far as silence lets them. `a` is found for
 each cell so that the amplitude becomes the plain one's: an entry that kicks harder than what is composed beside it would be felt.
@@ -55,7 +55,7 @@ class DescentAim:
 
     name: str
     # contrast, silence, calm: costs of the mean square field outside the focus (0: it is left alone, which saves most of the
-    # time), of the energy below 16 kHz and of the edges of all channels, each relative to that of the plain waveform, where the
+    # time), of the audible energy and of the edges of all channels, each relative to that of the plain waveform, where the
     # plain waveform's amplitude is worth about `amplitude`
     contrast: float
     silence: float
@@ -71,9 +71,9 @@ AIMS = {
     for aim in (
         DescentAim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
         DescentAim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
-        DescentAim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
+        DescentAim("balanced", contrast=0.1, silence=0.6, calm=0.15, amplitude=0.35, steps=80),
         DescentAim("loud", contrast=0.0, silence=0.5, calm=0.1, amplitude=1.5, steps=100, share=1.2),
-        DescentAim("cool", contrast=0.0, silence=0.02, calm=1.4, amplitude=0.6, steps=20, passes=2, share=0.95),
+        DescentAim("cool", contrast=0.0, silence=0.004, calm=1.4, amplitude=0.6, steps=20, passes=3, share=0.95),
     )
 }
 
