@@ -10,6 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from controller.commands.common.arguments import natural
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import progress_bar, show
 from controller.console import tell
@@ -63,6 +64,15 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     build.set_defaults(command=bank_build)
     choices = actions.add_parser("choices", parents=[common], help="what pitch and memory cost a scene, and what auto would choose")
     choices.add_argument("--scene", metavar="S", help="the scene (default: the board's own)")
+    choices.add_argument(
+        "--methods",
+        type=natural,
+        nargs="?",
+        const=4,
+        metavar="FOCI",
+        help="what each method of making drive words buys on this plate instead: felt amplitude, edges, heat, dB(A) of so many foci"
+        " (default: 4; two minutes of a core)",
+    )
     choices.set_defaults(command=bank_choices)
     for name, action, text in (
         ("info", bank_describe, "describe what a bank holds and what it was computed from"),
@@ -109,13 +119,31 @@ def bank_build(options: argparse.Namespace) -> int:
 
 
 def bank_choices(options: argparse.Namespace) -> int:
-    """Show the settings of a bank on the front of error, time and bytes for a scene, and which of them `auto` chooses."""
+    """Show the settings of a bank on the front of error, time and bytes for a scene and which `auto` chooses, or what methods buy."""
     board = load_board(find_board(options.board))
+    if options.methods is not None:
+        with _builder_installed(bank_path(board)):
+            from controller.workshop.benchmark.builder_methods import method_figures
+        found = method_figures(board, options.methods, progress=progress_bar("methods"))
+        show(options, {"board": board.name, "foci": options.methods, "methods": found}, _methods_table)
+        return 0
     with _builder_installed(bank_path(board)):
         from controller.workshop.bank_builder.own_bank import chosen
     scene_file = find_scene(board, options.scene)
     show(options, chosen(board, load_scene(scene_file, board), scene_file), _choices_table)
     return 0
+
+
+def _methods_table(figures: dict[str, Any]) -> str:
+    rows: dict[str, dict[str, float]] = figures["methods"]
+    heads = list(next(iter(rows.values())))
+    lines = [
+        f"medians of {figures['foci']} foci, over the board's own words but contrast and spot:",
+        f"{'':<32}" + "".join(f"{head:>{max(len(head), 5) + 2}}" for head in heads),
+    ]
+    for method, found in rows.items():
+        lines.append(f"{method:<32}" + "".join(f"{found[head]:>{max(len(head), 5) + 2}.2f}" for head in heads))
+    return "\n".join(lines)
 
 
 def _choices_table(choice: dict[str, Any]) -> str:

@@ -32,7 +32,7 @@ class AudibleForm:
         waveform = board.waveform
         period_s, samples = waveform.bit_period_s, model.samples
         count = int(np.ceil(HEARD_HZ * waveform.duration_s * BINS_PER_LINE))
-        fine_hz = HEARD_HZ / count / FINE * (np.arange(count * FINE) + 0.5)
+        fine_hz: Floats = HEARD_HZ / count / FINE * (np.arange(count * FINE, dtype=np.float64) + 0.5)
         modes, driver = model.plate_modes, DriverResponse.of(board.driver)
         rate = np.maximum(modes.decay_rate, 2 * np.pi * HEARD_HZ / count / FINE)  # a mode that is narrower is not met by chance
         form = np.empty((count, CHANNELS, CHANNELS))
