@@ -119,7 +119,7 @@ def bank_build(options: argparse.Namespace) -> int:
 
 
 def bank_choices(options: argparse.Namespace) -> int:
-    """Show the settings of a bank on the front of error, time and bytes for a scene and which `auto` chooses, or what methods buy."""
+    """Show the settings on the front of error, time and bytes for a scene and which `auto` chooses, or what methods buy."""
     board = load_board(find_board(options.board))
     if options.methods is not None:
         with _builder_installed(bank_path(board)):
