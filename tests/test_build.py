@@ -106,8 +106,8 @@ def test_the_loop_compiled_by_mypyc_passes_its_tests(tmp_path):
     code += "print(event_loop, playback)"
     compiled = run_in(copy, "-c", code)
     assert compiled.stdout.count(".so") == 2, compiled.stderr
-    rooms = [f"tests/device/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank")]
-    rooms.append("tests/workshop/simulation/test_same_bytes.py")
+    rooms = [f"tests/device/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank", "application_socket")]
+    rooms += ["tests/workshop/simulation/test_same_bytes.py", "tests/test_metrics.py"]
     tested = run_in(copy, "-m", "pytest", "-q", "-n0", "-m", "not slow and not stress and not kernel and not interpreted", *rooms)
     assert tested.returncode == 0, tested.stdout[-8000:] + tested.stderr[-2000:]
 

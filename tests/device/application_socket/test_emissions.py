@@ -20,7 +20,7 @@ SPOTS = '[[regions]]\nname = "pad"\nshape = "plate"\neffects = ["texture"]\n'
 
 def plan(*points, **repeated):
     emissions = [Emission(0.0, x_m, y_m, finger, "pad") for finger, (x_m, y_m, _) in enumerate(points)]
-    return Plan(Batch(emissions, **repeated), list(points), None, None, 0.0, None)
+    return Plan(Batch(emissions, **repeated), list(points), 0, None, 0.0, None)
 
 
 def of_kind(messages, kind="emissions"):
@@ -79,7 +79,7 @@ def test_what_no_message_can_hold_is_counted(panel):
     for number in range(SLOTS):
         points = [(0.01 * focus, 0.07, 0.5) for focus in range(1, 11)]
         emissions = [Emission(0.0, x_m, y_m, None, "a region with a long name " * 4) for x_m, y_m, _ in points]
-        ring.started(float(number), Plan(Batch(emissions), points, None, None, 0.0, None))
+        ring.started(float(number), Plan(Batch(emissions), points, 0, None, 0.0, None))
     (notice,) = panel.ask(client)
     assert (notice["foci"], notice["lost"]) == ([], SLOTS)
 
