@@ -94,6 +94,8 @@ def calibrate_bank(options: argparse.Namespace) -> int:
             plot_leave_out(picture, board, source, waves, decays)
         path, cells, report = _build(board, source, options)
     notes = [*findings, *stage_notes(board, learned), *_notes(board, learned, waves, decays, drift)]
+    if source.size is not None and found.frame is not None:
+        source.size = source.size.in_frame(found.frame.offset_error_m)
     notes += _of_bank(options, source, cells, report)
     for note in notes:
         tell(note)

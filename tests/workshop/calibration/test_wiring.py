@@ -137,6 +137,14 @@ def test_a_weak_channel_has_no_verdict():
     assert found.undecided == (4,)
 
 
+def test_no_points_are_asked_for_what_is_decided():
+    """A pair of large errors that is decided all the same asked for 20."""
+    waves = strengths(8, 0.05)
+    waves.strength[[0, 1], [0, 1]], waves.error[:2], waves.strength[4, 4] = 2.0, 0.5, 0.3
+    found = wiring_of(waves, range(8), range(8), 6)
+    assert (found.undecided, found.points_needed) == ((4,), 7)
+
+
 def test_points_beside_those_that_are_there_keep_off_them():
     before_m = wiring_points(BOARD, 6)
     more_m = wiring_points(BOARD, 3, before_m)

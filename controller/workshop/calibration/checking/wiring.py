@@ -64,7 +64,7 @@ def wiring_of(waves: DirectWaves | None, channels: Sequence[int], alive: Sequenc
     sure = living & ~undecided
     majority = 1.0 if np.sign(there[sure]).sum() >= 0 else -1.0
     expected = scale * (1.0 * living[:, None] + living)  # of `gained`, with any number of points
-    worst = float(((SIGNIFICANT + LUCK) * pair / np.maximum(expected, ROUND))[living].max()) if undecided.any() else 0.0
+    worst = float(((SIGNIFICANT + LUCK) * pair / np.maximum(expected, ROUND)).max(where=unsure, initial=0.0))
     return Wiring(
         swapped=tuple(tuple(sorted(names[circle].tolist())) for circle in circles if not undecided[circle].any()),
         inverted=tuple(names[sure & (majority * there < 0)].tolist()),
