@@ -31,6 +31,11 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
         return found[about].good and (warned or not found[about].warns) if about in found else None
 
     command, bitstream = "haptic-panel {} --board " + board.called, board.folder / board.bitstream
+    calibrated = [
+        f"{command.format('calibrate plan')} --out points.csv",
+        f"{command.format('calibrate measure measured')} --points points.csv",
+        command.format("calibrate bank measured"),
+    ]
     return [
         WayStep("board.toml and its scene are valid", f"haptic-panel board check {board.called}", good("scene") is not False),
         WayStep("the bitstream has this board's limits", f"{command.format('gateware build')} --out {bitstream}", _built(board)),
@@ -38,9 +43,9 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
         WayStep("its link carries every bit", command.format("doctor --link"), good("bits")),
         WayStep("the bank fits board and scene", command.format("bank build"), good("bank")),
         WayStep("the touch panel answers", command.format("doctor"), good("touch panel")),
-        WayStep("its axes are measured", command.format("calibrate-touch"), _axes_measured(board)),
+        WayStep("its axes are measured", f"{command.format('calibrate-touch')} --write", _axes_measured(board)),
         WayStep("each channel moves its own disc", command.format("calibrate channels"), None),
-        WayStep("the plate's responses are measured", command.format("calibrate measure"), good("responses", warned=False)),
+        WayStep("the plate's responses are measured", ", ".join(calibrated), good("responses", warned=False)),
         WayStep("a finger feels it", command.format("run"), None),
     ]
 

@@ -2,10 +2,12 @@
 
 import itertools
 import re
+import shlex
 import tomllib
 
 import msgspec
 import pytest
+from commands.test_documented_commands import complaint
 from tables import each_row
 
 from controller.device.board.board import load_board
@@ -117,6 +119,14 @@ def test_a_board_that_would_be_refused_leaves_nothing_behind(tmp_path, name, giv
         write_board(tmp_path / name, answers(**given), touch)
     assert said in str(refused.value)
     assert [file.name for file in tmp_path.iterdir()] == ["there"]
+
+
+def test_the_way_is_made_of_whole_commands(tmp_path):
+    """`calibrate measure` was shown without its folder, `calibrate-touch` without --write, which is not ticked off."""
+    steps = way(write_board(tmp_path / "panel", answers(), TOUCH["linux_input"]))
+    words = [shlex.split(one)[1:] for step in steps for one in step.command.split(", ")]
+    assert [complaint(one) for one in words] == [None] * len(words)
+    assert words[6][-1] == "--write"
 
 
 def test_the_way_is_ticked_off_by_what_is_found(tmp_path):
