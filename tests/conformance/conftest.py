@@ -31,12 +31,6 @@ def pytest_runtest_makereport(item, call):
     return report
 
 
-@pytest.fixture(autouse=True)
-def own_cache(state_folder, monkeypatch):
-    """One folder for this run of the tests, shared with those of the command line, which want the same library."""
-    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
-
-
 @pytest.fixture(params=BACK_ENDS)
 def back_end(request):
     """Factory of gateware just out of reset."""
