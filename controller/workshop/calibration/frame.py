@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 
 MOVED_M = 0.4e-3  # a frame that moves no point by more is left as stated: patches and edges leave so much open
 SURE = 4.0  # standard deviations
-OPEN = 0.01  # of the scale: known no better, it is not told
+OPEN = 0.01  # error of the scale beyond which it is left as stated
 MIRRORS = {  # from stated coordinates to those of the plate, about its middle
     "": ((1, 0), (0, 1)),
     "x runs the other way": ((-1, 0), (0, 1)),

@@ -4,7 +4,6 @@ import dataclasses
 from pathlib import Path
 
 import msgspec
-import pytest
 from tables import each_row
 
 from controller.cli import main
@@ -61,7 +60,7 @@ def test_the_status_says_it_while_the_panel_serves(tmp_path, capsys, monkeypatch
         assert ("40 of 40 positions lay outside all regions" in capsys.readouterr().out) is said
 
 
-@pytest.mark.parametrize(("off_s", "said"), [(0.0, "outputs were never on"), (1.25, "outputs were off for 1.25 s")])
+@each_row(("off_s", "said"), [(0.0, "outputs were never on"), (1.25, "outputs were off for 1.25 s")])
 def test_outputs_that_were_never_on_are_no_outputs_that_were_off_for_no_time(off_s, said):
     figures = {"board": "panel", "foci": 0, "host_silent": 0, "outages": 0, "outputs_off_s": off_s, "warnings": [], "unfelt": []}
     assert said in served(figures | {"state": "waiting for FPGA", "cause": "there is no /dev/spidev0.0"})
