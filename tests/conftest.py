@@ -140,9 +140,10 @@ def state_folder(tmp_path_factory):
 
 
 @pytest.fixture(autouse=True)
-def own_state(state_folder, monkeypatch):
-    """What a test keeps is not the user's, whose banks may be measured ones of boards with the same name."""
-    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
+def own_state(request, state_folder, monkeypatch):
+    """What a test keeps is not the user's, whose banks may be measured ones of boards with the same name; a machine has its own."""
+    if not request.node.get_closest_marker("kernel"):
+        monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
     return state_folder
 
 

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Wheels of all that `pip install '.[offline,gateware]'` asks for, for a container without network; made once for each list of it.
+# Wheels of all that `HAPTIC_PANEL_MYPYC=1 pip install '.[offline,gateware]'` asks for, for a container without network; made once for each list of it.
 # usage: make_wheels.sh     prints their folder
 set -euo pipefail
 checkout=$(realpath "$(dirname "$0")/../..")
@@ -9,7 +9,7 @@ import sys, tomllib
 with open(sys.argv[1], "rb") as file:
     tables = tomllib.load(file)
 project = tables["project"]
-print(*tables["build-system"]["requires"], *project["dependencies"], *(name for extra in ("offline", "gateware") for name in project["optional-dependencies"][extra]), sep="\n")
+print(*tables["build-system"]["requires"], "mypy[mypyc]", *project["dependencies"], *(name for extra in ("offline", "gateware") for name in project["optional-dependencies"][extra]), sep="\n")
 P
 )
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/haptic-panel/wheels
