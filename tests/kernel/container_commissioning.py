@@ -138,6 +138,7 @@ ANSWERS = [
     ("Number of discs", 7),
     ("rim of a disc", ""),
     ("Power rating", ""),
+    ("Drive words", ""),
     ("FPGA board", "ulx3s"),
     ("Kind of touch panel", "serial_panel"),
     ("touch.device", PANEL.device),
