@@ -82,13 +82,15 @@ class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
 
     def _modules_compiled(self, folder: Path) -> list[Path]:
         """Shared objects of the listed modules, in `folder`/modules, each at its place in the package."""
+        import mypyc
         from mypyc.build import mypycify
         from setuptools import Distribution
 
         listed = [path for path in self.config["mypyc"] if not (_device_wing_only() and path.startswith(WORKSHOP))]
         with contextlib.chdir(self.root), contextlib.redirect_stdout(sys.stderr):
             modules = mypycify([f"--cache-dir={folder / 'types'}", *listed], target_dir=str(folder / "c"), group_name="controller")
-            for module in modules:
+            for module in modules:  # which have no path of this computer in them: the same bytes for everybody
+                module.extra_compile_args.append(f"-ffile-prefix-map={Path(mypyc.__file__).parent}=mypyc")
                 module.extra_link_args.append("-Wl,--strip-all")
             command = Distribution({"ext_modules": modules}).get_command_obj("build_ext")
             command.build_lib, command.build_temp = str(folder / "modules"), str(folder / "objects")
