@@ -55,4 +55,6 @@ def test_a_release_made_twice_is_the_same_to_the_byte(tmp_path):
     assert any("openblas" in library["name"] for library in numpy["components"]), "and what it brings along"
     assert named == {tuple(wheel.split("-")[:2]) for wheel in wheels}
     assert "serialNumber" not in bill
-    assert contents(tmp_path / "a") == contents(tmp_path / "b/deeper")
+    made, again = contents(tmp_path / "a"), contents(tmp_path / "b/deeper")
+    assert made.keys() == again.keys()
+    assert [name for name in made if made[name] != again[name]] == []  # the bytes themselves would be compared for minutes
