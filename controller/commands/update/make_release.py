@@ -53,9 +53,7 @@ def add(step: argparse.ArgumentParser) -> None:
     step.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take wheels from here, without a network (default: fetch, build)"
     )
-    step.add_argument(
-        "--interpreted", action="store_true", help="do not compile the loop: made a minute sooner, with twice the host's work"
-    )
+    step.add_argument("--mypyc", action="store_true", help="compile the loop, for this version of Python alone")
     step.add_argument(
         "--minimum-counter",
         type=int,
@@ -141,9 +139,7 @@ def _wheels(
         if not project.is_file():
             raise UpdateError(f"{project}: is not there: make releases in a checkout, or have {DISTRIBUTION}'s wheel in --wheels")
         wheel_folder.must_be_here(target, DISTRIBUTION)
-        own = wheel_folder.built_here(
-            project.parent, time_s, tools, cache, scratch, mypyc=not options.interpreted, workshop=workshop
-        )
+        own = wheel_folder.built_here(project.parent, time_s, tools, cache, scratch, mypyc=options.mypyc, workshop=workshop)
     wheel_folder.check_wing(own, workshop=workshop)
     (versioned := scratch / "versioned").mkdir()
     return with_version(own, options.version, versioned), others
