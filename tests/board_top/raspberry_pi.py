@@ -12,7 +12,7 @@ import struct
 from pathlib import Path
 from types import SimpleNamespace
 
-from compiled_top import CompiledTop, signal_pins, wires
+from compiled_top import CompiledTop, files, signal_pins
 from gpiod.line import Direction, Value
 
 from controller.device.board import gpio_chip
@@ -30,11 +30,14 @@ CALL_PS = 1_000_000  # that a system call on a line takes
 class RaspberryPi:
     """Installed by `install`; the temperature switch at the board is closed."""
 
-    def __init__(self, folder, library=None):
-        self.board = CompiledTop(library)
+    def __init__(self, folder, name="ulx3s", library=None):
+        self.name = name
+        self.files = files(name)
+        self.wires = self.files.wires
+        self.board = CompiledTop(name, library)
         self.answers = []  # of all frames
         self.board.drive(signal_pins()["temperature good"], 1)
-        self.board.drive(wires()["GPIO8"], 1)  # the controller's chip select at rest
+        self.board.drive(self.wires["GPIO8"], 1)  # the controller's chip select at rest
         self._device = folder / "spidev0.0"
         self._device.touch()
         (folder / "gpiochip0").touch()
@@ -45,7 +48,7 @@ class RaspberryPi:
     def install(self, patch):
         """Take the place of the machine's interfaces."""
         patch.setattr(gpio_chip, "DEVICES", self._folder)
-        patch.setattr(gpio_chip.gpiod, "Chip", lambda path: Chip(self.board, path))
+        patch.setattr(gpio_chip.gpiod, "Chip", lambda path: Chip(self, path))
         patch.setattr(spi_link.spidev, "SpiDev", lambda: SpiDev(self._device))
         system = {name: getattr(fcntl, name) for name in ("flock", "LOCK_EX", "LOCK_NB")}
         patch.setattr(spi_link, "fcntl", SimpleNamespace(ioctl=self._ioctl, **system))
@@ -65,7 +68,7 @@ class RaspberryPi:
     def _transfer(self, spi, sent, received, length):
         divider = -(-SOURCE_HZ // spi.max_speed_hz)
         frame = self.damage(ctypes.string_at(sent, length))
-        answer = self.board.exchange([wires()[name] for name in SPI], frame, SOURCE_HZ / (divider + divider % 2))
+        answer = self.board.exchange([self.wires[name] for name in SPI], frame, SOURCE_HZ / (divider + divider % 2))
         ctypes.memmove(received, answer, length)
         self.answers.append(answer)
         self.board.run(BETWEEN_FRAMES_PS)
@@ -106,10 +109,10 @@ class SpiDev:
 class Chip(contextlib.nullcontext):
     """The Pi's GPIO chip, of whose lines only those with a wire do anything."""
 
-    def __init__(self, board, path):
+    def __init__(self, pi, path):
         super().__init__(self)
         assert Path(path).name == "gpiochip0"
-        self._board = board
+        self._pi = pi
 
     def get_info(self):
         return SimpleNamespace(label=CHIP, num_lines=28)
@@ -122,7 +125,7 @@ class Chip(contextlib.nullcontext):
         return SimpleNamespace(name=name, used=False, consumer="")
 
     def request_lines(self, config, **_):
-        return Request(self._board, config)
+        return Request(self._pi, config)
 
 
 def name_of(line):
@@ -135,8 +138,8 @@ class Request:
 
     held = {}  # noqa: RUF012 -- by file number
 
-    def __init__(self, board, config):
-        self._board = board
+    def __init__(self, pi, config):
+        self._board, self._wires = pi.board, pi.wires
         self.offsets = [int(name_of(line).removeprefix("GPIO")) for line in config]
         config = {name_of(line): settings for line, settings in config.items()}
         self.lines = list(config)
@@ -149,14 +152,14 @@ class Request:
     def set_value(self, line, value):
         name = name_of(line)
         assert name in self._outputs
-        self._board.drive(wires()[name], value == Value.ACTIVE)
+        self._board.drive(self._wires[name], value == Value.ACTIVE)
         self._board.run(CALL_PS)
 
     def get_value(self, line):
         name = name_of(line)
         assert name not in self._outputs
         self._board.run(CALL_PS)
-        return Value.ACTIVE if self._board.high(wires()[name]) else Value.INACTIVE
+        return Value.ACTIVE if self._board.high(self._wires[name]) else Value.INACTIVE
 
     @classmethod
     def ioctl(cls, fd, request, argument):
@@ -172,6 +175,6 @@ class Request:
 
     def release(self):
         for name in self._outputs:
-            self._board.drive(wires()[name], None)
+            self._board.drive(self._wires[name], None)
         del self.held[self.fd]
         os.close(self.fd)

@@ -131,7 +131,7 @@ class Netlist:
         assert cell.text("DIR") in {"INPUT", "OUTPUT"}, pad
         if cell.text("DIR") == "OUTPUT":
             assert not cell.net("T")
-            yield f"OB {cell.own('pad')} (.I({cell.pin('I')}), .O({pad}));"
+            yield f"assign {pad} = {cell.pin('I')};"
         elif cell.net("O"):
             yield f"assign {cell.out('O')} = {pad};"
 

@@ -1,14 +1,15 @@
-"""boards/ulx3s as it is: its top with the bitstream's parameters, at its pins SpiLink with board.toml unchanged."""
+"""Each FPGA board as it is: its top with the bitstream's parameters, at its pins SpiLink with board.toml unchanged."""
 
+import re
 import sys
 import zlib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from compiled_top import BOARD, PS, CompiledTop, channel_pins, channels_of, inputs, parameters, signal_pins, wires
+from compiled_top import BOARDS, CHANNELS, PS, SIGNALS, UART, CompiledTop, channel_pins, channels_of, files, names_in, signal_pins
+from tables import each_row
 
-from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
@@ -35,13 +36,13 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "conformance"))
 
 from hard_limits import broken_limits
 
-ULX3S = load_board(BOARD / "board.toml")
+ULX3S = files("ulx3s").board
 CLOCK_PS = PS / ULX3S.link.clock_hz
 WORDS = np.random.default_rng(5).integers(0, 1 << 32, ULX3S.waveform.samples, dtype=np.uint32).repeat(8)[: ULX3S.waveform.samples]
 
 
 def opened(pi):
-    return SpiLink(ULX3S.link, pi.now_s)
+    return SpiLink(pi.files.board.link, pi.now_s)
 
 
 def session_on(pi, link):
@@ -56,30 +57,37 @@ def arm(pi, session):
     session.require_armed()
 
 
-def test_the_wires_of_the_readme_meet_the_signals_of_the_same_pins():
-    link, pins = ULX3S.link, signal_pins()
+@each_row("name", BOARDS)
+def test_the_readme_has_the_pins_of_the_top_and_the_wires_of_board_toml(name):
+    """pins.lpf says which port of the top is at which pin of the headers."""
+    board, pins = files(name), signal_pins()
+    link = board.board.link
     ends = [(link.trigger_line, "trigger"), (link.configured_line, "configured"), (link.permit_line, "run permit")]
     ends += [("GPIO11", "SCK"), ("GPIO8", "CS"), ("GPIO10", "MOSI"), ("GPIO9", "MISO")]
-    assert {line: wires()[line] for line, _ in ends} == {line: pins[signal] for line, signal in ends}
-    taken = [*channel_pins(), *pins.values()]
-    assert len(set(taken)) == len(taken)
-    assert inputs() == sum(pins[name] for name in ("SCK", "CS", "MOSI", "trigger", "run permit", "temperature good"))
-
-
-def test_the_bitstream_is_of_this_verilog():
-    assert parameters()["BUILD_HASH"] == build_hash(data_folder("fpga_rtl"))
+    assert board.wires == {line: pins[signal] for line, signal in ends}
+    told = {}
+    for signal, cell, *_ in board.section("signal"):
+        if channels := re.fullmatch(r"channels (\d+)–(\d+)", signal):
+            first, last = map(int, channels.groups())
+            told |= dict(zip(CHANNELS[first : last + 1], names_in(cell), strict=True))
+        elif names := names_in(cell):
+            told |= dict(zip((SIGNALS[one.removeprefix("SPI ")] for one in signal.split(", ")), names, strict=True))
+    assert told == {pin.port: pin.name for pin in board.pins.values() if pin.name}
+    assert len(told) == len(set(told.values())) == 32 + 13
+    others = [other for other in map(files, BOARDS) if other.board.link == link]
+    assert len(others) == len(BOARDS), "the host's side is the same"
 
 
 def test_it_says_that_it_is_configured_once_its_pll_has_locked_and_drives_nothing_high_before(pi):
-    board = CompiledTop()
+    board = CompiledTop(pi.name)
     board.run(500_000)
     assert not board.high(signal_pins()["configured"])
     board.run(1_500_000)
     assert board.high(signal_pins()["configured"])
     _, words = board.take()
     high = np.bitwise_or.reduce(words)
-    assert high == signal_pins()["configured"] | 1 << 56  # and the UART's line at rest
-    assert board.leds == 0b1_0000_0001  # configured; the ESP32 lets the board be
+    assert high == signal_pins()["configured"] | UART  # and the UART's line at rest
+    assert board.leds == (0b1_0000_0001 if pi.name == "ulx3s" else 0)  # configured; the ESP32 lets the board be
 
 
 def test_an_fpga_whose_oscillator_has_stopped_is_not_configured(pi):
@@ -98,7 +106,7 @@ def test_it_is_known_armed_and_plays_an_upload_bit_for_bit_behind_the_trigger_li
     session = session_on(pi, link)
     read = session.exchange.read
     assert read(Register.IDENTITY) == IDENTITY_MAGIC
-    assert read(Register.BOARD).to_bytes(4, "big") == b"ULX3"
+    assert read(Register.BOARD).to_bytes(4, "big") == {"ulx3s": b"ULX3", "colorlight_i5": b"CLI5"}[pi.name]
     assert read(Register.CLOCK_HZ) == ULX3S.link.clock_hz
     assert read(Register.GEOMETRY) & 0xFF == ULX3S.link.slots
     assert not pi.board.high(signal_pins()["hv_enable"])

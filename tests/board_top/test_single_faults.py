@@ -1,4 +1,4 @@
-"""One thing broken at a time, at the pins of the compiled board, with the product's link, session and recovery as its host.
+"""One thing broken at a time, at the pins of each compiled board, with the product's link, session and recovery as its host.
 
 Each row measures what the outputs do, which fault the FPGA keeps and what the host makes of it; fpga_rtl/README.md has the same
 table. The FPGA is set up for a heartbeat timeout of 5 ms and a ramp of 0.1 ms, which a host may do: the board's 100 and 10 ms
@@ -11,9 +11,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-from compiled_top import PS, UART, channel_pins, channels_of, signal_pins, wires
+from compiled_top import PS, UART, channel_pins, channels_of, files, signal_pins
 
-from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.frames import Play, pack_nop
@@ -23,7 +22,7 @@ from controller.device.fpga.registers import Fault, Register, State
 from controller.device.fpga.session import Session
 from controller.errors import ControllerError
 
-ULX3S = load_board(data_folder("boards") / "ulx3s" / "board.toml")
+ULX3S = files("ulx3s").board
 README = data_folder("fpga_rtl") / "README.md"
 CLOCK_PS = PS / ULX3S.link.clock_hz
 TIMEOUT_S = 5e-3
@@ -220,7 +219,7 @@ def oscillator(*, lock_stays):
 
 def cable(host):
     """Every wire to the Raspberry Pi is off: what is left are the board's pulls."""
-    return host.watch(lambda: host.board.stick(sum(wires().values()), None), for_s=AT_ONCE_S)
+    return host.watch(lambda: host.board.stick(sum(host.pi.wires.values()), None), for_s=AT_ONCE_S)
 
 
 def killed(host):
@@ -282,8 +281,8 @@ ROWS = {
 }
 
 AT_THE_START = {
-    "FPGA not configured, or without supply: `configured` low": lambda pi: pi.board.stick(wires()["GPIO24"], 0),
-    "`configured` high, FPGA not there": lambda pi: pi.board.stick(wires()["GPIO9"], 0),
+    "FPGA not configured, or without supply: `configured` low": lambda pi: pi.board.stick(pi.wires["GPIO24"], 0),
+    "`configured` high, FPGA not there": lambda pi: pi.board.stick(pi.wires["GPIO9"], 0),
 }
 IN_EVERY_RUN = (
     "run permit low, or its wire off",

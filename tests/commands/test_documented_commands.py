@@ -22,7 +22,7 @@ PAGES = sorted(
 )
 SHOWN = re.compile(rf"(?<![\w.-])haptic-panel ((?:{'|'.join(COMMANDS)})(?![\w-]).*)")
 MODULE = re.compile(r"-m (controller[\w.]+)(.*)")
-OTHERS = {"--write-sram", "--write-flash", "--haptic"}  # openFPGALoader's; a property of style sheets
+OTHERS = {"--write-sram", "--write-flash", "--unprotect-flash", "--haptic"}  # openFPGALoader's; a property of style sheets
 
 
 def code(page):

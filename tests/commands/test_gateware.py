@@ -185,7 +185,7 @@ def test_the_identity_is_that_of_the_content_and_of_nothing_else(tools, panel, c
     monkeypatch.chdir(moved)
     assert sources(moved) == first
     for file, was, becomes in (
-        ("top.v", "locked", "lock_ed"),
+        ("top.v", "running", "is_running"),
         ("pins.lpf", "SITE", "SITE "),
         ("board.toml", "= 53e3", "= 40e3"),
         ("fpga.toml", "speed = 6", "speed = 7"),
@@ -207,7 +207,7 @@ def test_the_other_size_of_the_fpga_is_a_parameter(tools, capsys):
 def test_a_board_without_a_top_of_its_own_names_another(tools, capsys):
     line = said(capsys, "build", "--board", "ulx3s_pi5", code=78)
     assert "ulx3s_pi5: has no fpga.toml" in line
-    assert line.endswith("--top ulx3s")
+    assert line.endswith("--top colorlight_i5 or ulx3s")
     assert main(["gateware", "build", "--board", "ulx3s_pi5", "--top", "ulx3s", "--out", "pi5.bit"]) == 0
     assert read_identity(Path("pi5.bit")).top == "ulx3s"
     capsys.readouterr()

@@ -142,7 +142,10 @@ def tree(tmp_path_factory):
         (place,) = re.finditer(line, before)
         (folder / name).write_text(before[: place.start()] + text + before[place.start() :])
     done = python(folder, "-m", "controller.generate", "registers")
-    written = {str(folder / "fpga_rtl" / name) for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md")}
+    written = {
+        str(folder / "fpga_rtl" / name)
+        for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md", "board/board_core.v")
+    }
     written |= {str(path) for path in (folder / "boards").glob("*/top.v")}
     assert set(re.findall(r"(\S+): written", done.stdout)) == written
     return folder

@@ -14,12 +14,11 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "board_top"))
-from compiled_top import BOARD, channels_of, signal_pins, wires
+from compiled_top import channels_of, files, signal_pins
 from far_end_spi import HEADER, REQUEST_BYTES, GpioTrace
 from gpio_lines import GpioLines
 from host_gateware import ask
 
-from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.frames import Play
@@ -28,10 +27,10 @@ from controller.device.fpga.registers import Register, State
 from controller.device.fpga.session import Session
 from controller.errors import LinkError
 
-ULX3S = load_board(BOARD / "board.toml")
+ULX3S, WIRES = files("ulx3s").board, files("ulx3s").wires
 LINK = ULX3S.link
 NAMES = [f"GPIO{number}" for number in range(28)]
-SPI = [wires()[name] for name in ("GPIO11", "GPIO8", "GPIO10", "GPIO9")]
+SPI = [WIRES[name] for name in ("GPIO11", "GPIO8", "GPIO10", "GPIO9")]
 WORDS = np.random.default_rng(5).integers(0, 1 << 32, ULX3S.waveform.samples, dtype=np.uint32).repeat(8)[: ULX3S.waveform.samples]
 US = 1_000_000  # in ps
 
@@ -69,8 +68,8 @@ class FarEnd:
         device = os.open("/dev/labspi", os.O_RDWR)
         ask("board_open")
         ask("board_oscillate", 0)
-        ask("board_drive", signal_pins()["temperature good"] | wires()["GPIO8"], 1)
-        outputs = {name: wires()[name] for name in (LINK.trigger_line, LINK.permit_line)}
+        ask("board_drive", signal_pins()["temperature good"] | WIRES["GPIO8"], 1)
+        outputs = {name: WIRES[name] for name in (LINK.trigger_line, LINK.permit_line)}
         with selectors.DefaultSelector() as selector:
             for file in (device, trace.fd, pipe):
                 selector.register(file, selectors.EVENT_READ)
@@ -93,7 +92,7 @@ class FarEnd:
 
     @staticmethod
     def _show_configured():
-        lines().pull(LINK.configured_line, int(ask("board_high", wires()[LINK.configured_line])))
+        lines().pull(LINK.configured_line, int(ask("board_high", WIRES[LINK.configured_line])))
 
 
 @cache

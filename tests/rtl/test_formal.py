@@ -49,7 +49,7 @@ def test_each_assumption_of_a_proof_has_its_row_and_each_row_the_other_side():
         assert set(names) <= set().union(*(made[proof] for proof in proofs)), names
         sides = re.findall(r"\w+_\w+(?:\.vh?)?|top\.v|tests/\w+", because)
         promises = set(re.findall(r"(\w+): +assert", "".join(path.read_text() for path in FORMAL.glob("*.vh"))))
-        places = {path.name for place in (RTL, FORMAL, RTL.parent / "boards" / "ulx3s") for path in place.iterdir()}
+        places = {path.name for place in (RTL, RTL / "board", FORMAL) for path in place.iterdir()}
         benches = {path.stem for path in (RTL.parent / "tests" / "rtl").glob("tb_*.py")} | {"tests/conformance"}
         assert set(sides) & (promises | places | benches), because
     assert listed == made

@@ -27,8 +27,8 @@ from controller.device.setup.answers import SetupAnswers
 from controller.device.setup.placement import actuators_around
 from controller.errors import ConfigError
 
-FPGA: Final = "ulx3s"  # whose top.v, pins and fpga.toml all boards use
 SIMULATED: Final = "simulated"
+ON_A_PI_5: Final = "_pi5"  # behind the name of an FPGA board
 FPGA_FILES: Final = ("top.v", "pins.lpf", "fpga.toml")
 ACTUAL: Final = "actual.toml"  # what is really there of a simulated panel
 EMPTY: Final = """# What is there of this simulated panel, where it is not as board.toml says (workshop/gateware/actual_panel.py)
@@ -62,7 +62,7 @@ def write_board(folder: Path, answers: SetupAnswers, touch: Mapping[str, Any]) -
             if answers.fpga == SIMULATED:
                 (board / ACTUAL).write_text(EMPTY, encoding="utf-8")
             for name in FPGA_FILES:
-                shutil.copy(data_folder("boards") / FPGA / name, board)
+                shutil.copy(_fpga_folder(answers) / name, board)
             read = load_board(board)
             read_scene(find_scene(read), read)
             board.rename(folder)
@@ -71,10 +71,18 @@ def write_board(folder: Path, answers: SetupAnswers, touch: Mapping[str, Any]) -
     return load_board(folder)
 
 
+def _fpga_folder(answers: SetupAnswers) -> Path:
+    """Folder of the FPGA board: its top.v, pins and loader."""
+    name = "ulx3s" if answers.fpga == SIMULATED else answers.fpga.removesuffix(ON_A_PI_5)
+    return data_folder("boards") / name
+
+
 def board_text(name: str, answers: SetupAnswers, touch: Mapping[str, Any]) -> str:
     """Text of board.toml; raises ConfigError if keys of [touch] are invalid, or the discs do not fit on the glass."""
-    shipped = data_folder("boards") / (FPGA if answers.fpga == SIMULATED else answers.fpga) / "board.toml"
+    fpga = _fpga_folder(answers)
+    shipped = (fpga.with_name("ulx3s_pi5") if answers.fpga.endswith(ON_A_PI_5) else fpga) / "board.toml"
     tables, sections = read_tables(shipped), _sections(shipped.read_text(encoding="utf-8"))
+    sections["gateware"] = _sections((fpga / "board.toml").read_text(encoding="utf-8"))["gateware"]
     if answers.fpga == SIMULATED:
         link = {key: tables["link"][key] for key in ("clock_hz", "sck_hz", "slots")}
         sections["link"] = _table("link", {"kind": SIMULATED, "device": ACTUAL, **link})

@@ -17,6 +17,7 @@ from controller.workshop.bill.circuit import Component, circuit
 SHIFTER_A: Final = 1e-3  # of a channel that idles high: Q1's
 CHIP_A: Final = 10e-3  # of a 74AHCT541 and what its outputs drive
 MARGIN: Final = 1.5
+FPGA_BOARDS: Final = "an ULX3S (boards/ulx3s), or a Colorlight i5 or i9 in its extension board (boards/colorlight_i5)"
 NAMES: Final = {
     "R": "resistor",
     "C": "capacitor",
@@ -129,8 +130,8 @@ def _control(board: Board) -> Iterator[Item]:
 
 def _fpga(board: Board) -> str:
     if board.link.kind == "simulated":
-        return "simulated here; ULX3S (ECP5-25F or 85F) is what boards/ulx3s is made for"
-    return f"{board.link.slots} slots at {board.link.clock_hz / 1e6:g} MHz; boards/ulx3s: ULX3S (ECP5-25F or 85F)"
+        return f"simulated here; gateware is made for {FPGA_BOARDS}"
+    return f"{board.link.slots} slots at {board.link.clock_hz / 1e6:g} MHz; {FPGA_BOARDS}"
 
 
 def _wires(link: LinkSettings) -> list[str]:

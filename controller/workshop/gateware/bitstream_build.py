@@ -32,7 +32,7 @@ from controller.workshop.gateware.fpga_part import TOP, FpgaPart
 SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
 TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself
 DEFAULT_MHZ = 12.0  # what nextpnr takes for a clock of which nothing is said
-SCK_NET = "spi_sck_i"  # as its clock's name ends
+SCK_NET = "spi_sck"  # in its clock's name
 BEYOND_NS = 13.0  # that nextpnr does not know: 8 for pads and the way of SCK to the flip-flop, 5 for the host's set-up time
 LOG_LINES = 5  # of a tool that failed without a line that tells an error
 
@@ -52,7 +52,9 @@ class FpgaDesign:
     def of(cls, board: Board, top: Path, part: FpgaPart, device: str) -> FpgaDesign:
         """The design of a board with the top.v and pins of a folder, for one of `part.devices`."""
         rtl = data_folder("fpga_rtl")
-        sources = [file for file in rtl.iterdir() if file.suffix in (".v", ".vh")] + [top / TOP, top / part.constraints]
+        rooms = (rtl, rtl / "board")
+        sources = [file for room in rooms for file in room.iterdir() if file.suffix in (".v", ".vh")]
+        sources += [top / TOP, top / part.constraints]
         files = {file.name: file.read_bytes() for file in sorted(sources, key=lambda file: file.name)}
         return cls(board, top.name, part, device, files, top_parameters(board, build_hash(rtl)))
 
@@ -203,9 +205,7 @@ def _answer_ns(report: Mapping[str, Any]) -> float | None:
 
     nextpnr counts neither the way of SCK to the flip-flop nor the pads.
     """
-    paths = [
-        found["path"] for found in report["critical_paths"] if found["from"].endswith(SCK_NET) and found["to"].startswith("<async>")
-    ]
+    paths = [found["path"] for found in report["critical_paths"] if SCK_NET in found["from"] and found["to"].startswith("<async>")]
     return max((round(sum(hop["delay"] for hop in path), 2) for path in paths), default=None)
 
 

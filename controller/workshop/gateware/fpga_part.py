@@ -32,8 +32,8 @@ FAMILIES = {
     "ecp5": Family(r"(um5?g?-)?(12k|25k|45k|85k)", "25k", ".lpf", speeds=True),
     "ice40": Family(r"(lp|hx|up|u)\d+k?", "hx8k", ".pcf", speeds=False),
 }
-PLL = re.compile(r"localparam \[31:0\] PLL_HZ *= *32'd([\d_]+);")
-SCK_MHZ = re.compile(r'^FREQUENCY NET "core\.spi_link\.spi_sck_i" ([\d.]+) MHZ;', re.MULTILINE)
+PLL = re.compile(r"\bPLL_HZ(?: *= *|\()32'd([\d_]+)")
+SCK_MHZ = re.compile(r'^FREQUENCY (?:PORT "spi_sck"|NET "core\.spi_link\.spi_sck_i") ([\d.]+) MHZ;', re.MULTILINE)
 BAUD = re.compile(r"\.BAUD\(([\d_]+)\)")
 
 

@@ -3,8 +3,8 @@
 `controller.generate` writes it.
 
 `registers.vh` gets the numbers of its constants, all codes and the places of fields. In the Verilog (`registers.vh`,
-`register_file.v`, `haptic_core.v`, the `top.v` of each board), `kernel.c` and `twin.py` only the lines between `generated: NAME`
-and `end of NAME` are written, in README.md only the tables of registers and of frames.
+`register_file.v`, `haptic_core.v`, `board_core.v`, the `top.v` of each board), `kernel.c` and `twin.py` only the lines between
+`generated: NAME` and `end of NAME` are written, in README.md only the tables of registers and of frames.
 """
 
 from __future__ import annotations
@@ -49,7 +49,8 @@ def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Pa
     names = [field.name.upper() for field in fields(BuildParameters) if field.name not in OTHER_PARAMETERS]
     parameters = [f"parameter [31:0] {name:<19} = 32'd0," for name in names]
     built_in = [f".{name}({name})," for name in names]
-    tops = {str(path): {"parameters": parameters, "built_in": built_in} for path in (folder.parent / "boards").glob("*/top.v")}
+    boards = [folder / "board" / "board_core.v", *(folder.parent / "boards").glob("*/top.v")]
+    tops = {str(path): {"parameters": parameters, "built_in": built_in} for path in boards}
     blocks = tops | {
         "registers.vh": {"codes": [*codes(registers), *places()]},
         "register_file.v": {

@@ -13,13 +13,13 @@ from tables import each_row
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.board.parts import catalogue
-from controller.device.board.records import as_record, read_tables
+from controller.device.board.records import as_record
 from controller.device.board.relations.checked import judge
 from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.device.doctor.finding import Finding
 from controller.device.doctor.way import in_lines, way
 from controller.device.setup.answers import HELD, SetupAnswers, glasses
-from controller.device.setup.board_folder import write_board
+from controller.device.setup.board_folder import FPGA_FILES, write_board
 from controller.errors import ConfigError
 
 SIZE = {"length_mm": 217.0, "width_mm": 136.0, "thickness_mm": 1.1}
@@ -58,13 +58,20 @@ def test_a_simulated_board_is_delivered_without_a_bitstream(tmp_path):
 
 def test_every_glass_disc_edge_touch_panel_and_computer_makes_a_board(tmp_path):
     kinds = itertools.cycle(TOUCH)
-    numbered = enumerate(itertools.product(glasses(), HELD, ("ulx3s", "ulx3s_pi5"), catalogue()))
-    for index, (glass, held, fpga, disc) in list(numbered)[::5]:
+    fpgas = ("ulx3s", "ulx3s_pi5", "colorlight_i5", "colorlight_i5_pi5")
+    numbered = enumerate(itertools.product(glasses(), HELD, fpgas, catalogue()))
+    for index, (glass, held, fpga, disc) in list(numbered)[::9]:
         kind = next(kinds)
         given = answers(glass=glass, held=held, fpga=fpga, disc=disc, discs=1 + index % 8, touch=kind, resistor_w=1.0)
         board = write_board(tmp_path / f"panel{index}", given, TOUCH[kind])
         assert board.plate.density_kg_m3 == glasses()[glass]["density_kg_m3"]
-        assert board.link.gpio_chip == read_tables(data_folder("boards") / fpga / "board.toml")["link"]["gpio_chip"]
+        host, own = (
+            data_folder("boards") / fpga.replace("colorlight_i5", "ulx3s"),
+            data_folder("boards") / fpga.removesuffix("_pi5"),
+        )
+        assert board.link == load_board(host).link
+        assert board.gateware == load_board(own).gateware
+        assert {(board.folder / name).read_bytes() == (own / name).read_bytes() for name in FPGA_FILES} == {True}
         assert not [odd for odd in judge(board).odd if not odd.startswith("actuators: a patch")]
 
 

@@ -50,8 +50,8 @@ TABLE = [
 def folder(tmp_path):
     """A copy of what is written into."""
     folder = tmp_path / "fpga_rtl"
-    (folder / "simulation").mkdir(parents=True)
-    for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md", "simulation/frame_view.sv"):
+    for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md", "simulation/frame_view.sv", "board/board_core.v"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(data_folder("fpga_rtl") / name, folder / name)
     return folder
 

@@ -1,5 +1,6 @@
-// boards/ulx3s/top.v as a shared library: its oscillator, whatever drives its header pins and its UART, and a recorder.
-// Pins: gp[0] to gp[27] are bits 0 to 27, gn[0] to gn[27] bits 28 to 55, ftdi_txd (in) and ftdi_rxd (out) bit 56.
+// The top.v of a board as a shared library: its oscillator, whatever drives its pins and its UART, and a recorder.
+// Every board's top has the same ports, but for those that only its own pads have. Pins are bits of a word, in the order of PORTS of
+// compiled_top.py: channels 0 to 31, six inputs from 32 on, seven outputs from 38 on; bit 45 is the UART, its line in and its line out.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,23 +13,24 @@ double sc_time_stamp() { return 0; }  // wanted by Verilator's run time
 
 namespace {
 
-constexpr uint64_t OSCILLATOR_HALF_PS = 20'000;  // 25 MHz
-constexpr uint64_t NEVER = UINT64_MAX, UART = 1ull << 56, HALF_HEADER = (1ull << 28) - 1;
+constexpr uint64_t NEVER = UINT64_MAX, UART = 1ull << 45, DRIVEN = 0xffffffff | 0x7full << 38 | UART;
 
 class Board {
 public:
-    Board(uint64_t inputs, uint64_t pulled_up) : top_{&context_}, inputs_{inputs}, pulled_up_{pulled_up | UART} {
+    Board(uint64_t pulled_up, uint64_t half_ps) : top_{&context_}, pulled_up_{pulled_up}, half_ps_{half_ps}, edge_{half_ps} {
         context_.commandArgs(0, static_cast<const char **>(nullptr));
         eval();
     }
     ~Board() { top_.final(); }
 
     uint64_t now() const { return now_; }
-    // By the FPGA; Verilator takes each bit of a bus of which one is driven for driven
-    uint64_t driven() const { return (top_.gp__en | uint64_t{top_.gn__en} << 28 | UART) & ~inputs_; }
-    uint64_t outputs() const { return (top_.gp__out | uint64_t{top_.gn__out} << 28 | (top_.ftdi_rxd ? UART : 0)) & driven(); }
-    uint64_t levels() const { return outputs() | (outside() & ~driven()); }
-    uint32_t leds() const { return top_.led | top_.wifi_gpio0 << 8; }
+    uint64_t outputs() const {
+        const uint64_t flags = top_.spi_miso | top_.configured << 1 | top_.hv_enable << 2 | top_.hv_alive << 3 | top_.focus << 4
+                               | top_.fault << 5 | top_.waiting << 6 | top_.uart_tx << 7;
+        return top_.channel | flags << 38;
+    }
+    uint64_t levels() const { return outputs() | (outside() & ~DRIVEN); }
+    uint32_t leds() const { return leds_of(top_); }
 
     // From outside: pins of `mask` are driven to `levels`, all others left to their pulls
     void drive(uint64_t mask, uint64_t levels) {
@@ -42,7 +44,7 @@ public:
         const char *stays[] = {runs ? "+clk_stops" : "+lock_stays"};
         if (lock_stays) context_.commandArgsAdd(1, stays);
         oscillates_ = runs;
-        edge_ = now_ + OSCILLATOR_HALF_PS;
+        edge_ = now_ + half_ps_;
     }
 
     void run(uint64_t until) {
@@ -51,7 +53,7 @@ public:
             context_.time(now_);
             if (oscillates_ && now_ == edge_) {
                 top_.clk_25mhz = !top_.clk_25mhz;
-                edge_ += OSCILLATOR_HALF_PS;
+                edge_ += half_ps_;
             }
             eval();
         }
@@ -82,10 +84,14 @@ private:
     uint64_t outside() const { return (mask_ & levels_) | (~mask_ & pulled_up_); }
 
     void eval() {
-        const uint64_t in = outside();
-        top_.gp = in & HALF_HEADER;
-        top_.gn = in >> 28 & HALF_HEADER;
-        top_.ftdi_txd = in & UART ? 1 : 0;
+        const uint64_t in = outside() >> 32;
+        top_.spi_sck = in & 1;
+        top_.spi_cs_n = in >> 1 & 1;
+        top_.spi_mosi = in >> 2 & 1;
+        top_.trigger = in >> 3 & 1;
+        top_.run_permit = in >> 4 & 1;
+        top_.temperature_ok = in >> 5 & 1;
+        top_.uart_rx = in >> 13 & 1;
         top_.eval();
         if (outputs() != word_) {
             times.push_back(now_);
@@ -93,10 +99,15 @@ private:
         }
     }
 
+    template <class Top> static uint32_t leds_of(const Top &top) {
+        if constexpr (requires { top.led; }) return top.led | top.wifi_gpio0 << 8;
+        return 0;
+    }
+
     VerilatedContext context_;
     Vtop top_;
-    uint64_t now_ = 0, edge_ = OSCILLATOR_HALF_PS, mask_ = 0, levels_ = 0, word_ = 0;
-    const uint64_t inputs_, pulled_up_;
+    const uint64_t pulled_up_, half_ps_;
+    uint64_t now_ = 0, edge_, mask_ = 0, levels_ = 0, word_ = 0;
     bool oscillates_ = true;
 };
 
@@ -105,11 +116,10 @@ private:
 extern "C" {
 #pragma GCC visibility push(default)
 
-Board *board_open(uint64_t inputs, uint64_t pulled_up) { return new Board{inputs, pulled_up}; }
+Board *board_open(uint64_t pulled_up, uint64_t half_ps) { return new Board{pulled_up, half_ps}; }
 void board_close(Board *board) { delete board; }
 uint64_t board_now(const Board *board) { return board->now(); }
 uint64_t board_levels(const Board *board) { return board->levels(); }
-uint64_t board_driven(const Board *board) { return board->driven(); }
 uint32_t board_leds(const Board *board) { return board->leds(); }
 void board_drive(Board *board, uint64_t mask, uint64_t levels) { board->drive(mask, levels); }
 void board_oscillate(Board *board, uint32_t runs, uint32_t lock_stays) { board->oscillate(runs, lock_stays); }
