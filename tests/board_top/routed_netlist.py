@@ -177,7 +177,7 @@ class Netlist:
 
     def oscillator(self, cell):
         """As the board's bench models it."""
-        yield f"OSCG #(.DIV({cell.text('DIV')})) oscillator (.OSC({cell.out('OSC')}));"
+        yield f"OSCG #(.DIV({int(cell.text('DIV'), 2)})) oscillator (.OSC({cell.out('OSC')}));"
 
 
 def function(table, inputs):

@@ -79,10 +79,12 @@ def test_a_netlist_of_each_kind_of_cell_becomes_verilog():
         "flip": {"type": "TRELLIS_FF", "parameters": flip, "connections": {"DI": [3], "CLK": [4], "Q": [2], "LSR": []}},
         "pin": {"type": "TRELLIS_IO", "parameters": {"DIR": "INPUT"}, "connections": {"B": [9], "O": [4], "I": []}},
         "led": {"type": "TRELLIS_IO", "parameters": {"DIR": "OUTPUT"}, "connections": {"B": [8], "I": [2], "O": []}},
+        "oscillator": {"type": "OSCG", "parameters": {"DIV": f"{64:032b}"}, "connections": {"OSC": [5]}},
     }
     ports = {"clk": {"direction": "input", "bits": [9]}, "led": {"direction": "output", "bits": [8]}}
     lines = list(Netlist({"ports": ports, "cells": cells}).lines())
     assert {"assign n3 = n2;", "assign n4 = clk;", "assign led = n2;", "reg n2;"} <= set(lines)
+    assert "OSCG #(.DIV(64)) oscillator (.OSC(n5));" in lines
     assert "initial begin n2 = 1'b1; end" in lines
     assert "always @(negedge n4) begin n2 <= n3; end" in lines
 

@@ -122,7 +122,7 @@ class Host:
         off_ps = int(times[off])
         if not self.board.levels & signal_pins()["configured"]:
             return "off with the PLL's lock" if off_ps - begin_ps < LOCK_LOST_PS else "off within 3 µs"
-        if off_ps - max([begin_ps, *(low for low in self.lows_ps if low < off_ps)]) <= SHUT_CLOCKS * CLOCK_PS:
+        if off_ps - max([begin_ps, *(low for low in self.lows_ps if low <= off_ps)]) <= SHUT_CLOCKS * CLOCK_PS:
             return "off at once"
         if np.count_nonzero(np.diff(channels_of(pins[:off]))) > 4:
             return "ramp down"
