@@ -29,7 +29,7 @@ WORDS = [0x1111 * number for number in range(1, 9)]
 LONG = bytes(range(250)) * 16  # of 1000 words, whose check lasts longer than a frame
 EMISSION_TICKS = len(WORDS) * BIT_TICKS
 DELAY_TICKS = FRAME_TICKS + 60
-OFFSETS = (0, 1, 4, 9, 33)
+OFFSETS = (0, 1, 9)
 MORE_OFFSETS = tuple(sorted(set(range(41)) - set(OFFSETS)))  # in the slow form
 STATES = (
     "off",

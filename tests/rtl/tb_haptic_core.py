@@ -64,9 +64,9 @@ SOUNDING = SHORT * BIT_TICKS
 FIRST_WORD_TICKS = 1 + TRIGGER_LATENCY_TICKS  # tick 0 ends with the first clock edge that samples the trigger
 FINE = (BIT_TICKS << 16) + 21846  # 6 1/3 ticks a word
 UART_BYTE = 10 * UART_BIT_TICKS
-RANDOM_FRAMES = int(os.environ.get("HAPTIC_PANEL_RANDOM_FRAMES", "120"))  # 1000 with `pytest -m slow`
+RANDOM_FRAMES = int(os.environ.get("HAPTIC_PANEL_RANDOM_FRAMES", "40"))  # 1000 with `pytest -m slow`
 WHOLE = RANDOM_FRAMES >= 1000  # every offset of what a random one, or every third, stands for otherwise
-SCRIPTS_LATE = 2  # of which the model also gets inputs one tick late
+SCRIPTS_LATE = 2 if WHOLE else 1  # of which the model also gets inputs one tick late
 ON = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT | State.ARMED | State.HV_ENABLE
 OFF = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT  # the link that armed was heard a moment ago
 

