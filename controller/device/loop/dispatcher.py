@@ -37,7 +37,8 @@ class Dispatcher:
         self._occupancy = playback.occupancy
         self._timing = playback.timing
         self._delayed = False  # something waited for the panel's silence
-        self._moving: int | None = None  # finger that moved in the newest report
+        self._moving: int | None = None  # finger that moved in the newest report, until what it will ask for was sent ahead
+        self._moved_s = 0.0  # host time of that report
 
     def turn(self, turn: Turn, *, on: bool) -> bool:
         """Start, hand over or send ahead what this turn has time for.
@@ -46,9 +47,10 @@ class Dispatcher:
         LinkError or FaultError as the session says.
         """
         self.quiet_until_s = -NEVER
-        if turn.report_ns >= 0:
-            self._moving = turn.finger
         scheduler, playback, now_s = self._scheduler, self._playback, turn.now_s
+        if turn.report_ns >= 0:
+            self._moving = turn.finger if turn.finger == scheduler.spaced else None
+            self._moved_s = now_s - turn.report_ns * 1e-9
         if not on:
             if scheduler.due:
                 scheduler.reset(turn.fpga_s)
@@ -78,13 +80,15 @@ class Dispatcher:
         return None
 
     def next_s(self, now_s: float, *, on: bool) -> float:
-        """Host time at which a fixed emitter is due or a silence ends; `on`: whether the outputs are on."""
+        """Host time of a fixed emitter, the end of a silence or a waveform sent ahead; `on`: whether the outputs are on."""
         repeating = self._occupancy.repeating
         next_s = self.quiet_until_s if self.quiet_until_s > now_s else NEVER
         if repeating and next_s != NEVER:
             next_s = min(next_s, self._occupancy.next_repetition_s(now_s))
         if on and not repeating and self._scheduler.scene.emitters:
             next_s = min(next_s, self._clock_estimate.host_s(self._scheduler.emitters.next_s()) - self._timing.lead_s)
+        if on and self._moving is not None and not self._scheduler.due and self._playback.accepted is None:
+            next_s = min(next_s, max(now_s, self._session.wire_free_s()))  # the wire had to be free
         return next_s
 
     def pause_repetition(self, now_s: float) -> None:
@@ -178,13 +182,15 @@ class Dispatcher:
         return False
 
     def _send_ahead(self, turn: Turn) -> None:
-        """Send ahead what the finger that moved last will ask for, if there is time for it."""
-        finger, self._moving = self._moving, None
+        """Send ahead what the finger that moved last will ask for, if there is time for it, once the wire is free."""
+        finger = self._moving
         assert finger is not None
-        reported_s = turn.now_s - max(turn.report_ns, 0) * 1e-9
         focus_after_s = self._occupancy.duration_s + RESIDENT_START_S
-        wanted = self._scheduler.predict(finger, self._source.predict, reported_s, self._source.report_s, focus_after_s)
-        if wanted is None or self._session.wire_free_s() > turn.now_s:
+        wanted = self._scheduler.predict(finger, self._source.predict, self._moved_s, self._source.report_s, focus_after_s)
+        if wanted is not None and self._session.wire_free_s() > turn.now_s:
+            return
+        self._moving = None
+        if wanted is None:
             return
         next_s = self._clock_estimate.host_s(min(self._scheduler.next_s(), self._scheduler.emitters.next_s()))
         timing = self._timing

@@ -29,7 +29,9 @@ from controller.metrics import Counters
 MAX_WAITING_COMMANDS: Final = 32  # if more wait, the oldest is skipped
 PREFETCH_DISTANCE_M: Final = 0.75e-3  # an emission this near is predicted, even if it takes more than one report to get there
 MIN_STEP_M: Final = 0.1e-3  # from report to report; a finger that moves less is at rest
-LATEST_IN_REPORT: Final = 0.9  # what is completed later in the time between two reports may be found complete one report later
+# What is completed later in the time between two reports may be found complete one report later: of a lone finger, and of several,
+# of which one may have what was sent for it composed with another's
+LATEST_IN_REPORT: Final = (0.95, 0.9)
 MAX_DEFERRAL_S: Final = 10e-3  # a single emission waits this long for the pulses of trains
 COMMAND_MERGE_RADIUS_M: Final = 1e-3  # of commands for one effect nearer to each other than this, the newer replaces the older
 
@@ -66,6 +68,7 @@ class Scheduler:
         self._emission_counts: dict[int, int] = {}  # emissions so far of each of the others
         # Emissions to be played, the newest of each owner, in the order in which the owners began to wait
         self.due: dict[Owner, Emission] = {}
+        self.spaced: int | None = None  # the finger that was touched last, if what it feels depends on the way that it goes
 
     def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
         """Take a touch sample of a finger that is put down, moves, or is lifted; `sample.time_s` is `time_s` in host time."""
@@ -79,6 +82,7 @@ class Scheduler:
             emissions = active.press(time_s)
         else:
             emissions = active.move(x_m, y_m, time_s)
+        self.spaced = finger if active.progress else None
         if emissions:
             self._add(emissions)
         elif active.region == OUTSIDE:
@@ -212,7 +216,7 @@ class Scheduler:
         amplitude.
         """
         crossing = self._next_crossing(finger, locate, now_s, report_s)
-        if crossing is None or crossing[0] % 1 > LATEST_IN_REPORT:
+        if crossing is None or crossing[0] % 1 > LATEST_IN_REPORT[len(self._active) > 1]:
             return None
         reports, amplitude = math.ceil(crossing[0]), crossing[1]
         for other in self._active.values():

@@ -44,7 +44,7 @@ class ActiveEffects:
     `owner` is the number of the finger, or the name of the command; `change_scene` takes the effects from another scene.
     """
 
-    __slots__ = ("_progress", "_scene", "_trains", "finger", "next_s", "owner", "period_s", "region", "x_m", "y_m")
+    __slots__ = ("_scene", "_trains", "finger", "next_s", "owner", "period_s", "progress", "region", "x_m", "y_m")
 
     def __init__(self, scene: Scene, owner: int | str, x_m: float, y_m: float) -> None:
         self._scene = scene
@@ -56,7 +56,7 @@ class ActiveEffects:
         self.next_s = FPGA_NEVER  # when the next pulse of a train is due; inf: no train is active
         self.period_s = math.inf  # least time from pulse to pulse of its trains; inf: none has several
         self._trains: list[ActiveTrain] = []
-        self._progress: tuple[DistanceProgress | GridProgress, ...] = ()
+        self.progress: tuple[DistanceProgress | GridProgress, ...] = ()  # to the next emission of each spacing
 
     @property
     def ended(self) -> bool:
@@ -90,7 +90,7 @@ class ActiveEffects:
         left = self.region
         if index == left:
             amplitude = 0.0  # of the strongest spacing that is completed here
-            for progress in self._progress:
+            for progress in self.progress:
                 if progress.crossed(x_m, y_m) and progress.amplitude > amplitude:
                     amplitude = progress.amplitude
             if not amplitude:
@@ -176,7 +176,7 @@ class ActiveEffects:
         index = OUTSIDE if self.finger is None else scene.lookup.at(self.x_m, self.y_m)
         if self._trains:
             self._set_trains([train for train in self._trains if _goes_on(train, before, scene, index)])
-        if OUTSIDE not in (left, index) and self._progress and _shift(before, left, scene, index, self._progress):
+        if OUTSIDE not in (left, index) and self.progress and _shift(before, left, scene, index, self.progress):
             self.region = index
         else:
             self._begin_spacings(index)
@@ -184,7 +184,7 @@ class ActiveEffects:
     def next_crossing(self, x: float, y: float) -> tuple[float, float]:
         """Distance in m to the next emission of a spacing, and its amplitude, if the finger moves along the unit vector (x, y)."""
         return min(
-            [(progress.remaining_m(self.x_m, self.y_m, x, y), progress.amplitude) for progress in self._progress],
+            [(progress.remaining_m(self.x_m, self.y_m, x, y), progress.amplitude) for progress in self.progress],
             default=NO_CROSSING,
         )
 
@@ -202,7 +202,7 @@ class ActiveEffects:
             layer, _ = self._scene.place_of(region)
             if layer is not None:
                 spacings = tuple([spacing.placed(layer.placement) for spacing in spacings])
-        self._progress = tuple([spacing.begin(self.x_m, self.y_m) for spacing in spacings])
+        self.progress = tuple([spacing.begin(self.x_m, self.y_m) for spacing in spacings])
 
     def _begin(
         self, trains: tuple[Train, ...], region: int, time_s: FpgaTime, *, ends_on_leave: bool, strongest: Emission | None = None

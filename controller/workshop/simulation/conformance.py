@@ -107,7 +107,7 @@ def _hold(panel: socket.socket, messages: Iterator[dict[str, Any]], step: Step, 
     wanted = None if request is None else request.get("id")
     for _ in range(ATTEMPTS):
         panel.sendall(line.encode() + b"\n")
-        answer = next((message for message in messages if "id" in message and message["id"] == wanted and not is_notice(message)), None)
+        answer = next((message for message in messages if answers(message, wanted)), None)
         if answer is None:
             raise LinkError(f"step {number}: the panel has ended the connection")
         if (answer.get("outcome"), step.answer.get("outcome")) != ("skipped", "played"):
@@ -115,6 +115,11 @@ def _hold(panel: socket.socket, messages: Iterator[dict[str, Any]], step: Step, 
     if not has(answer, step.answer):
         raise ControllerError(f"step {number}: {line}: answered with {json.dumps(answer)}; recorded: {json.dumps(step.answer)}")
     return step.about or line
+
+
+def answers(message: dict[str, Any], wanted: Any) -> bool:
+    """Whether a message is the answer to the request with this id; None: to one that had none."""
+    return "id" in message and bool(message["id"] == wanted) and not is_notice(message)
 
 
 def is_notice(message: dict[str, Any]) -> bool:
