@@ -5,4 +5,4 @@ from readme_commands import works
 
 def test_every_run_of_every_readme_works(tmp_path, state_folder):
     said = works(tmp_path, state_folder / "gateware", "sh", "run")
-    assert "$ .venv/bin/haptic-panel run --link rtl" in said
+    assert "$ .venv/bin/haptic-panel run --scene library" in said
