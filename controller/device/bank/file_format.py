@@ -22,7 +22,7 @@ from controller.errors import BankError
 
 MAGIC = b"HPNLBANK"
 VERSION = 4
-COMPACT_VERSION = 5  # of compact banks
+COMPACT_VERSION = 6  # of compact banks
 PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean

@@ -66,7 +66,9 @@ def room_bytes(samples: int) -> int:
     # 32 bits for each value of the points' responses, of their sum, and five more in what follows
     # and 64 bits for each of their sketches, of the sum of these and two more
     of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP)
-    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rest_rows(samples)) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches)
+    of_nulls = 26 * (samples + rest_rows(samples) + MAX_BLOCK_SAMPLES)  # 16 bits for each value of five sums at four pads
+    of_points = (MAX_FOCI + 2) * (samples + rest_rows(samples)) + 5 * (samples + MAX_BLOCK_SAMPLES)
+    return 4 * CHANNELS * (of_points + of_sketches) + 2 * CHANNELS * of_nulls
 
 
 def checked_words(bank: Responses, words: Writable, room: Writable, points: Sequence[Point]) -> memoryview:

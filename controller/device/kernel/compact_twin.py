@@ -1,6 +1,7 @@
 """Responses of a compact bank, in NumPy: the specification of the compiled kernel, as `words_twin` is.
 
-A cell has weights of pulses in place of samples, in four bits, with a scale for each block of weights and channel. A place is
+A cell has weights of pulses in place of samples, in four bits, with a scale for each channel and one of four bits for each block of
+its weights. A place is
 served by `across` x `across` cells, whose shares are tabulated. Sums of weights times pulses ("taps") are even samples; odd ones
 lie between four of these. What the band leaves out has cells, weights and pulses of its own.
 
@@ -25,8 +26,9 @@ HEAD: Final = struct.Struct("<14i3d")
 TABLES_AT: Final = 128
 LINE: Final = 64
 LOUDEST: Final = 15  # levels are the odd numbers from -15 to 15
-SHARE_SUM: Final = 2160  # of all cells' absolute shares: times 15, and some rounding, it is within 16 bits
+SHARE_SUM: Final = 2130  # of all cells' absolute shares: times 15, with all roundings, it is within 16 bits
 TAP_BITS: Final = 15
+SCALED_BITS: Final = 6  # dropped of a share times the scale of a channel, and of that times the scale of a block
 EVEN_BEYOND: Final = 2  # even samples beyond the last, between which odd ones lie
 MIN_ACROSS: Final = 2
 MAX_ACROSS: Final = 6
@@ -39,7 +41,7 @@ ORDER: Final = np.array([first + 2 * lane for first in (0, 1, 16, 17) for lane i
 
 def row_bytes(weights: int, block_rows: int) -> int:
     """Bytes of the weights of a cell, and their scales."""
-    return weights * CHANNELS // 2 + -(-weights // block_rows) * CHANNELS
+    return (weights + -(-weights // block_rows)) * CHANNELS // 2 + CHANNELS
 
 
 def packed(numbers: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -51,12 +53,12 @@ def packed(numbers: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return found
 
 
-def unpacked(levels: NDArray[np.uint8]) -> NDArray[np.int32]:
-    """The reverse of `packed`, as levels (weight, 32)."""
-    fours = levels.view("<u2").reshape(-1, 1, 8) >> np.array([0, 4, 8, 12], "<u2")[:, None] & 15
-    numbers = np.empty((len(fours), CHANNELS), np.int32)
-    numbers[:, ORDER] = fours.reshape(-1, CHANNELS)
-    return 2 * numbers - LOUDEST
+def unpacked(numbers: NDArray[np.uint8]) -> NDArray[np.int32]:
+    """The reverse of `packed`: (weight, 32)."""
+    fours = numbers.view("<u2").reshape(-1, 1, 8) >> np.array([0, 4, 8, 12], "<u2")[:, None] & 15
+    found = np.empty((len(fours), CHANNELS), np.int32)
+    found[:, ORDER] = fours.reshape(-1, CHANNELS)
+    return found
 
 
 class PulseLayer(NamedTuple):
@@ -166,11 +168,13 @@ def outputs(rows: list[tuple[Numbers, int]], layer: PulseLayer, pulses: Numbers,
     level_bytes = layer.weights * CHANNELS // 2
     total, driven = np.zeros((layer.weights, CHANNELS), np.int32), np.zeros(CHANNELS, bool)
     for row, share in rows:
-        scales = np.empty((-(-layer.weights // layer.block_rows), CHANNELS), np.int32)
-        scales[:, ORDER] = row[level_bytes:].reshape(-1, CHANNELS)
-        weight = (share * scales >> 8) * (1 - 2 * turned)
-        driven |= weight.any(axis=0)
-        total += np.repeat(weight, layer.block_rows, axis=0)[: layer.weights] * unpacked(row[:level_bytes])
+        base = np.empty(CHANNELS, np.int32)
+        base[ORDER] = row[level_bytes : level_bytes + CHANNELS]
+        scaled = (share * base >> SCALED_BITS) * (1 - 2 * turned)
+        driven |= scaled != 0
+        weight = scaled * (1 + unpacked(row[level_bytes + CHANNELS :])) >> SCALED_BITS
+        levels = 2 * unpacked(row[:level_bytes]) - LOUDEST
+        total += np.repeat(weight, layer.block_rows, axis=0)[: layer.weights] * levels
     found = np.tile(driven * np.int32(layer.taps // 2), (len(pulses), 1))  # what shifts drop: half of a bit each, on average
     for tap in range(layer.taps):
         found += total[pulses[:, 0] + tap] * pulses[:, 1 + tap : 2 + tap].astype(np.int32) >> TAP_BITS

@@ -74,7 +74,7 @@ struct plan {
 enum {
     TABLES_AT = 128,
     LOUDEST = 15,
-    SHARE_SUM = 2160,
+    SHARE_SUM = 2130,
     TAP_BITS = 15,
     EVEN_BEYOND = 2,
     MIN_ACROSS = 2,
@@ -112,7 +112,7 @@ struct bank {
 struct patch {
     const uint8_t *levels[MAX_CELLS], *rest[MAX_CELLS];
     int16_t weight[MAX_CELLS], rest_weight[MAX_CELLS];
-    int cells;
+    int cells, rests;
     const struct tables *tables; /* of a compact bank, else 0 */
 };
 
@@ -148,6 +148,10 @@ INLINE ushorts at_even(ushorts levels) { return (ushorts)((shorts)(levels << 8) 
 
 /* Halves of 16 bits, all ones or zero, to the bits of 16 channels. */
 INLINE uint32_t bits_of(ushorts even, ushorts odd) {
+#ifdef __SSE2__
+    __m128i bytes = _mm_packs_epi16((__m128i)even, (__m128i)odd);
+    return (uint32_t)_mm_movemask_epi8(_mm_unpacklo_epi8(bytes, _mm_srli_si128(bytes, 8)));
+#else
     ushorts ones = {1, 1, 1, 1, 1, 1, 1, 1};
     union {
         ushorts vector;
@@ -155,6 +159,7 @@ INLINE uint32_t bits_of(ushorts even, ushorts odd) {
     } bits = {.vector = (even & ones) | (odd & (ones << 8))};
     uint64_t packing = 0x0102040810204080u; /* moves the lowest bits of eight bytes to the highest byte */
     return (uint32_t)(bits.eight[0] * packing >> 56 | bits.eight[1] * packing >> 56 << 8);
+#endif
 }
 
 /* What a channel that idles high turns into: all ones, by which a value is negated, for 16 channels from `first` on. */
@@ -239,123 +244,201 @@ INLINE ushorts high(ushorts value, int16_t tap) {
 #endif
 }
 
-/* Weights of a cell's numbers in a block, doubled, as numbers are half of the level above the lowest; their sums; and which are not 0. */
-APART void block_weights(int16_t *restrict weight, int16_t *restrict sum, int16_t *restrict driven, const uint8_t *restrict scale, const int16_t *restrict turn,
-                         int16_t share) {
-    int16_t shifted = (int16_t)(share * 8);
+/* The same, with a tap for each lane. */
+INLINE ushorts high_each(ushorts value, ushorts taps) {
+#ifdef __SSE2__
+    return (ushorts)_mm_mulhi_epi16((__m128i)value, (__m128i)(taps + taps));
+#elif defined __ARM_NEON
+    return (ushorts)vqdmulhq_s16((int16x8_t)value, (int16x8_t)taps);
+#else
+    shorts product;
+    for (int lane = 0; lane < 8; lane++) product[lane] = (int16_t)((int32_t)(int16_t)value[lane] * (int16_t)taps[lane] >> TAP_BITS);
+    return (ushorts)product;
+#endif
+}
+
+/* Scales of a cell's channels times its share, negated in channels that idle high. */
+APART void scale_channels(int16_t *restrict scaled, int16_t *restrict driven, const uint8_t *restrict base, const int16_t *restrict turn, int16_t share) {
+    int16_t eightfold = (int16_t)(share * 8);
     for (int i = 0; i < CHANNELS; i++) {
-        int16_t one = (int16_t)((int32_t)shifted * (int16_t)(scale[i] << 5) >> 16);
+        int16_t one = (int16_t)((int32_t)eightfold * (int16_t)(base[i] << 7) >> 16);
         driven[i] |= one;
-        one = (int16_t)((one ^ turn[i]) - turn[i]);
-        sum[i] = (int16_t)(sum[i] + one);
-        weight[i] = (int16_t)(2 * one);
+        scaled[i] = (int16_t)((one ^ turn[i]) - turn[i]);
     }
 }
 
-INLINE void add_cells(ushorts *sum, int rows, const uint8_t *const *levels, int64_t at, const int16_t (*weight)[CHANNELS], int cells) {
+/* Weights of a cell's numbers in a block, doubled, as numbers are half of the level above the lowest; their sums. */
+INLINE void block_weights(ushorts *weight, ushorts *sum, const uint8_t *parts, const ushorts *scaled) {
+    ushorts four = load(parts), mask = (ushorts){0} + (LOUDEST << 9), one = (ushorts){0} + (1 << 9);
+    ushorts taps[4] = {(four << 9 & mask) + one, (four << 5 & mask) + one, (four << 1 & mask) + one, (four >> 3 & mask) + one};
+    for (int part = 0; part < 4; part++) {
+        ushorts of_block = high_each(scaled[part], taps[part]);
+        sum[part] += of_block;
+        weight[part] = of_block + of_block;
+    }
+}
+
+INLINE void add_numbers(ushorts *sum, ushorts numbers, const ushorts *weight) {
     ushorts fifteen = (ushorts){0} + 15;
-    for (int row = 0; row < rows; row++, at += CHANNELS / 2, sum += 4) {
-        ushorts a = sum[0], b = sum[1], c = sum[2], d = sum[3];
+    sum[0] += (numbers & fifteen) * weight[0];
+    sum[1] += (numbers >> 4 & fifteen) * weight[1];
+    sum[2] += (numbers >> 8 & fifteen) * weight[2];
+    sum[3] += (numbers >> 12) * weight[3];
+}
+
+/* Two rows of numbers at a time. */
+APART void add_cells(ushorts *sum, int rows, const uint8_t *const *levels, int64_t at, const ushorts (*weight)[4], const ushorts *lowest, int cells) {
+    int row = 0;
+    for (; row + 1 < rows; row += 2, at += CHANNELS, sum += 8) {
+        ushorts one[4], other[4];
+        for (int part = 0; part < 4; part++) one[part] = other[part] = lowest[part];
         for (int cell = 0; cell < cells; cell++) {
-            ushorts numbers = load(levels[cell] + at);
-            a += (numbers & fifteen) * load(weight[cell]);
-            b += (numbers >> 4 & fifteen) * load(weight[cell] + 8);
-            c += (numbers >> 8 & fifteen) * load(weight[cell] + 16);
-            d += (numbers >> 12) * load(weight[cell] + 24);
+            add_numbers(one, load(levels[cell] + at), weight[cell]);
+            add_numbers(other, load(levels[cell] + at + CHANNELS / 2), weight[cell]);
         }
-        sum[0] = a, sum[1] = b, sum[2] = c, sum[3] = d;
+        memcpy(sum, one, sizeof one);
+        memcpy(sum + 4, other, sizeof other);
     }
+    if (row == rows) return;
+    memcpy(sum, lowest, 4 * sizeof *sum);
+    for (int cell = 0; cell < cells; cell++) add_numbers(sum, load(levels[cell] + at), weight[cell]);
 }
 
-APART void add_row_of_cells(ushorts *sum, int rows, const uint8_t *const *levels, int64_t at, const int16_t (*weight)[CHANNELS], int cells) {
-    switch (cells) {
-    case 4: add_cells(sum, rows, levels, at, weight, 4); break;
-    case 5: add_cells(sum, rows, levels, at, weight, 5); break;
-    default: add_cells(sum, rows, levels, at, weight, cells);
-    }
-}
-
-/* Weights of a place: the sum of its cells'. Channels in which any is not 0 have a bit in `driven`. */
-static void sum_weights(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, ushorts *sum, int16_t *driven) {
-    int cells = layer->across * layer->across;
-    int16_t weight[MAX_CELLS][CHANNELS], turn[CHANNELS];
+/* Weights of a place: the sum of its cells'. Channels in which any may not be 0 have a bit in `driven`. */
+static void sum_weights(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, ushorts *sum, int16_t *driven) {
+    int bases = layer->weights * (CHANNELS / 2);
+    ushorts scaled[MAX_CELLS][4], weight[MAX_CELLS][4];
+    int16_t turn[CHANNELS];
     for (int half = 0; half < 2; half++) {
         ushorts even, odd;
         turned(idle_word, 16 * half, &even, &odd);
         store(turn + 16 * half, even);
         store(turn + 16 * half + 8, odd);
     }
+    for (int cell = 0; cell < cells; cell++) scale_channels((int16_t *)scaled[cell], driven, levels[cell] + bases, turn, share[cell]);
     for (int block = 0, row = 0; row < layer->weights; block++, row += layer->block_rows) {
         int left = layer->weights - row, rows = left < layer->block_rows ? left : layer->block_rows;
-        int16_t together[CHANNELS] = {0};
+        ushorts together[4] = {{0}}, lowest[4];
         for (int cell = 0; cell < cells; cell++)
-            block_weights(weight[cell], together, driven, levels[cell] + (layer->weights * (CHANNELS / 2) + block * CHANNELS), turn, share[cell]);
-        for (int part = 0; part < 4; part++) {
-            ushorts lowest = (ushorts){0} - load(together + 8 * part) * LOUDEST;
-            for (int i = 0; i < rows; i++) sum[4 * (row + i) + part] = lowest;
-        }
-        for (int cell = 0; cell < cells; cell += layer->across)
-            add_row_of_cells(sum + 4 * row, rows, levels + cell, row * (CHANNELS / 2), (const int16_t(*)[CHANNELS])weight + cell, layer->across);
+            block_weights(weight[cell], together, levels[cell] + bases + CHANNELS + block * (CHANNELS / 2), scaled[cell]);
+        for (int part = 0; part < 4; part++) lowest[part] = (ushorts){0} - together[part] * LOUDEST;
+        add_cells(sum + 4 * row, rows, levels, row * (CHANNELS / 2), (const ushorts(*)[4])weight, lowest, cells);
     }
 }
 
-INLINE void outputs_of(const struct layer *layer, const ushorts *sum, const ushorts *dropped, ushorts *out, int taps) {
+INLINE const ushorts *first_weight(const struct layer *layer, const uint8_t *pulse, const ushorts *sum, int taps) {
+    int first = read_16(pulse, 0), last = layer->weights - taps;
+    return sum + 4 * (first < 0 ? 0 : first < last ? first : last);
+}
+
+INLINE void add_tap(ushorts *total, const ushorts *from, ushorts tap) {
+    for (int part = 0; part < 4; part++) {
+        total[part] += high_each(from[part], tap);
+#ifdef __SSE2__
+        __asm__("" : "+x"(total[part])); /* in this order: else products wait in memory */
+#endif
+    }
+}
+
+/* One of eight, in all lanes; `number` is a constant. */
+INLINE ushorts all_of(ushorts eight, int number) {
+#ifdef __SSE2__
+    __m128i from = (__m128i)eight;
+    switch (number) {
+    case 0: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0x00), 0x00);
+    case 1: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0x55), 0x00);
+    case 2: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0xAA), 0x00);
+    case 3: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0xFF), 0x00);
+    case 4: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0x00), 0xAA);
+    case 5: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0x55), 0xAA);
+    case 6: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0xAA), 0xAA);
+    default: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0xFF), 0xAA);
+    }
+#else
+    return (ushorts){0} + eight[number];
+#endif
+}
+
+APART void outputs_of(const struct layer *layer, const ushorts *sum, const ushorts *dropped, ushorts *out) {
     for (int64_t output = 0; output < layer->outputs; output++, out += 4) {
-        const uint8_t *pulse = layer->pulses + 2 * output * (1 + taps);
-        int first = read_16(pulse, 0), last = layer->weights - taps;
-        const ushorts *from = sum + 4 * (first < 0 ? 0 : first < last ? first : last);
-        ushorts a = dropped[0], b = dropped[1], c = dropped[2], d = dropped[3];
-        for (int tap = 0; tap < taps; tap++, from += 4) {
-            int16_t by = read_16(pulse, 1 + tap);
-            a += high(from[0], by), b += high(from[1], by), c += high(from[2], by), d += high(from[3], by);
-        }
-        out[0] = a, out[1] = b, out[2] = c, out[3] = d;
+        const uint8_t *pulse = layer->pulses + 2 * output * (1 + layer->taps);
+        const ushorts *from = first_weight(layer, pulse, sum, layer->taps);
+        memcpy(out, dropped, 4 * sizeof *out);
+        for (int tap = 0; tap < layer->taps; tap++, from += 4) add_tap(out, from, (ushorts){0} + (uint16_t)read_16(pulse, 1 + tap));
     }
 }
 
-static void outputs(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, ushorts *out) {
+/* The same of eight taps. */
+APART void outputs_of_eight(const struct layer *layer, const ushorts *sum, const ushorts *dropped, ushorts *out) {
+    for (int64_t output = 0; output < layer->outputs; output++, out += 4) {
+        const uint8_t *pulse = layer->pulses + 2 * output * 9;
+        const ushorts *from = first_weight(layer, pulse, sum, 8);
+        ushorts taps = load(pulse + 2), total[4] = {dropped[0], dropped[1], dropped[2], dropped[3]};
+        add_tap(total, from + 0, all_of(taps, 0));
+        add_tap(total, from + 4, all_of(taps, 1));
+        add_tap(total, from + 8, all_of(taps, 2));
+        add_tap(total, from + 12, all_of(taps, 3));
+        add_tap(total, from + 16, all_of(taps, 4));
+        add_tap(total, from + 20, all_of(taps, 5));
+        add_tap(total, from + 24, all_of(taps, 6));
+        add_tap(total, from + 28, all_of(taps, 7));
+        memcpy(out, total, sizeof total);
+    }
+}
+
+static void outputs(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, ushorts *out) {
     ushorts sum[4 * MAX_WEIGHTS], dropped[4];
     int16_t driven[CHANNELS] = {0};
-    sum_weights(idle_word, layer, levels, share, sum, driven);
+    sum_weights(idle_word, layer, levels, share, cells, sum, driven);
     for (int i = 0; i < CHANNELS; i++) driven[i] = driven[i] ? (int16_t)(layer->taps / 2) : 0; /* half of a bit for each tap */
     for (int part = 0; part < 4; part++) dropped[part] = load(driven + 8 * part);
-    switch (layer->taps) {
-    case 4: outputs_of(layer, sum, dropped, out, 4); break;
-    case 8: outputs_of(layer, sum, dropped, out, 8); break;
-    default: outputs_of(layer, sum, dropped, out, layer->taps);
-    }
+    if (layer->taps == 8)
+        outputs_of_eight(layer, sum, dropped, out);
+    else
+        outputs_of(layer, sum, dropped, out);
 }
 
-/* A sample's part of 8 channels, from even ones. */
-INLINE ushorts sample_of(const struct tables *tables, const ushorts *even, int64_t sample, int part) {
-    const ushorts *here = even + sample / 2 * 4 + part;
-    if (sample % 2 == 0) return *here;
-    ushorts inner = here[0] + here[4], outer = here[8];
-    if (sample > 1) outer += here[-4];
-    return (ushorts)((shorts)inner >> 1) + high(inner, (int16_t)tables->odd_near) - high(outer, (int16_t)tables->odd_far);
+/* A sample's part of 8 channels, between the even one that is given and the next; before the first one lie zeros. */
+INLINE ushorts between(const ushorts *even, int16_t near, int16_t far) {
+    ushorts inner = even[0] + even[4], outer = even[8] + even[-4];
+    return (ushorts)((shorts)inner >> 1) + high(inner, near) - high(outer, far);
+}
+
+INLINE uint32_t word_of(const ushorts *above, uint32_t idle_word) {
+    return (bits_of(above[0], above[1]) | bits_of(above[2], above[3]) << 16) ^ idle_word;
 }
 
 APART void compose_one_compact(struct work *work, const struct patch *patch) {
-    ushorts even[4 * MAX_EVEN];
-    outputs(work->idle_word, &patch->tables->in_band, patch->levels, patch->weight, even);
-    for (int64_t sample = 0; sample < work->values / CHANNELS; sample++) {
-        ushorts part[4];
-        for (int i = 0; i < 4; i++) part[i] = positive(sample_of(patch->tables, even, sample, i));
-        work->words[sample] = (bits_of(part[0], part[1]) | bits_of(part[2], part[3]) << 16) ^ work->idle_word;
+    ushorts room[4 * (1 + MAX_EVEN)] = {{0}}, *even = room + 4, part[4];
+    int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
+    int64_t samples = work->values / CHANNELS;
+    outputs(work->idle_word, &patch->tables->in_band, patch->levels, patch->weight, patch->cells, even);
+    for (int64_t sample = 0; sample < samples; sample += 2, even += 4) {
+        for (int i = 0; i < 4; i++) part[i] = positive(even[i]);
+        work->words[sample] = word_of(part, work->idle_word);
+        if (sample + 1 == samples) break;
+        for (int i = 0; i < 4; i++) part[i] = positive(between(even + i, near, far));
+        work->words[sample + 1] = word_of(part, work->idle_word);
     }
 }
 
 /* As `interpolate`: the samples of a point, or the rest behind them. */
 APART int64_t from_compact(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
-    ushorts even[4 * MAX_EVEN];
+    ushorts room[4 * (1 + MAX_EVEN)], *even = room + 4;
+    int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
     uints sum = {0};
     int rest = from != 0;
     const struct layer *layer = rest ? &patch->tables->rest : &patch->tables->in_band;
-    outputs(idle_word, layer, rest ? patch->rest : patch->levels, rest ? patch->rest_weight : patch->weight, even);
-    for (int64_t row = 0; row < values / CHANNELS; row++)
+    memset(room, 0, 4 * sizeof *room);
+    outputs(idle_word, layer, rest ? patch->rest : patch->levels, rest ? patch->rest_weight : patch->weight,
+            rest ? patch->rests : patch->cells, even);
+    for (int64_t row = 0; row < values / CHANNELS; row += 2 - rest, even += 4)
         for (int i = 0; i < 4; i++) {
-            ushorts value = rest ? even[4 * row + i] : sample_of(patch->tables, even, row, i);
-            store(out + row * CHANNELS + 8 * i, value);
+            store(out + row * CHANNELS + 8 * i, even[i]);
+            sum = add_absolute(sum, even[i]);
+            if (rest || row + 1 == values / CHANNELS) continue;
+            ushorts value = between(even + i, near, far);
+            store(out + (row + 1) * CHANNELS + 8 * i, value);
             sum = add_absolute(sum, value);
         }
     return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
@@ -817,6 +900,17 @@ static double scaled(const uint8_t *scales, int64_t number, double *share, doubl
     return (double)scale;
 }
 
+/* Whole weights; cells without any are left out. Returns how many remain. */
+static int weigh_cells(const uint8_t **levels, int16_t *weight, const double *share, int cells, double unit) {
+    int kept = 0;
+    for (int i = 0; i < cells; i++) {
+        weight[kept] = (int16_t)nearest(share[i] * unit);
+        levels[kept] = levels[i];
+        kept += weight[kept] != 0;
+    }
+    return kept;
+}
+
 /* As `find_patch`, of a compact bank. */
 static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, struct patch *patch) {
     const struct plan *plan = &bank->plan;
@@ -854,8 +948,8 @@ static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, str
         scaled(tables->rest_scales, cell, rest_share + i, &rest_total);
     }
     double most = total > rest_total ? total : rest_total, unit = most > 0 && most < INFINITY ? SHARE_SUM / most : 0;
-    for (int i = 0; i < patch->cells; i++) patch->weight[i] = (int16_t)nearest(share[i] * unit);
-    for (int i = 0; i < across * across; i++) patch->rest_weight[i] = (int16_t)nearest(rest_share[i] * unit);
+    patch->cells = weigh_cells(patch->levels, patch->weight, share, patch->cells, unit);
+    patch->rests = weigh_cells(patch->rest, patch->rest_weight, rest_share, (int)(across * across), unit);
     return -1;
 }
 
@@ -915,7 +1009,7 @@ static const uint8_t *take_part(const Py_buffer *buffer, int64_t *at, int64_t si
 static int take_layer(struct layer *layer, int64_t outputs, const Py_buffer *buffer, int64_t *at) {
     layer->outputs = outputs;
     layer->half = (layer->across - 1) * layer->steps / 2 + 1;
-    layer->row_bytes = layer->weights * (CHANNELS / 2) + (layer->weights + layer->block_rows - 1) / layer->block_rows * CHANNELS;
+    layer->row_bytes = (layer->weights + (layer->weights + layer->block_rows - 1) / layer->block_rows) * (CHANNELS / 2) + CHANNELS;
     layer->stencil = take_part(buffer, at, 2 * layer->half * layer->half * layer->across * layer->across);
     layer->pulses = layer->stencil ? take_part(buffer, at, 2 * outputs * (1 + layer->taps)) : NULL;
     return layer->pulses != NULL;
@@ -1003,7 +1097,8 @@ static int read_point(PyObject *points, Py_ssize_t index, double *read) {
 
 static Py_ssize_t room_needed(int64_t samples) {
     int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES, of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP);
-    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches);
+    int64_t of_nulls = 26 * (samples + rows + MAX_BLOCK_SAMPLES); /* MAX_NULLS times SUMS, PLACES of the last one */
+    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches) + 2 * CHANNELS * of_nulls;
 }
 
 static void lay_out(struct work *work, const struct plan *plan, int count, uint8_t *room, void *words) {
@@ -1120,28 +1215,36 @@ static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_
 
 enum {
     MAX_NULLS = 4,
-    TIMES = 9, /* around T, a sixteenth of a block apart, at which a place is kept still */
-    SWEEPS = 4,
+    TIMES = 7, /* around T, a twelfth of a block apart, at which a pad is kept still */
+    SWEEPS = 3,
+    BLOCKS_APART = 2, /* of those from which the equations are taken */
+    PLACES = 6, /* of a pad, in a ring */
+    SUMS = 5, /* of what is met there */
+    SUM_SHIFT = 4, /* bits that responses lose before */
     MARGIN_WEIGHT_SUM = 4095, /* of the points, and 15 times as much for the corrections: below 2^31 together */
     CORRECTION_WEIGHT_SUM = 61440,
     WEIGHT_BITS = 20,
-    STEPS_PER_BLOCK = 16,
+    STEPS_PER_BLOCK = 12,
 };
-static const double FLOOR = 0.25, RIDGE = 0.2, PI = 3.141592653589793;
+static const double FLOOR = 0.25, RIDGE = 0.3, PI = 3.141592653589793;
+static const double RING_M[PLACES][2] = {{2.8e-3, 0.0},   {1.4e-3, 2.42487113e-3},   {-1.4e-3, 2.42487113e-3},
+                                         {-2.8e-3, 0.0}, {-1.4e-3, -2.42487113e-3}, {1.4e-3, -2.42487113e-3}};
 
-/* A place that shall stay still: its response between zeros, as it is met at other times; the factors of its equations. */
+static const int SUMS_OF[MAX_NULLS] = {SUMS, 1, 1, 1}; /* of each of so many pads */
+
+/* A sum of a pad that shall stay still: as a response between zeros, as it is met at other times; the factors of its equations. */
 struct still {
-    int16_t *response, *rest;
+    int16_t *response;
     double lower[TIMES][TIMES], pivot[TIMES];
     int solvable;
 };
 
 struct nulls {
-    int64_t values, rows, rest_rows, block_rows, blocks, step; /* rows of eight samples, and of the rest */
+    int64_t values, rows, rests, block_rows, blocks, step; /* rows of eight samples; values of a rest */
     int32_t *sum, *strength;
     int64_t *weight;
-    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over the samples of a row of the rest */
-    struct still place[MAX_NULLS];
+    int16_t *above; /* where bits deviate: -1, else 0 */
+    struct still sums[SUMS * MAX_NULLS];
     double unit;
     int64_t spent;
 };
@@ -1171,29 +1274,18 @@ APART void set_margins(int32_t *restrict sum, const int16_t *restrict above) {
     }
 }
 
-static void count_bits(struct nulls *nulls) {
-    for (int64_t row = 0; row < nulls->rest_rows; row++) add_samples(nulls->count + row * CHANNELS, nulls->above + row * REST_SAMPLES * CHANNELS, REST_SAMPLES);
-}
-
-/* Inner product of the counts and a rest that is met this many rows later. */
-static int64_t rest_product(const struct nulls *nulls, const int16_t *rest, int64_t later) {
-    int64_t first = later > 0 ? later : 0, end = nulls->rest_rows + (later < 0 ? later : 0);
-    if (first >= end) return 0;
-    return -(int64_t)inner_product(nulls->count + first * CHANNELS, rest + (first - later) * CHANNELS, (int)((end - first) * CHANNELS));
-}
-
 /* Inner products of the response with itself at other times, and what solves the equations of corrections. */
 static void prepare_still(struct nulls *nulls, struct still *still) {
     double products[TIMES];
     for (int lag = 0; lag < TIMES; lag++) {
         int64_t total = 0;
-        for (int64_t block = 0; block < nulls->blocks; block++) {
+        for (int64_t block = 0; block < nulls->blocks; block += BLOCKS_APART) {
             int32_t sum[CHANNELS] = {0};
             int64_t at = block * nulls->block_rows * ROW, left = (nulls->values - at) / CHANNELS, most = nulls->block_rows * GROUP_SAMPLES;
             add_shifted(sum, still->response + at, still->response + at - lag * nulls->step * CHANNELS, (int)(left < most ? left : most));
             for (int i = 0; i < CHANNELS; i++) total += sum[i] * nulls->weight[block * CHANNELS + i];
         }
-        products[lag] = (double)total;
+        products[lag] = (double)total * ((double)nulls->blocks / (double)((nulls->blocks + BLOCKS_APART - 1) / BLOCKS_APART));
     }
     still->solvable = products[0] > 0;
     for (int i = 0; still->solvable && i < TIMES; i++)
@@ -1209,19 +1301,59 @@ static void prepare_still(struct nulls *nulls, struct still *still) {
         }
 }
 
-/* Weigh the bits against what they give at a place, and set them again. */
+/* Inner products of bits, -1 or 0, with a response at all times; `last` is how it is met latest. */
+APART void products_of_times(const int16_t *restrict above, const int16_t *restrict last, int64_t step, int64_t values, int64_t *restrict product) {
+#ifdef __SSE2__
+    __m128i sum[TIMES];
+    for (int j = 0; j < TIMES; j++) sum[j] = _mm_setzero_si128();
+    for (int64_t i = 0; i < values; i += 8) {
+        __m128i bits = _mm_loadu_si128((const __m128i *)(above + i));
+        for (int j = 0; j < TIMES; j++)
+            sum[j] = _mm_add_epi32(sum[j], _mm_madd_epi16(bits, _mm_loadu_si128((const __m128i *)(last + j * step + i))));
+    }
+    for (int j = 0; j < TIMES; j++) {
+        int32_t four[4];
+        memcpy(four, sum + j, sizeof four);
+        product[TIMES - 1 - j] = (int64_t)four[0] + four[1] + four[2] + four[3];
+    }
+#else
+    for (int j = 0; j < TIMES; j++) product[TIMES - 1 - j] = inner_product(above, last + j * step, (int)values);
+#endif
+}
+
+/* Add a response at all times, each with its weight, to the sums of eight samples. */
+APART void add_times(int32_t *restrict sum, const int16_t *restrict last, int64_t step, const int16_t *restrict weight) {
+#ifdef __SSE2__
+    __m128i pair[TIMES / 2 + 1];
+    for (int j = 0; j < TIMES; j += 2) {
+        int32_t two = (uint16_t)weight[TIMES - 1 - j] | (j + 1 < TIMES ? (int32_t)((uint32_t)(uint16_t)weight[TIMES - 2 - j] << 16) : 0);
+        pair[j / 2] = _mm_set1_epi32(two);
+    }
+    for (int i = 0; i < ROW; i += 8) {
+        __m128i low = _mm_loadu_si128((__m128i *)(sum + i)), high = _mm_loadu_si128((__m128i *)(sum + i + 4));
+        for (int j = 0; j < TIMES; j += 2) {
+            __m128i one = _mm_loadu_si128((const __m128i *)(last + j * step + i)), other = one;
+            if (j + 1 < TIMES) other = _mm_loadu_si128((const __m128i *)(last + (j + 1) * step + i));
+            low = _mm_add_epi32(low, _mm_madd_epi16(_mm_unpacklo_epi16(one, other), pair[j / 2]));
+            high = _mm_add_epi32(high, _mm_madd_epi16(_mm_unpackhi_epi16(one, other), pair[j / 2]));
+        }
+        _mm_storeu_si128((__m128i *)(sum + i), low);
+        _mm_storeu_si128((__m128i *)(sum + i + 4), high);
+    }
+#else
+    for (int j = 0; j + 1 < TIMES; j += 2) add_two(sum, last + j * step, last + (j + 1) * step, weight[TIMES - 1 - j], weight[TIMES - 2 - j]);
+    if (TIMES % 2) add_one(sum, last + (TIMES - 1) * step, weight[0]);
+#endif
+}
+
+/* Weigh the bits against what they give to a sum, and set them again. */
 static void correct(struct nulls *nulls, const struct still *still) {
     double value[TIMES];
-    int16_t weight[TIMES + 1] = {0};
-    int64_t weights = 0;
-    count_bits(nulls);
-    for (int j = 0; j < TIMES; j++) {
-        int64_t later = (j - TIMES / 2) * nulls->step, rows = later >= 0 ? later / REST_SAMPLES : -((REST_SAMPLES - 1 - later) / REST_SAMPLES);
-        int64_t beyond = later - rows * REST_SAMPLES;
-        int64_t given = -(int64_t)inner_product(nulls->above, still->response - later * CHANNELS, (int)nulls->values) * REST_SAMPLES;
-        given += (REST_SAMPLES - beyond) * rest_product(nulls, still->rest, rows) + beyond * rest_product(nulls, still->rest, rows + 1);
-        value[j] = (double)given / REST_SAMPLES;
-    }
+    int16_t weight[TIMES];
+    int64_t weights = 0, product[TIMES], step = nulls->step * CHANNELS;
+    const int16_t *last = still->response - TIMES / 2 * step;
+    products_of_times(nulls->above, last, step, nulls->values, product);
+    for (int j = 0; j < TIMES; j++) value[j] = -(double)product[j];
     for (int i = 0; i < TIMES; i++)
         for (int k = 0; k < i; k++) value[i] -= still->lower[i][k] * value[k];
     for (int i = 0; i < TIMES; i++) value[i] /= still->pivot[i];
@@ -1236,20 +1368,54 @@ static void correct(struct nulls *nulls, const struct still *still) {
     if (nulls->spent + weights > CORRECTION_WEIGHT_SUM) return;
     nulls->spent += weights;
     for (int64_t at = 0; at < nulls->rows * ROW; at += ROW) {
-        for (int j = 0; j < TIMES; j += 2) {
-            const int16_t *one = still->response + at - (j - TIMES / 2) * nulls->step * CHANNELS;
-            const int16_t *other = j + 1 < TIMES ? one - nulls->step * CHANNELS : one;
-            add_two(nulls->sum + at, one, other, weight[j], weight[j + 1]);
-        }
+        add_times(nulls->sum + at, last + at, step, weight);
         compare_nothing(nulls->above + at, nulls->sum + at);
     }
     memset(nulls->above + nulls->values, 0, (size_t)(nulls->rows * ROW - nulls->values) * sizeof *nulls->above);
 }
 
+/* Five sums of what is met at six places of a ring, in the order of `SUMS` of null_twin.py; the places lie `apart`. */
+APART void sums_of_ring(const int16_t *restrict met, int64_t apart, int16_t *const *sum, int64_t values) {
+    int16_t *restrict a = sum[0], *restrict b = sum[1], *restrict c = sum[2], *restrict d = sum[3], *restrict e = sum[4];
+    for (int64_t i = 0; i < values; i++) {
+        int16_t near[PLACES];
+        for (int place = 0; place < PLACES; place++) near[place] = met[place * apart + i];
+        int16_t first = (int16_t)(near[0] + near[3]), second = (int16_t)(near[1] + near[4]), third = (int16_t)(near[2] + near[5]);
+        int16_t to_first = (int16_t)(near[0] - near[3]), to_second = (int16_t)(near[1] - near[4]), to_third = (int16_t)(near[2] - near[5]);
+        a[i] = (int16_t)(first + second + third);
+        b[i] = (int16_t)(2 * to_first + to_second - to_third);
+        c[i] = (int16_t)(to_second + to_third);
+        d[i] = (int16_t)(2 * first - second - third);
+        e[i] = (int16_t)(second - third);
+    }
+}
+
+/* Responses in the band, and what is beside it for each four samples: together. */
+APART void add_rests(int16_t *restrict met, const int16_t *restrict rest, int64_t values) {
+    for (int64_t at = 0; at < values; at += CHANNELS)
+        for (int i = 0; i < CHANNELS; i++) met[at + i] = (int16_t)((met[at + i] >> SUM_SHIFT) + (rest[at / CHANNELS / REST_SAMPLES * CHANNELS + i] >> SUM_SHIFT));
+}
+
+/* The sums of a pad from the patches of its places; `room` begins with the sums and ends with what is met. Returns where it goes on. */
+static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct patch *patches, uint32_t idle_word, int16_t *room) {
+    int64_t padded = nulls->rows * ROW, reach = TIMES * nulls->step * CHANNELS, whole = padded + 2 * reach;
+    int16_t *sums[SUMS], *met = room + SUMS * whole, *rest = met + PLACES * padded;
+    memset(room, 0, (size_t)(SUMS * whole) * sizeof *room);
+    for (int i = 0; i < SUMS; i++) still[i].response = sums[i] = room + i * whole + reach;
+    for (int place = 0; place < PLACES; place++) {
+        interpolate(idle_word, patches + place, 0, nulls->values, met + place * padded);
+        interpolate(idle_word, patches + place, nulls->values, nulls->rests, rest);
+        add_rests(met + place * padded, rest, nulls->values);
+    }
+    sums_of_ring(met, padded, sums, nulls->values);
+    for (int i = 0; i < SUMS; i++) prepare_still(nulls, still + i);
+    return met;
+}
+
 static void keep_still(struct work *work, const struct patch *patches, const struct patch *places, int count, int64_t step) {
     struct nulls nulls = {.values = work->values, .rows = work->rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
-    nulls.rest_rows = work->rests / CHANNELS;
-    int64_t padded = nulls.rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
+    nulls.rests = work->rests;
+    int64_t padded = nulls.rows * ROW, total = 0;
     int16_t weight[MAX_FOCI];
     double share[MAX_FOCI], shares = 0;
     uint8_t *room = (uint8_t *)work->strength; /* behind the responses */
@@ -1257,8 +1423,7 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     nulls.sum = (int32_t *)(nulls.weight + nulls.blocks * CHANNELS);
     nulls.strength = nulls.sum + padded;
     nulls.above = (int16_t *)(nulls.strength + nulls.blocks * CHANNELS);
-    nulls.count = nulls.above + padded;
-    int16_t *next = nulls.count + nulls.rest_rows * CHANNELS;
+    int16_t *next = nulls.above + padded;
     take_bits(&nulls, work->words, work->idle_word);
     for (int i = 0; i < work->count; i++) {
         int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
@@ -1285,19 +1450,10 @@ static void keep_still(struct work *work, const struct patch *patches, const str
         nulls.weight[i] = (int64_t)nearest(scale / (strength > floor ? strength : floor));
     }
     nulls.unit = PI * scale / (double)(nulls.block_rows * GROUP_SAMPLES);
-    for (int i = 0; i < count; i++) {
-        struct still *still = nulls.place + i;
-        memset(next, 0, (size_t)(padded + 2 * reach) * sizeof *next);
-        still->response = next + reach;
-        still->rest = next + padded + 2 * reach;
-        next = still->rest + nulls.rest_rows * CHANNELS;
-        interpolate(work->idle_word, places + i, 0, nulls.values, still->response);
-        interpolate(work->idle_word, places + i, nulls.values, nulls.rest_rows * CHANNELS, still->rest);
-        prepare_still(&nulls, still);
-    }
+    for (int i = 0; i < count; i++) next = take_sums(&nulls, nulls.sums + SUMS * i, places + PLACES * i, work->idle_word, next);
     for (int sweep = 0; sweep < SWEEPS; sweep++)
-        for (int i = 0; i < count; i++)
-            if (nulls.place[i].solvable) correct(&nulls, nulls.place + i);
+        for (int i = 0; i < SUMS * count; i++)
+            if (i % SUMS < SUMS_OF[count - 1] && nulls.sums[i].solvable) correct(&nulls, nulls.sums + i);
     for (int64_t row = 0; row < nulls.rows; row++) {
         int64_t left = (nulls.values - row * ROW) / CHANNELS;
         write_words(work, row * ROW, left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES, nulls.above + row * ROW);
@@ -1308,7 +1464,7 @@ static PyObject *null_places_in(const Py_buffer *buffer, PyObject *const *argume
     PyObject *points = arguments[POINTS], *places = arguments[NULLS];
     struct bank bank;
     struct work work;
-    struct patch patches[MAX_FOCI + MAX_NULLS];
+    struct patch patches[MAX_FOCI + PLACES * MAX_NULLS];
     double point[MAX_FOCI + MAX_NULLS][3];
     if (!take_bank(buffer, &bank)) return NULL;
     const struct plan *plan = &bank.plan;
@@ -1320,8 +1476,10 @@ static PyObject *null_places_in(const Py_buffer *buffer, PyObject *const *argume
     for (Py_ssize_t i = 0; i < count + still; i++)
         if (!read_point(i < count ? points : places, i < count ? i : i - count, point[i])) return NULL;
     if (!has_room(buffer, plan->samples)) return NULL;
-    for (Py_ssize_t i = 0; i < count + still; i++) {
-        int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
+    for (Py_ssize_t i = 0; i < count + PLACES * still; i++) {
+        static const double MIDDLE[2] = {0, 0};
+        const double *of = point[i < count ? i : count + (i - count) / PLACES], *beside = i < count ? MIDDLE : RING_M[(i - count) % PLACES];
+        int64_t cell = find_patch(&bank, of[0] + beside[0], of[1] + beside[1], patches + i);
         if (cell == -2) return NULL;
         if (cell >= 0) return PyLong_FromLongLong(cell);
     }

@@ -12,6 +12,7 @@ from controller.device import kernel
 from controller.device.bank.packing import CHANNELS
 from controller.device.bank.reader import Bank
 from controller.device.kernel import MAX_FOCI, MAX_SAMPLES, Point
+from controller.device.kernel.null_twin import RING
 from controller.errors import BankError
 
 __all__ = ["MAX_FOCI", "Composer", "Point"]
@@ -83,7 +84,7 @@ class Composer:
         a response is damaged; ValueError if there are too many places, or numbers that are not finite or beyond their range.
         """
         responses = self._bank.responses
-        there = [place for place in nulls if responses.has(place[0], place[1])]
+        there = [place for place in nulls if all(responses.has(place[0] + x_m, place[1] + y_m) for x_m, y_m in RING)]
         if not there:
             return
         while (cell := kernel.null_places(self._words, self._room, self._buffers, points, there)) >= 0:

@@ -30,7 +30,7 @@ LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in it
 Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice
 NULL: Final = -1  # in place of a step of amplitude: a place that is kept still
 CHANNEL: Final = -2  # in its place: no focus, but the test of the channel that stands in place of x
-NULL_APART_M: Final = 5e-3  # a place nearer to a focus than this cannot be kept still, at least not for a bearable loss
+NULL_APART_M: Final = 9e-3  # a place nearer to a focus than this cannot be kept still, at least not for a bearable loss
 
 
 class Selection:
@@ -92,7 +92,7 @@ class Selection:
     def null_key(self, points: Sequence[Point], places: Sequence[tuple[float, float]]) -> Key:
         """Name of the waveform for points that leaves other places (x_m, y_m) still, at most four: those nearest to a point.
 
-        Places within 5 mm of a point (on the paper's plate) are left as they are.
+        Places within 9 mm of a point (on the paper's plate) are left as they are.
 
         Raises ValueError if an amplitude is not above 0 and at most 1.
         """

@@ -23,7 +23,7 @@ from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.memory import BASE_BYTES, cell_bytes, entries_bytes, require
 from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-from controller.workshop.physics.responses.loaded_responses import words_source
+from controller.workshop.physics.responses.loaded_responses import words_source, yielding_alike
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.physics.responses.transformed_responses import TransformedResponses
 
@@ -67,7 +67,8 @@ class BankPlan:
         wanted = _wanted(request, grid)
         numbers = np.flatnonzero(wanted)
         bare = ResponseModel(board, request.highest_mode_hz) if source is None else CheckedSource(board, source)
-        found = words_source(board, bare, bare.plate_modes if isinstance(bare, ResponseModel) else None)
+        worded = yielding_alike(board) if request.compact else board
+        found = words_source(worded, bare, bare.plate_modes if isinstance(bare, ResponseModel) else None)
         parameters = _parameters(request, grid, wanted, found)
         design = CompactDesign.of(board, found, [grid])[0] if request.compact else None
         if design:

@@ -7,9 +7,11 @@ from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
+from controller.device.kernel.null_twin import RING, SUMS
 from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import load_scene
 from controller.device.waveforms.composition import Composer
+from controller.device.waveforms.pad import pad_places
 from controller.device.waveforms.selection import LATTICE_M, NULL, Selection
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.build import build_bank
@@ -60,16 +62,25 @@ def words_of(run):
     return capture.words[np.searchsorted(capture.ticks.astype(np.int64), sampled, side="right") - 1]
 
 
+def pad_rms_m(prediction, words):
+    """What words do to the resting finger's pad of 8 mm within 25 us of T, every 2 mm."""
+    across = np.arange(-4e-3, 5e-3, 2e-3)
+    pad = [(PLACES_M[1][0] + x_m, PLACES_M[1][1] + y_m) for x_m in across for y_m in across if np.hypot(x_m, y_m) < 4.1e-3]
+    return np.sqrt(np.mean(prediction.near_focus(words, pad) ** 2))
+
+
+def test_what_is_kept_still_is_the_ring_of_a_pad():
+    assert np.array(RING) == pytest.approx(np.array(pad_places(0.0, 0.0)[1:]), abs=1e-9)
+    assert not np.triu(np.array(SUMS) @ np.array(SUMS).T, 1).any()
+
+
 def test_a_finger_that_rests_beside_a_click_is_kept_still(perform, bank_file, prediction):
     runs = {key: perform(FINGERS, SCENE.format(left=key), bank=bank_file) for key in ("", 'nulled = "others"')}
     plain, quiet = (words_of(run) for run in runs.values())
     assert [run.counters.kept_still for run in runs.values()] == [0, 1]
     assert [run.counters.foci for run in runs.values()] == [1, 1]
 
-    def moved_m(words):
-        return np.abs(prediction.near_focus(words, PLACES_M[1:])).max()
-
-    assert moved_m(quiet) < moved_m(plain) / 5
+    assert pad_rms_m(prediction, quiet) < pad_rms_m(prediction, plain) / 3
     played = prediction.at_focus(quiet, PLACES_M[:1]) / prediction.at_focus(plain, PLACES_M[:1])
     assert played[0] > 0.96
 
@@ -112,10 +123,10 @@ def test_it_is_as_deep_at_half_the_amplitude_and_the_kernel_s_words_are_whole(ba
             view = composer.compose([point])
             composer.keep_still([point], [(*PLACES_M[1], 1.0)])
             after = np.frombuffer(bytes(view), "<u4")
-            moved = [np.abs(prediction.near_focus(words, PLACES_M[1:])).max() for words in (before, after)]
-            assert moved[1] < moved[0] / 4
+            moved = [pad_rms_m(prediction, words) for words in (before, after)]
+            assert moved[1] < moved[0] / 2.5
             focus = [prediction.at_focus(words, [point[:2]])[0] for words in (before, after)]
-            assert focus[1] == pytest.approx(focus[0], rel=0.04)
+            assert focus[1] == pytest.approx(focus[0], rel=0.05), "a whole pad costs 3.5 % at the median"
 
 
 def test_a_spot_cannot_keep_fingers_still(tmp_path):

@@ -9,6 +9,8 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.linalg import splu
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
@@ -19,20 +21,24 @@ from controller.device.kernel import compact_twin
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.compact.pulses import Pulses, in_band_pulses, rest_pulses
 from controller.workshop.bank_builder.compact.rounding import rounded
-from controller.workshop.bank_builder.compact.stencils import STEPS, CompactStencil, stencil
+from controller.workshop.bank_builder.compact.stencils import CompactStencil, stencil
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 PLACES: Final = 48  # from whose responses pulses are learned
 SEED: Final = 1
-ACROSS: Final = 4  # cells of a stencil
-REST_ACROSS: Final = 4
+ACROSS: Final = 5  # cells of a stencil
+STEPS: Final = 22  # of a pitch, to which places are rounded
+REST_ACROSS: Final = 5
+REST_STEPS: Final = 8
 BLOCK: Final = 16  # weights that have a scale in common
 REST_BLOCK: Final = 32
-REST_PITCH: Final = 2.0  # of the grid of the rest, in pitches
+REST_PITCH: Final = 1.85  # of the grid of the rest, in pitches
+FITTED_AT: Final = ((0.25, 0.25), (0.75, 0.75))  # of a pitch, beside each cell: where sums of cells meet responses
 BEYOND_BAND: Final = 0.1  # of the band's width, above and below
 CELLS_AT_ONCE: Final = 128
-PITCHES: Final = (0.415, 0.45, 0.475)  # of the shortest wave; the middle one where none is asked for
-WORSE_THAN_EXPECTED: Final = 1.6  # a place, as far as was seen (README.md)
+COLUMNS_AT_ONCE: Final = 512
+PITCHES: Final = (0.45, 0.485, 0.51)  # of the shortest wave; the middle one where none is asked for
+WORSE_THAN_EXPECTED: Final = 8.0  # a place at a side of the plate, as far as was seen
 
 Reals = NDArray[np.floating[Any]]
 
@@ -51,12 +57,7 @@ class CompactDesign:
 
     @classmethod
     def of(cls, board: Board, source: ResponseSource, grids: Sequence[Grid]) -> list[CompactDesign]:
-        """Designs for some grids; ConfigError if the plate or the bit clock is too small for them, or points yield to fingers."""
-        if board.finger is not None and board.finger.receptance == "point":
-            raise ConfigError(
-                f"board {board.name!r}: a compact bank holds waves, not how each point yields to a finger:"
-                ' take finger.receptance = "plate", or a bank that is not compact'
-            )
+        """Designs for some grids; ConfigError if the plate or the bit clock is too small for them."""
         waveform, plate = board.waveform, board.plate
         rest_grids = [_rest_grid(board, grid) for grid in grids]
         random = np.random.default_rng(SEED)
@@ -75,8 +76,8 @@ class CompactDesign:
                 grid,
                 rest_grid,
                 *pulses,
-                stencil(plate, grid.pitch_m, ACROSS, power[inside], hz[inside]),
-                stencil(plate, rest_grid.pitch_m, REST_ACROSS, rest_power[below], rest_hz[below]),
+                stencil(plate, grid.pitch_m, ACROSS, STEPS, power[inside], hz[inside]),
+                stencil(plate, rest_grid.pitch_m, REST_ACROSS, REST_STEPS, rest_power[below], rest_hz[below]),
                 waveform.samples,
             )
             for grid, rest_grid in zip(grids, rest_grids, strict=True)
@@ -88,7 +89,7 @@ class CompactDesign:
         made = []
         for pulses, own, block in ((self.pulses, self.stencil, BLOCK), (self.rest_pulses, self.rest_stencil, REST_BLOCK)):
             made.append(
-                compact_twin.PulseLayer(own.across, STEPS, pulses.weights, min(block, pulses.weights), pulses.taps.shape[1])
+                compact_twin.PulseLayer(own.across, own.steps, pulses.weights, min(block, pulses.weights), pulses.taps.shape[1])
             )
         return made[0], made[1]
 
@@ -116,32 +117,34 @@ class CompactDesign:
 
     @property
     def working_bytes(self) -> float:
-        """Memory that `rows` takes: weights, errors and their last rounding in float32, numbers."""
-        return self.grid.cells * self.pulses.weights * CHANNELS * 13.0
+        """Memory that `rows` takes: weights, what they are solved from, their errors and numbers, in float32 and bytes."""
+        return self.grid.cells * self.pulses.weights * CHANNELS * 25.0
 
     def rows(
         self, source: ResponseSource, there: NDArray[np.bool_], use: Callable[[int, Reals], None]
     ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-        """Bytes of the cells that are `there` (cell, byte), and m per V of a level; `use` is called with each cell and response."""
-        weights = np.zeros((self.grid.cells, self.pulses.weights, CHANNELS), np.float32)
-        points_m, cells = self.grid.points(), np.flatnonzero(there)
-        for first in range(0, len(cells), CELLS_AT_ONCE):
-            some = cells[first : first + CELLS_AT_ONCE]
-            responses = source.drive_order_responses(points_m[some])
-            weights[some] = np.matmul(self.pulses.analysis, responses)
-            for cell, response in zip(some.tolist(), responses, strict=True):
-                use(cell, response)
-        return rounded(weights, self.grid.nx, self.layers[0].block_rows, self.stencil)
+        """Bytes of the cells that are `there` (cell, byte), and m per V of a level; `use` is called with cells and responses."""
+
+        def responses(points_m: Reals, cells: list[int]) -> Reals:
+            found = source.drive_order_responses(points_m)
+            for cell, response in zip(cells, found, strict=True):
+                if cell >= 0:
+                    use(cell, response)
+            return found
+
+        weights = _fitted(self.grid, self.stencil, self.pulses, there, responses)
+        return rounded(weights, self.grid.nx, self.layers[0].block_rows, self.stencil, self.pulses.together)
 
     def rest_rows(self, source: ResponseSource) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
         """As `rows`, of the rest beside the band."""
-        points_m, count = self.rest_grid.points(), self.samples + math.ceil(self.samples / REST_SAMPLES)
-        weights = np.empty((len(points_m), self.rest_pulses.weights, CHANNELS), np.float32)
-        for first in range(0, len(points_m), CELLS_AT_ONCE):
-            some = points_m[first : first + CELLS_AT_ONCE]
-            whole = source.entry_responses(some, out=np.empty((len(some), count, CHANNELS), np.float32))
-            weights[first : first + len(some)] = np.matmul(self.rest_pulses.analysis, whole[:, self.samples :])
-        return rounded(weights, self.rest_grid.nx, self.layers[1].block_rows, self.rest_stencil)
+        count = self.samples + math.ceil(self.samples / REST_SAMPLES)
+
+        def responses(points_m: Reals, cells: list[int]) -> Reals:
+            return source.entry_responses(points_m, out=np.empty((len(cells), count, CHANNELS), np.float32))[:, self.samples :]
+
+        everywhere = np.ones(self.rest_grid.cells, bool)
+        weights = _fitted(self.rest_grid, self.rest_stencil, self.rest_pulses, everywhere, responses)
+        return rounded(weights, self.rest_grid.nx, self.layers[1].block_rows, self.rest_stencil, self.rest_pulses.together)
 
     def tables(self, rest_rows: NDArray[np.uint8], rest_scales: NDArray[np.float32]) -> bytes:
         """What all cells have in common, and the rest beside the band (`compact_twin.CompactTables`)."""
@@ -157,6 +160,44 @@ class CompactDesign:
             made += part.tobytes()
             made += bytes(-len(made) % compact_twin.LINE)
         return bytes(made)
+
+
+def _fitted(
+    grid: Grid,
+    own: CompactStencil,
+    pulses: Pulses,
+    there: NDArray[np.bool_],
+    responses: Callable[[Reals, list[int]], Reals],
+) -> NDArray[np.float32]:
+    """Weights of all cells, (cell, weight, 32), whose sums between cells are next to the responses: least squares.
+
+    `responses` gives those at places, of which some are beside a cell, the others beside none (-1). Cells that are not `there`
+    weigh nothing.
+    """
+    places, shares, beside = [], [], []
+    for cell in np.flatnonzero(there).tolist():
+        iy, ix = divmod(cell, grid.nx)
+        for number, at in enumerate(FITTED_AT):
+            steps = round((ix + at[0]) * own.steps), round((iy + at[1]) * own.steps)
+            cells, of_cells = own.met_by(grid, steps)
+            if ix + 1 < grid.nx and iy + 1 < grid.ny and there[cells].all():
+                places.append([grid.x0_m + steps[0] / own.steps * grid.pitch_m, grid.y0_m + steps[1] / own.steps * grid.pitch_m])
+                shares.append(sparse.csr_array((of_cells, ([0] * len(cells), cells)), shape=(1, grid.cells)))
+                beside.append(-1 if number else cell)
+    found = np.zeros((grid.cells, pulses.weights * CHANNELS), np.float32)
+    if not places:
+        return found.reshape(grid.cells, pulses.weights, CHANNELS)
+    met = sparse.vstack(shares, format="csr")
+    for first in range(0, len(places), CELLS_AT_ONCE):
+        some = slice(first, first + CELLS_AT_ONCE)
+        weights = np.matmul(pulses.analysis, responses(np.array(places[some]), beside[some]))
+        found += met[some].T.astype(np.float32) @ weights.reshape(len(weights), -1)
+    ridge = own.let_through * len(FITTED_AT) * sparse.eye_array(grid.cells)
+    solve = splu((met.T @ met + ridge).tocsc()).solve
+    for first in range(0, found.shape[1], COLUMNS_AT_ONCE):
+        columns = slice(first, first + COLUMNS_AT_ONCE)
+        found[:, columns] = solve(found[:, columns].astype(np.float64))
+    return found.reshape(grid.cells, pulses.weights, CHANNELS)
 
 
 def compact_pitch_m(board: Board, share: float = PITCHES[1]) -> float:

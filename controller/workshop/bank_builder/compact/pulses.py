@@ -20,10 +20,11 @@ from controller.errors import ConfigError
 
 Floats = NDArray[np.float64]
 
-TURNS: Final = 15
-ROUNDING_NOISE: Final = 0.01  # of four bits, over the power of what is rounded
+TURNS: Final = 50
+RELAXATION: Final = 1.7  # of what changes in a turn
+ROUNDING_NOISE: Final = 0.006  # of four bits, over the power of what is rounded
 RIDGE: Final = 0.003
-PAIRS_TO_BAND: Final = 1.11  # complex weights a second, over the width of the band
+PAIRS_TO_BAND: Final = 1.08  # complex weights a second, over the width of the band
 MET: Final = 4  # pulses, or pairs of them, that an output meets
 REACH: Final = 2.5  # of a window, in pulses
 LOWERED: Final = 0.04  # of the band's width: the carrier lies below its middle, where responses are stronger
@@ -42,6 +43,7 @@ class Pulses:
     taps: NDArray[np.int16]  # (output, tap)
     odd: tuple[int, int]  # taps of odd samples: of the sum of the two even neighbours, beside a half; of the next two, negative
     analysis: NDArray[np.float32]  # (weight, row of a response)
+    together: NDArray[np.float64]  # (weight, weight): how much the errors of two count together
     error: float  # square error over the power of responses, before rounding, as a loss counts it
 
     @property
@@ -100,12 +102,12 @@ def _odd_taps(waveform: Waveform) -> tuple[float, float]:
 def _learned(first: NDArray[np.intp], start: Floats, responses: Floats, to_rows: Floats, odd: tuple[float, float]) -> Pulses:
     """Fit pulses, which begin as `start` (output, tap), and weights to responses in turns; `to_rows` (row, output) of outputs."""
     (outputs, taps), weights = start.shape, int(first[-1]) + start.shape[1]
-    met, rows = first[:, None] + np.arange(taps), responses.transpose(1, 0, 2).reshape(len(to_rows), -1)
-    fitted = [(output, int(row)) for output, row in enumerate((to_rows == 1).argmax(axis=0)) if to_rows[row, output] == 1]
+    met, rows = first[:, None] + np.arange(taps), responses[:, :, ::4].transpose(1, 0, 2).reshape(len(to_rows), -1)
+    kept = (to_rows == 1).argmax(axis=0)
+    fitted = np.array([(output, row) for output, row in enumerate(kept.tolist()) if to_rows[row, output] == 1])
     strength = _strength(responses)
     rise = np.full(outputs, strength[-1] ** 0.5)
-    for output, row in fitted:
-        rise[output] = strength[row] ** 0.5
+    rise[fitted[:, 0]] = strength[fitted[:, 1]] ** 0.5
     pulses = np.zeros((outputs, weights))
     np.put_along_axis(pulses, met, start * rise[:, None], 1)
     flat = strength[:, None] ** -0.5  # what is lost goes with the square of an error over the strength there
@@ -116,17 +118,21 @@ def _learned(first: NDArray[np.intp], start: Floats, responses: Floats, to_rows:
         if turn == TURNS - 1:
             break
         found = analysis @ rows
-        for output, row in fitted:
-            here = found[met[output]]
-            inner = here @ here.T
-            inner += np.diag(ROUNDING_NOISE * inner.diagonal() + 1e-12 * inner.trace() + 1e-300)
-            pulses[output, met[output]] = np.linalg.solve(inner, here @ rows[row])
+        here = found[met[fitted[:, 0]]]
+        inner = here @ here.transpose(0, 2, 1)
+        sizes = np.einsum("oii->oi", inner)  # a view
+        sizes += ROUNDING_NOISE * sizes + 1e-12 * sizes.sum(axis=1, keepdims=True) + 1e-300
+        new = np.linalg.solve(inner, here @ rows[fitted[:, 1], :, None])[:, :, 0]
+        before = np.take_along_axis(pulses[fitted[:, 0]], met[fitted[:, 0]], 1)
+        pulses[fitted[:, :1], met[fitted[:, 0]]] = before + RELAXATION * (new - before)
     values = np.take_along_axis(pulses, met, 1)
     gain = (WHOLE / 2 - taps) / np.abs(values).sum(axis=1).max()
     near, far = (round(tap * WHOLE) for tap in odd)
     whole_taps = np.rint(values * gain).astype(np.int16)
     error = (((to_rows @ (pulses @ (analysis @ rows)) - rows) * flat) ** 2).sum() / max(((rows * flat) ** 2).sum(), 1e-300)
-    return Pulses(first.astype(np.int16), whole_taps, (near, far), (analysis * (WHOLE / gain)).astype(np.float32), float(error))
+    return Pulses(
+        first.astype(np.int16), whole_taps, (near, far), (analysis * (WHOLE / gain)).astype(np.float32), square, float(error)
+    )
 
 
 def _strength(responses: Floats) -> Floats:

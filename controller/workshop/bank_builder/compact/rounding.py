@@ -1,4 +1,8 @@
-"""Weights of cells in four bits, with a scale for each block of weights and channel; errors are passed on from cell to cell."""
+"""Weights of cells in four bits, each block of a channel with a scale of its own; errors of cells and weights balance each other.
+
+What counts is the error between cells, a sum over cells and pulses, so each weight is rounded for the errors of all others, in
+turns, those of cells that no place shares at once (coordinate descent).
+"""
 
 from __future__ import annotations
 
@@ -14,52 +18,105 @@ from controller.workshop.bank_builder.compact.stencils import CompactStencil
 
 Reals = NDArray[np.floating[Any]]
 
-LOUDEST_RMS: Final = 2.5  # of a block: louder weights are cut
-SCALES: Final = 255  # largest scale of a block, in 256ths of the cell's
-PASSES: Final = 1  # in which cells are rounded again, each for the errors of all others
+LOUDEST_RMS: Final = 2.5  # of a block: louder weights are cut; times one of these, whichever leaves the least error
+TRIED: Final = (0.75, 0.85, 0.95, 1.05, 1.2)
+BASES: Final = 255  # largest scale of a channel, in 256ths of the cell's
+PASSES: Final = 3
+LEAST_TOGETHER: Final = 1e-3  # of two weights: less is left out
 
 
-def rounded(weights: Reals, nx: int, block_rows: int, stencil: CompactStencil) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+def rounded(
+    weights: Reals, nx: int, block_rows: int, stencil: CompactStencil, together: Reals
+) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """Rows of a compact bank from the weights of all cells of a grid, (cell, weight, 32), row by row of `nx`.
 
-    Returns the bytes (cell, byte), and for each cell m per V of a level (cell,).
+    `together` is as of `Pulses`. Returns the bytes (cell, byte), and for each cell m per V of a level (cell,).
     """
     cells, count, _ = weights.shape
-    ny = cells // nx
     block_of = np.arange(count) // block_rows
-    parts, scales = _scales(weights, block_of)
-    numbers = np.zeros(weights.shape, np.uint8)
-    rounding, errors = (np.zeros((ny, nx, count, CHANNELS), np.float32) for _ in range(2))
-    for turn in range(1 + PASSES):
-        others = stencil.together if turn else stencil.passed_on
-        known = errors if turn else rounding
-        for cell in range(cells):
-            iy, ix = divmod(cell, nx)
-            wanted = weights[cell].astype(np.float32)
-            for dy, dx, share in others:
-                if 0 <= iy + dy < ny and 0 <= ix + dx < nx:
-                    wanted -= np.float32(share) * known[iy + dy, ix + dx]
-            step = (parts[cell].astype(np.float32) * (scales[cell] / 256))[block_of]
-            with np.errstate(divide="ignore", invalid="ignore"):
-                half = np.floor(np.nan_to_num(wanted / (2 * step), posinf=0, neginf=0))
-            numbers[cell] = np.clip(half + (compact_twin.LOUDEST + 1) // 2, 0, compact_twin.LOUDEST)
-            played = (2 * numbers[cell].astype(np.float32) - compact_twin.LOUDEST) * step
-            rounding[iy, ix], errors[iy, ix] = played - wanted, played - weights[cell]
+    bases, parts, scales = _scales(weights, block_of)
+    steps = (scales / 256)[:, None, None] * bases[:, None, :] * ((parts + np.float32(1)) / np.float32(16))
+    played = _Descent(weights.reshape(-1, nx, count, CHANNELS), steps.reshape(-1, nx, *steps.shape[1:]), block_of)
+    for _ in range(PASSES):
+        played.improve(stencil, together)
+    numbers = played.numbers().reshape(weights.shape)
     rows = np.zeros((cells, compact_twin.row_bytes(count, block_rows)), np.uint8)
     for cell in range(cells):
-        rows[cell, : count * CHANNELS // 2] = compact_twin.packed(numbers[cell])
-        rows[cell, count * CHANNELS // 2 :] = parts[cell][:, compact_twin.ORDER].ravel()
+        packed = compact_twin.packed(numbers[cell]), bases[cell, compact_twin.ORDER], compact_twin.packed(parts[cell])
+        rows[cell] = np.concatenate(packed)
     return rows, scales
 
 
-def _scales(weights: Reals, block_of: NDArray[np.intp]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-    """Scales of blocks (cell, block, 32) in 256ths of the cells' own (cell,), which have 13 significant bits."""
+class _Descent:
+    """Errors of all weights, which shrink; `steps` (row, column, block, 32) are half the distances of levels."""
+
+    def __init__(self, weights: Reals, steps: Reals, block_of: NDArray[np.intp]) -> None:
+        self._weights, self._steps, self._block_of = weights, steps, block_of
+        reach = compact_twin.MAX_ACROSS
+        ny, nx, count, channels = weights.shape
+        self._padded = np.zeros((ny + 2 * reach, nx + 2 * reach, count, channels), np.float32)
+        self._errors = self._padded[reach : reach + ny, reach : reach + nx]
+        self._errors[:] = _level(weights, steps[:, :, block_of]) - weights
+
+    def improve(self, stencil: CompactStencil, together: Reals) -> None:
+        """Round every weight again for the errors of all others."""
+        share = (together / together.diagonal()[:, None]).astype(np.float32)
+        met = np.abs(np.subtract(*np.nonzero(np.abs(share) > LEAST_TOGETHER))).max()
+        for first_y in range(stencil.across):
+            for first_x in range(stencil.across):
+                self._improve_apart(
+                    (slice(first_y, None, stencil.across), slice(first_x, None, stencil.across)), stencil, share, met
+                )
+
+    def _improve_apart(self, some: tuple[slice, slice], stencil: CompactStencil, share: Reals, met: int) -> None:
+        """The same of cells that no place shares."""
+        own, weights, steps = self._errors[some], self._weights[some], self._steps[some]
+        total, reach, (ny, nx) = own.copy(), compact_twin.MAX_ACROSS, self._errors.shape[:2]
+        for dy, dx, part in stencil.together:
+            shifted = self._padded[reach + dy : reach + dy + ny, reach + dx : reach + dx + nx]
+            total += np.float32(part) * shifted[some]
+        for weight in range(total.shape[2]):
+            near = slice(max(0, weight - met), weight + met + 1)
+            of_others = np.tensordot(total[:, :, near], share[weight, near], (2, 0)) - own[:, :, weight]
+            wanted = weights[:, :, weight]
+            error = _level(wanted - of_others, steps[:, :, self._block_of[weight]]) - wanted
+            total[:, :, weight] += error - own[:, :, weight]
+            own[:, :, weight] = error
+
+    def numbers(self) -> NDArray[np.uint8]:
+        """Numbers of the levels, 0 to 15."""
+        steps = np.maximum(self._steps, np.finfo(np.float32).tiny)[:, :, self._block_of]
+        found = np.rint(((self._weights + self._errors) / steps + compact_twin.LOUDEST) / 2)
+        return np.clip(found, 0, compact_twin.LOUDEST).astype(np.uint8)
+
+
+def _level(wanted: Reals, steps: Reals) -> Reals:
+    """The nearest level."""
+    half = (compact_twin.LOUDEST + 1) // 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        number = np.clip(np.floor(np.nan_to_num(wanted / (2 * steps), posinf=0, neginf=0)), -half, half - 1)
+    found: Reals = (2 * number + 1) * steps
+    return found
+
+
+def _scales(weights: Reals, block_of: NDArray[np.intp]) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.float32]]:
+    """Scales of channels (cell, 32), of blocks (cell, block, 32), and of cells (cell,).
+
+    Those of channels are 256ths of the cells', which have 13 significant bits; those of blocks 16ths of these, less 1.
+    """
     starts, sizes = np.flatnonzero(np.diff(block_of, prepend=-1)), np.bincount(block_of)[:, None]
-    parts, scales = np.zeros((len(weights), len(starts), CHANNELS), np.uint8), np.zeros(len(weights), np.float32)
+    bases, scales = np.zeros((len(weights), CHANNELS), np.uint8), np.zeros(len(weights), np.float32)
+    parts = np.zeros((len(weights), len(starts), CHANNELS), np.uint8)
     for cell, own in enumerate(weights):
         level = np.sqrt(np.add.reduceat(own**2, starts, axis=0) / sizes) * (LOUDEST_RMS / compact_twin.LOUDEST)
-        mantissa, exponent = math.frexp(float(level.max()) * 256 / SCALES)
+        tried = np.array(TRIED)[:, None, None] * level
+        errors = [np.add.reduceat((_level(own, one[block_of]) - own) ** 2, starts, axis=0) for one in tried]
+        level = np.take_along_axis(tried, np.argmin(errors, axis=0)[None], 0)[0]
+        mantissa, exponent = math.frexp(float(level.max()) * 256 / BASES)
         scale = np.float32(math.ldexp(math.ceil(math.ldexp(mantissa, SCALE_BITS)), exponent - SCALE_BITS))
-        if scale >= np.finfo(np.float32).tiny:
-            scales[cell], parts[cell] = scale, np.minimum(np.ceil(level * (256 / scale)), SCALES)
-    return parts, scales
+        if scale < np.finfo(np.float32).tiny:
+            continue
+        scales[cell], bases[cell] = scale, np.minimum(np.ceil(level.max(axis=0) * (256 / scale)), BASES)
+        base = np.maximum(bases[cell] * (scale / 256), np.finfo(np.float32).tiny)
+        parts[cell] = np.clip(np.rint(level / base * 16) - 1, 0, compact_twin.LOUDEST)
+    return bases, parts, scales

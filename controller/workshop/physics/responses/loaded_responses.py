@@ -11,6 +11,7 @@ for all points, that of an endless plate, which needs no modes. Fingers are poin
 
 from __future__ import annotations
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
@@ -35,7 +36,8 @@ class LoadedResponses(TransformedResponses):
     def __init__(self, board: Board, source: ResponseSource, modes: Modes | None = None) -> None:
         assert board.finger is not None
         given = board.finger
-        super().__init__(source, f"under a finger of {given.mass_mg:g} mg")
+        where = " on an endless plate" if given.receptance == "plate" else ""
+        super().__init__(source, f"under a finger of {given.mass_mg:g} mg{where}")
         self._board = board
         self._modes = None if given.receptance == "plate" else modes_of(board) if modes is None else modes
         self._given: dict[float, _Receptances] = {}  # by the period of samples
@@ -92,3 +94,13 @@ def words_source(board: Board, source: ResponseSource, modes: Modes | None = Non
     source = source if board.finger is None else LoadedResponses(board, source, modes)
     percent = board.waveform.drift_percent
     return DriftingResponses(source, percent) if percent else source
+
+
+def yielding_alike(board: Board) -> Board:
+    """The board, all points of which yield to its `[finger]` as an endless plate does.
+
+    Its responses vary between points as waves do, while the receptance of a point has parts half as long.
+    """
+    if board.finger is None:
+        return board
+    return msgspec.structs.replace(board, finger=msgspec.structs.replace(board.finger, receptance="plate"))
