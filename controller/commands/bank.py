@@ -16,6 +16,7 @@ from controller.commands.common.output import progress_bar, show
 from controller.console import tell
 from controller.device.bank.inspection import bank_info, measured_at, verify_bank
 from controller.device.bank.lookup import FoundBank, bank_as_it_is, find_bank
+from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board, load_board
@@ -130,7 +131,8 @@ def bank_choices(options: argparse.Namespace) -> int:
     with _builder_installed(bank_path(board)):
         from controller.workshop.bank_builder.own_bank import chosen
     scene_file = find_scene(board, options.scene)
-    show(options, chosen(board, load_scene(scene_file, board), scene_file), _choices_table)
+    found = chosen(board, load_scene(scene_file, board), scene_file) | {"memory": memory_fit(board).in_words()}
+    show(options, found, _choices_table)
     return 0
 
 
@@ -154,7 +156,7 @@ def _choices_table(choice: dict[str, Any]) -> str:
         lines.append(
             f"{pitch_mm:>10g}  {played:>17}  {100 * error:>11.1f} %  {lone_us:>16.2f}  {size / 1e6:>6.1f}{'  <- auto' * chosen}"
         )
-    return "\n".join([*lines, choice["why"]])
+    return "\n".join([*lines, choice["why"], choice["memory"]])
 
 
 def bank_describe(options: argparse.Namespace) -> int:

@@ -16,6 +16,7 @@ from controller.commands.common.fpga_link import open_fpga_of
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.console import tell
+from controller.device.bank.memory import memory_fit
 from controller.device.board.board import Board, simulated
 from controller.device.board.panel_status import FOLDER as RUNTIME_FOLDER
 from controller.device.board.paths import state_folder
@@ -124,7 +125,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
             tell(f"{scene_file}: {warning}", Priority.WARNING)
         ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board))
-        figures = {"bank": str(bank.path)} | ran
+        figures = {"bank": str(bank.path), "memory": memory_fit(board).in_words()} | ran
     show(options, figures, service_table if options.verbose else served)
     return 0
 
@@ -187,7 +188,8 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
         evaluated = focus_evaluation.judge(done, progress_bar("plate"))
     if evaluated.left_out:
         tell(f"interrupted: {evaluated.left_out} emissions are not in the figures of the foci")
-    figures = {"link": options.link or "model", "bank": str(bank.path)} | run_figures.report(done, evaluated.foci)
+    asked = {"link": options.link or "model", "bank": str(bank.path), "memory": memory_fit(board).in_words()}
+    figures = asked | run_figures.report(done, evaluated.foci)
     for warning in figures["warnings"]:
         tell(warning)
     figures["warnings"] = [*overdone, *figures["warnings"]]

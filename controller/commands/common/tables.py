@@ -26,6 +26,7 @@ def run_table(figures: dict[str, Any]) -> str:
         f"{figures['emissions']} emissions from {figures['triggers']} triggers ({figures['uploads']} uploads, "
         f"{figures['resident']} resident), {figures['bytes_sent']:,} bytes sent, {figures['heartbeats']} heartbeats",
         f"bank: {figures['bank']}",
+        figures["memory"],
         f"gateware: {figures['link']}, {_number(figures['gateware_speed'])} × real time",
         "ended with outputs " + ("off" if figures["outputs_off"] else "ON"),
         *_became(figures),
@@ -98,6 +99,7 @@ def service_table(figures: dict[str, Any]) -> str:
         f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} "
         f"resident, {figures['scheduled']} at a time given to the FPGA), {figures['heartbeats']} heartbeats",
         f"bank: {figures['bank']}",
+        figures["memory"],
         f"at the end: {figures['state']}" + (f" ({figures['cause']})" if figures["cause"] else ""),
         f"outputs were off for {_number(figures['outputs_off_s'])} s: {figures['host_silent']} stalls of this host, "
         f"{figures['outages']} other outages" + (f", the last: {figures['outage']}" if figures["outage"] else ""),

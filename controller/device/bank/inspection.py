@@ -12,6 +12,7 @@ import numpy as np
 
 from controller.device.bank.file_format import Header, Section, header_length, parse
 from controller.device.bank.grid import Grid
+from controller.device.bank.memory import memory_fit
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.kernel import unpack_loads
@@ -143,7 +144,7 @@ def wrong_pitch(bank: Bank, board: Board) -> str:
             return ""
         return f"it was not chosen for {', '.join(f'compose.{name} = {value}' for name, value in bounds_of(board).items())}"
     if bank.header.compact:
-        return "it is compact, as compose.method chose"
+        return "" if memory_fit(board).compact else "it is compact, as compose.method chose"
     if not bank.composes:
         return "it holds no responses, as compose.method = auto chose"
     if bank.grid == Grid.of(board.plate, board.bank.pitch_mm * 1e-3):

@@ -322,18 +322,21 @@ class Compose(Record, frozen=True):
     """How waveforms for places between cells come about: as `bank` says, or as `bank build` chooses for the scene.
 
     Attributes:
-    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: the smallest bank that keeps the bounds, compact or
-        not, with responses or not; `compact`: a twentieth of the size, for boards of little memory.
+    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are, or a compact bank where that one would take more than a
+        quarter of the memory; `auto`: the smallest bank that keeps the bounds, compact or not, with responses or not, but the
+        compact one where all others would take more than that; `compact`: a twenty-fifth of the size.
     max_error: Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
     max_time_us: Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel
         on the machine of the benchmark.
     max_bank_mb: Bound of the size of the bank's file, in MB of 10^6 bytes; without it there is none.
+    memory_mb: Memory of the machine that plays, in MB of 10^6 bytes; without it, that of the machine that asks.
     """
 
     method: Literal["bank", "auto", "compact"] = "bank"
     max_error: Annotated[float, Meta(gt=0, le=1)] = 0.1
     max_time_us: Annotated[float, Meta(gt=0, le=10e3)] = 500.0
     max_bank_mb: Annotated[float, Meta(gt=0, le=100e3)] | None = None
+    memory_mb: Annotated[float, Meta(gt=0, le=10e6)] | None = None
 
 
 class Limits(Record, frozen=True):

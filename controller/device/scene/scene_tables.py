@@ -21,7 +21,7 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
     effects: Names of effects of the library or of the scene's own [effects.NAME], or tables with the keys of [effects.NAME].
     amplitude: Factor of the amplitudes of its effects.
     policy: `compose`: what it plays is composed with what is due elsewhere; `alternate`: it is played alone, at full amplitude.
-    nulled: `others`: while its effects play for a finger, up to four other fingers on the glass, 5 mm away or more, are kept still,
+    nulled: `others`: while its effects play for a finger, up to four other fingers on the glass, 9 mm away or more, are kept still,
         for some percent of the amplitude. Not for fixed emitters.
     keep_armed: The first touch in it is felt at once: the board's `idle_disarm_s` has no effect on this scene.
     """

@@ -52,6 +52,8 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
         if isinstance(error.__cause__, PermissionError):  # whoever may not read it is not to replace it
             raise
         return Fit(str(error).removeprefix(f"{path}: ").partition("; rebuild it")[0], cells)
+    if len(there) != len(cells):
+        return Fit("its cells are others", cells)
     missing = int((cells & ~there).sum())
     return Fit(f"it lacks {missing} cells" if missing else "", cells | there)
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
+from controller.device.bank.memory import memory_fit
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.loop.fixed_emitters import needs_responses
@@ -28,7 +29,7 @@ from controller.workshop.bank_builder.compact.design import PITCHES, CompactDesi
 from controller.workshop.bank_builder.interpolation_error import DIGITS, InterpolationError, interpolation_error
 from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-from controller.workshop.physics.responses.loaded_responses import words_source
+from controller.workshop.physics.responses.loaded_responses import words_source, yielding_alike
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 # On the paper's plate; on others they go with the length of its waves
@@ -64,7 +65,8 @@ class Setting:
 def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource | None = None) -> list[Setting]:
     """All candidates for a scene. `margin_m` is as of `cells_needed`; responses come from the board's plate model by default."""
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
-    source, scale = words_source(board, source or ResponseModel(board)), wave_scale(board)
+    bare, scale = source or ResponseModel(board), wave_scale(board)
+    source = words_source(board, bare)
     alone = not needs_responses(scene, scale) and board.application_socket is None
     ready = alone and len(scene.emitters) > 1 and not any(region.felt for region in scene.regions)  # all composed beforehand
     evaluated: list[tuple[Grid, np.ndarray[Any, np.dtype[np.bool_]], InterpolationError]] = []
@@ -95,7 +97,7 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
             worst = round(max(between, of_cells(snap_mm * 1e-3)), DIGITS)
             found.append(Setting(pitch_mm, snap_mm, True, worst, time_us, lone_us, _bytes(board, grid, cells, composes=True)))
     if board.compose.method == "compact" or not alone:
-        found += _compact_settings(board, scene, source)
+        found += _compact_settings(board, scene, words_source(yielding_alike(board), bare))
     return [one for one in found if one.compact] if board.compose.method == "compact" else found
 
 
@@ -128,9 +130,20 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source
     front = [one for one in found if not any(one.beaten_by(other) for other in found)]
     bounds, most_bytes = board.compose, 1e6 * (board.compose.max_bank_mb or math.inf)
     kept = [one for one in front if one.error <= bounds.max_error and one.time_us <= bounds.max_time_us and one.bytes <= most_bytes]
+    memory = memory_fit(board)
+    small = [one for one in kept if one.compact or one.bytes <= memory.most_bytes]
+    if kept and not small:  # better late than from a bank that does not stay in memory
+        small = [one for one in found if one.compact and one.error <= bounds.max_error and one.bytes <= most_bytes]
+    kept = small or kept
     if not kept:
         raise ConfigError(_none(board, scene_file.name, found))
     best = min(kept, key=lambda one: (one.bytes, one.lone_us))
+    in_time = best.time_us <= bounds.max_time_us
+    then = (
+        f"and take at most {bounds.max_time_us:g} us"
+        if in_time
+        else f"though it takes {best.time_us:g} us: others take much memory"
+    )
     how = f"responses every {best.pitch_mm:g} mm, cells within {best.snap_mm:g} mm of a lone finger"
     if best.compact:
         how = f"a compact bank of the whole plate, cells every {best.pitch_mm:g} mm"
@@ -139,8 +152,7 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source
     return asdict(best) | {
         "asked": asked_of(board, scene_file),
         "scene": scene_file.name,
-        "why": f"{how}: the smallest of {len(kept)} settings on the front that lose at most {100 * bounds.max_error:g} %"
-        f" and take at most {bounds.max_time_us:g} us",
+        "why": f"{how}: the smallest of {len(kept)} settings on the front that lose at most {100 * bounds.max_error:g} % {then}",
         "front": [[one.pitch_mm, one.snap_mm if one.composes else None, one.error, one.lone_us, one.bytes] for one in front],
     }
 

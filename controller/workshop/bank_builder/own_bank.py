@@ -14,6 +14,7 @@ from controller.console import tell
 from controller.device.bank.grid import Grid
 from controller.device.bank.inspection import measured_at
 from controller.device.bank.lookup import find_bank
+from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
@@ -49,7 +50,8 @@ class Order:
     @property
     def own_path(self) -> Path:
         """Where `run` looks for such a bank."""
-        return bank_path(self.board, None if self.choice else self.pitch_m)
+        own = self.choice or (self.compact and memory_fit(self.board).compact)
+        return bank_path(self.board, None if own else self.pitch_m)
 
     @property
     def grid(self) -> Grid:
@@ -89,11 +91,16 @@ def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None =
     """The order of a bank: for the whole plate, or for the cells that a scene can reach.
 
     `scene_file` None: the whole plate; where the pitch is chosen, the board's own scene. `pitch_mm` None: the board's own or, where
-    its `compose.method` is not "bank", a chosen one. `compact`: a compact bank of the whole plate in any case. Raises ConfigError
-    if the pitch is too small, the scene is invalid, or no choice keeps the board's bounds.
+    its `compose.method` is not "bank", a chosen one. `compact`: a compact bank of the whole plate in any case; so is one that is
+    built without a pitch for a machine whose memory is too small for the board's own. Raises ConfigError if the pitch is too
+    small, the scene is invalid, or no choice keeps the board's bounds.
     """
     if not pitch_of(board, pitch_mm) >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
+    memory = memory_fit(board)
+    if memory.compact and pitch_mm is None and not compact:
+        tell(memory.in_words())
+        compact = True
     if compact:
         scene = load_scene(scene_file, board) if scene_file else None
         return Order(board, compact_pitch_m(board) if pitch_mm is None else pitch_mm * 1e-3, scene, scene_file, compact=True)
@@ -153,6 +160,9 @@ def warn_of_pitch(path: Path, report: BuildReport) -> None:
 
 def _wanted(board: Board, scene: Scene, scene_file: Path, path: Path) -> tuple[Order, Fit]:
     """What the scene needs, and whether the bank at `path` has it."""
+    if memory_fit(board).compact:
+        wanted = Order(board, compact_pitch_m(board), scene, scene_file, compact=True)
+        return wanted, fit(path, board, np.ones(wanted.grid.cells, bool))
     if board.compose.method == "bank":
         wanted = Order(board, board.bank.pitch_mm * 1e-3, scene, scene_file)
         return wanted, fit(path, board, reached(board, scene, wanted.pitch_m))

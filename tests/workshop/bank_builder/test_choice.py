@@ -3,23 +3,27 @@
 from dataclasses import replace
 
 import msgspec
+import numpy as np
 import pytest
 from tables import each_row
 
 from controller.device.bank.inspection import bounds_of, wrong_pitch
+from controller.device.bank.memory import memory_fit
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import ApplicationSocket
 from controller.device.board.lookup import find_board
+from controller.device.board.paths import bank_path
 from controller.device.loop.fixed_emitters import needs_responses
 from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import load_scene
 from controller.device.service.scenes.prepare_scene import populate
 from controller.errors import BankError, ConfigError
 from controller.workshop.bank_builder import choice as module
-from controller.workshop.bank_builder.bank_fit import choice_of
+from controller.workshop.bank_builder.bank_fit import choice_of, fit
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.choice import Setting, choose, settings
+from controller.workshop.bank_builder.own_bank import order
 from controller.workshop.bank_builder.request import BankRequest
 from tests.small_plate import small_board
 
@@ -73,6 +77,37 @@ def test_shipped_scenes_get_different_banks_for_a_reason(board):
         assert reported["error"] <= board.compose.max_error
         assert reported["time_us"] <= board.compose.max_time_us
         assert "the smallest of" in reported["why"]
+
+
+def test_a_board_without_the_memory_for_its_full_bank_gets_a_compact_one(tmp_path):
+    board = small_board()
+    full = memory_fit(board, 1).full_bytes
+    assert full == build_bank(BankRequest(board, tmp_path / "full")).bytes
+    for memory_bytes, compact in ((3.99 * full, True), (4.01 * full, False)):
+        assert memory_fit(board, round(memory_bytes)).compact == compact
+        given = msgspec.structs.replace(board, compose=msgspec.structs.replace(board.compose, memory_mb=memory_bytes / 1e6))
+        wanted = order(given)
+        assert (wanted.compact, wanted.own_path) == (compact, bank_path(given))
+        assert ("too much: the board's is a compact one" in memory_fit(given).in_words()) == compact
+        assert not order(given, pitch_mm=3.0).compact, "asked for"
+    small = msgspec.structs.replace(board, compose=msgspec.structs.replace(board.compose, memory_mb=1.0))
+    order(small).build(tmp_path / "bank")
+    with Bank.open(tmp_path / "bank", small) as bank:
+        assert (wrong_pitch(bank, small), wrong_pitch(bank, board)) == ("", "it is compact, as compose.method chose")
+    assert fit(tmp_path / "bank", board, np.ones(3, bool)).reason
+
+
+def test_auto_rather_takes_long_than_more_than_the_memory_suits(monkeypatch, tmp_path):
+    quick = Setting(4.0, 1.0, True, 0.05, 400.0, 6.0, 80_000_000)
+    small = Setting(4.1, 0.0, True, 0.02, 550.0, 12.0, 8_000_000, compact=True)
+    monkeypatch.setattr(module, "settings", lambda *_: [quick, small])
+    file = tmp_path / "keys.toml"
+    file.write_text(KEYS)
+    for memory_mb, best in ((321.0, quick), (319.0, small)):
+        board = auto(small_board(), memory_mb=memory_mb)
+        found = choose(board, load_scene(file, board), file, MARGIN_M)
+        assert found["pitch_mm"] == best.pitch_mm
+        assert ("though it takes 550 us: others take much memory" in found["why"]) == best.compact
 
 
 def test_the_choice_is_the_smallest_on_the_front_within_all_bounds(monkeypatch, tmp_path):
