@@ -92,8 +92,15 @@ def test_an_exported_histogram_has_every_record_below_its_upper_bound(durations_
 
 
 def test_the_table_of_a_service_says_how_it_ended():
-    said = {"board": "panel", "bank": "panel.bank", "state": "waiting for FPGA", "cause": "there is no serial port", "warnings": []}
+    said = {
+        "board": "panel",
+        "bank": "panel.bank",
+        "memory": "memory: 8 GB",
+        "state": "waiting for FPGA",
+        "cause": "there is no serial port",
+        "warnings": [],
+    }
     said["touch"] = {"plausibility": figures(TouchCounts(), {})}
     table = service_table(Counters().export() | said)
-    assert "at the end: waiting for FPGA (there is no serial port)\n" in table
+    assert "bank: panel.bank\nmemory: 8 GB\nat the end: waiting for FPGA (there is no serial port)\n" in table
     assert "at the end: armed\n" in service_table(Counters().export() | said | {"state": "armed", "cause": ""})

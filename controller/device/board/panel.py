@@ -322,9 +322,8 @@ class Compose(Record, frozen=True):
     """How waveforms for places between cells come about: as `bank` says, or as `bank build` chooses for the scene.
 
     Attributes:
-    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are, or a compact bank where that one would take more than a
-        quarter of the memory; `auto`: the smallest bank that keeps the bounds, compact or not, with responses or not, but the
-        compact one where all others would take more than that; `compact`: a twenty-fifth of the size.
+    method: `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: the smallest bank that keeps the bounds; `compact`: a
+        twenty-fifth of the size. Banks of more than a quarter of the memory become compact.
     max_error: Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
     max_time_us: Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel
         on the machine of the benchmark.
