@@ -3,15 +3,17 @@
 An amplitude is a share of what the same point would get if all points were composed at full amplitude. The ratio of the weights
 sets the ratio of the amplitudes; their common level is set by leaving bits at idle where `S` is weak against the mean of its
 absolute value in the same block of samples and the same channel. Both are found by measuring: the displacement at a point is
-linear in the bits, an inner product of them with the point's response, in the band and outside it.
+linear in the bits, an inner product of them with the point's response, in the band and outside it. A few rounds come near what is
+wanted. What is left is mended bit by bit: bits whose sum is next to its threshold are flipped, those of the last samples first, as
+they move most, wherever all errors together become smaller by at least half of what a flip could take from them.
 
 Full amplitude is the level that all points have together: the mean of their shares, weighed as they are, which is next to the
 largest share that all can have. A point whose share in the band differs by more than an eighth has its own, since its neighbours
 move it.
 
 Points that are near move together. Where responses are more than half alike (correlation of the sketches), points are one place,
-and none is asked for more than the least of them; soon below that each has its own. What is too much after the last
-round is lowered together with all others.
+and none is asked for more than the least of them; soon below that each has its own. What is too much in the end is lowered together
+with all others.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.kernel.polarity_twin import product
@@ -32,10 +35,12 @@ Numbers = NDArray[Any]
 # in units of the mean of its absolute value over 96 us: median over 120 points of the simulated board.
 THRESHOLDS: Final = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
 SHARES: Final = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
-MAX_ROUNDS: Final = 6  # of measuring what the bits give; most emissions need two or three. If none is good, the best one is played
+MAX_ROUNDS: Final = 3  # of measuring what the bits give; the best one is mended
 MAX_LOWERINGS: Final = 3  # behind them
 TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
-TOLERANCE: Final = 0.01  # of an amplitude: well below a step
+NEARLY: Final = 0.03  # error of an amplitude that is left to flips
+CLOSE: Final = 0.002  # error at which they end
+SWEEPS: Final = 2  # over the bits that may be flipped
 
 
 class Solution:
@@ -56,50 +61,70 @@ class Solution:
         self._strength = points.strength(self._sum)
 
     def bits(self, wanted: list[float]) -> Numbers:
-        """The bits; those of the last round, which meets what is wanted or is as near as they came."""
-        weights = best = self._asked
-        before: tuple[list[float], list[float]] | None = None
-        gain, least = 0.0, math.inf
-        for turn in range(MAX_ROUNDS + MAX_LOWERINGS):
-            norm = math.sqrt(product(weights, weights)) or self._first_norm
-            bits = self._weigh(weights, norm, again=turn > 0)
-            if turn == MAX_ROUNDS + MAX_LOWERINGS - 1:
+        """The bits, which give what is wanted or as near to it as they come."""
+        weights, measured = self._nearest(wanted)
+        if min(measured) < 0:
+            weights, measured = self._asked, []
+        for lowering in range(MAX_LOWERINGS + 1):
+            bits, threshold = self._weigh(weights, again=True)
+            if not measured:
+                measured, _ = self._points.measured(bits, self._divisors)
+            near = self._points.near(self._sum, self._strength, threshold)
+            most = self._flip(bits, near, wanted, measured)
+            if most <= TOO_MUCH or lowering == MAX_LOWERINGS:
                 break
-            measured, _ = self._points.measured(bits, self._divisors)
-            if all(abs(want - got) <= TOLERANCE * want for want, got in zip(wanted, measured, strict=True)):
-                break
-            gain = gain or product(measured, weights) / (norm * norm)
-            if not gain > 0:
-                break
-            error = max(abs(want - got) / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
-            if turn < MAX_ROUNDS and error < least:
-                least, best = error, weights
-            if turn == MAX_ROUNDS - 1 and error > least:
-                weights = best
-            elif turn >= MAX_ROUNDS - 1:
-                lowered = self._lowered(weights, wanted, measured)
-                if lowered is None:
-                    break
-                weights = lowered
-            else:
-                residuals = [(want - got) / gain for want, got in zip(wanted, measured, strict=True)]
-                before, weights = (weights, residuals), _next_weights(weights, residuals, before)
+            weights, wanted, measured = [one / most for one in weights], [one / most for one in wanted], []
         return bits
 
-    def _weigh(self, weights: list[float], norm: float, *, again: bool) -> Numbers:
-        """Bits of these weights, whose Euclidean norm is given; the sum of a single point stays as it is."""
+    def _nearest(self, wanted: list[float]) -> tuple[list[float], list[float]]:
+        """Weights that come next to what is wanted in some rounds, and what their bits give."""
+        weights = best = self._asked
+        best_measured: list[float] = []
+        before: tuple[list[float], list[float]] | None = None
+        gain, least = 0.0, math.inf
+        for turn in range(MAX_ROUNDS):
+            bits, _ = self._weigh(weights, again=turn > 0)
+            measured, _ = self._points.measured(bits, self._divisors)
+            error = max(abs(want - got) / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
+            if not turn or error < least:
+                least, best, best_measured = error, weights, measured
+            if error <= NEARLY:
+                break
+            gain = gain or product(measured, weights) / product(weights, weights)
+            if not gain > 0:
+                break
+            residuals = [(want - got) / gain for want, got in zip(wanted, measured, strict=True)]
+            before, weights = (weights, residuals), _next_weights(weights, residuals, before)
+        return best, best_measured
+
+    def _weigh(self, weights: list[float], *, again: bool) -> tuple[Numbers, float]:
+        """Bits of these weights, and their threshold; the sum of a single point stays as it is."""
+        norm = math.sqrt(product(weights, weights)) or self._first_norm
         if again and len(weights) > 1:
             scaled = [weight * self._first_norm / norm for weight in weights]
             self._sum, self._unit = self._points.weighted(_products(self._balance, scaled), self._divisors)
         threshold = masking_threshold(norm / math.sqrt(len(weights))) * (self._unit / self._first_unit)
-        return self._points.masked(self._sum, self._strength, threshold)
+        return self._points.masked(self._sum, self._strength, threshold), threshold
 
-    def _lowered(self, weights: list[float], wanted: list[float], measured: list[float]) -> list[float] | None:
-        """Weights of all points lowered together, where one gets too much; None where none does."""
-        most = max(got / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
-        if min(measured) < 0:
-            return self._asked
-        return [weight / most for weight in weights] if most > TOO_MUCH else None
+    def _flip(self, bits: Numbers, near: Numbers, wanted: list[float], measured: list[float]) -> float:
+        """Flip some of the bits that are `near`; the largest share that a point then gets of what is wanted."""
+        units, missing = [], []
+        for want, got, divisor in zip(wanted, measured, self._divisors, strict=True):
+            units.append(1 / (divisor * want) if want > 0 else 0.0)
+            missing.append((want - got) / want if want > 0 else 0.0)
+        places = np.argwhere(near)[::-1]
+        values = self._points.moved_by(places).tolist()
+        places = places.tolist()
+        for _ in range(SWEEPS):
+            for (sample, channel), value in zip(places, values, strict=True):
+                if max(map(abs, missing)) <= CLOSE:
+                    break
+                sense = -1.0 if bits[sample, channel] else 1.0
+                change = [sense * one * unit for one, unit in zip(value, units, strict=True)]
+                if product(missing, change) > product(change, change):
+                    bits[sample, channel] ^= True
+                    missing = [left - one for left, one in zip(missing, change, strict=True)]
+        return max(1 - left for left in missing)
 
 
 def _next_weights(weights: list[float], residuals: list[float], before: tuple[list[float], list[float]] | None) -> list[float]:

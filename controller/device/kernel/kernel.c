@@ -51,13 +51,15 @@ enum {
     SKETCH_SHIFT = 4,
     PRODUCT_BITS = 30,
     THRESHOLD_BITS = 24,
-    MAX_ROUNDS = 6,
+    NEAR_LEVEL_SHIFT = 3,
+    MAX_ROUNDS = 3,
     MAX_LOWERINGS = 3,
+    FLIP_SWEEPS = 2,
     ROW = GROUP_SAMPLES * CHANNELS, /* values that are worked on at a time */
     RESTS = GROUP_SAMPLES / REST_SAMPLES * CHANNELS, /* and their rest outside the band */
     LINE_BYTES = 64,
 };
-static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8;
+static const double NEARLY = 0.03, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
@@ -122,8 +124,9 @@ struct work {
     int64_t values, rests, rows, block_rows, blocks; /* values of a response in the band, outside it; rows of eight samples, in a block too; blocks */
     uint32_t idle_word;
     int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
-    int32_t *strength, *threshold; /* of each block and channel */
+    int32_t *strength, *threshold, *near_low, *near_high; /* of each block and channel; between the last two, sums are near their threshold */
     int16_t *threshold_of_one;
+    uint32_t *near; /* of each sample: channels whose sums are near their threshold */
     int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response */
     int64_t sketch_rows; /* of eight samples */
     uint32_t *words;
@@ -148,15 +151,14 @@ INLINE ushorts at_even(ushorts levels) { return (ushorts)((shorts)(levels << 8) 
 
 /* Halves of 16 bits, all ones or zero, to the bits of 16 channels. */
 INLINE uint32_t bits_of(ushorts even, ushorts odd) {
+    ushorts lower = (ushorts){0} + 0xff, bytes = (even & lower) | (odd & ~lower);
 #ifdef __SSE2__
-    __m128i bytes = _mm_packs_epi16((__m128i)even, (__m128i)odd);
-    return (uint32_t)_mm_movemask_epi8(_mm_unpacklo_epi8(bytes, _mm_srli_si128(bytes, 8)));
+    return (uint32_t)_mm_movemask_epi8((__m128i)bytes);
 #else
-    ushorts ones = {1, 1, 1, 1, 1, 1, 1, 1};
     union {
         ushorts vector;
         uint64_t eight[2];
-    } bits = {.vector = (even & ones) | (odd & (ones << 8))};
+    } bits = {.vector = bytes & 0x0101};
     uint64_t packing = 0x0102040810204080u; /* moves the lowest bits of eight bytes to the highest byte */
     return (uint32_t)(bits.eight[0] * packing >> 56 | bits.eight[1] * packing >> 56 << 8);
 #endif
@@ -465,32 +467,54 @@ APART void compose_one(struct work *work, const struct patch *patch) {
     }
 }
 
-APART void weigh_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
-    for (int i = 0; i < ROW; i++) sum[i] = p * a[i];
-}
-
-APART void weigh_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
-    for (int i = 0; i < ROW; i++) sum[i] = p * a[i] + q * b[i];
-}
-
-APART void add_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
-    for (int i = 0; i < ROW; i++) sum[i] += p * a[i];
-}
-
 APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
     for (int i = 0; i < ROW; i++) sum[i] += p * a[i] + q * b[i];
 }
 
-/* Sums of eight samples from value `at` on. */
-INLINE void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
-    int row = 2;
-    if (count == 1)
-        weigh_one(sum, response[0] + at, weight[0]);
-    else
-        weigh_two(sum, response[0] + at, response[1] + at, weight[0], weight[1]);
-    for (; row + 1 < count; row += 2) add_two(sum, response[row] + at, response[row + 1] + at, weight[row], weight[row + 1]);
-    if (row < count) add_one(sum, response[row] + at, weight[row]);
+#ifdef __SSE2__
+/* Sums of eight samples: responses in pairs, of which one instruction makes products and their sum. */
+INLINE void add_pairs(int pairs, int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+    const int16_t *one[(MAX_FOCI + 1) / 2], *other[(MAX_FOCI + 1) / 2];
+    __m128i weights[(MAX_FOCI + 1) / 2];
+    for (int pair = 0; pair < pairs; pair++) {
+        int second = 2 * pair + 1 < count;
+        one[pair] = response[2 * pair] + at;
+        other[pair] = response[2 * pair + second] + at;
+        weights[pair] = _mm_set1_epi32((int)((uint16_t)weight[2 * pair] | (second ? (uint32_t)(uint16_t)weight[2 * pair + 1] << 16 : 0)));
+    }
+    for (int i = 0; i < ROW; i += 8) {
+        __m128i low = _mm_setzero_si128(), high = low;
+        for (int pair = 0; pair < pairs; pair++) {
+            __m128i a = (__m128i)load(one[pair] + i), b = (__m128i)load(other[pair] + i);
+            low = _mm_add_epi32(low, _mm_madd_epi16(_mm_unpacklo_epi16(a, b), weights[pair]));
+            high = _mm_add_epi32(high, _mm_madd_epi16(_mm_unpackhi_epi16(a, b), weights[pair]));
+        }
+        store(sum + i, (ushorts)low);
+        store(sum + i + 4, (ushorts)high);
+    }
 }
+
+APART void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+    switch ((count + 1) / 2) {
+    case 1: add_pairs(1, count, response, weight, at, sum); break;
+    case 2: add_pairs(2, count, response, weight, at, sum); break;
+    case 3: add_pairs(3, count, response, weight, at, sum); break;
+    case 4: add_pairs(4, count, response, weight, at, sum); break;
+    default: add_pairs(5, count, response, weight, at, sum);
+    }
+}
+#else
+APART void add_times(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
+    for (int i = 0; i < ROW; i++) sum[i] += p * a[i];
+}
+
+static void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+    memset(sum, 0, ROW * sizeof *sum);
+    int row = 0;
+    for (; row + 1 < count; row += 2) add_two(sum, response[row] + at, response[row + 1] + at, weight[row], weight[row + 1]);
+    if (row < count) add_times(sum, response[row] + at, weight[row]);
+}
+#endif
 
 /* Where sums are above their threshold: -1, else 0. */
 APART void compare(int16_t *restrict above, const int32_t *restrict sum, const int32_t *restrict threshold) {
@@ -528,11 +552,29 @@ APART void add_strength(int32_t *restrict strength, const int32_t *restrict sum,
         }
 }
 
+/* Bits of a sample's channels. */
+INLINE uint32_t word_of(const int16_t *above) {
+    return bits_of(load(above), load(above + 8)) | bits_of(load(above + 16), load(above + 24)) << 16;
+}
+
 INLINE void write_words(const struct work *work, int64_t at, int samples, const int16_t *above) {
-    for (int sample = 0; sample < samples; sample++, above += CHANNELS) {
-        uint32_t low = bits_of(load(above), load(above + 8)), high = bits_of(load(above + 16), load(above + 24));
-        work->words[at / CHANNELS + sample] = (low | high << 16) ^ work->idle_word;
-    }
+    for (int sample = 0; sample < samples; sample++)
+        work->words[at / CHANNELS + sample] = word_of(above + CHANNELS * sample) ^ work->idle_word;
+}
+
+/* Where sums are above one bound and not above another. */
+APART void compare_both(int16_t *restrict between, const int32_t *restrict sum, const int32_t *restrict low, const int32_t *restrict high) {
+    for (int sample = 0; sample < GROUP_SAMPLES; sample++)
+        for (int i = 0; i < CHANNELS; i++) {
+            int32_t value = sum[CHANNELS * sample + i];
+            between[CHANNELS * sample + i] = (int16_t)-((value > low[i]) & !(value > high[i]));
+        }
+}
+
+static void note_near(const struct work *work, int64_t at, int samples, const int32_t *sum, int64_t block) {
+    int16_t between[ROW];
+    compare_both(between, sum, work->near_low + block, work->near_high + block);
+    for (int sample = 0; sample < samples; sample++) work->near[at / CHANNELS + sample] = word_of(between + CHANNELS * sample);
 }
 
 /* ---- words: weights and thresholds ---- */
@@ -566,9 +608,9 @@ static double whole_weights(const struct work *work, const double *weights, int1
     return unit;
 }
 
-enum { WRITE = 1, MEASURE = 2, STRENGTH = 4 };
+enum { WRITE = 1, MEASURE = 2, STRENGTH = 4, NEAR = 8 };
 
-/* Where the weighted sum is above its threshold: the words, what they give at each point, the strength of the sum. */
+/* Where the weighted sum is above its threshold: the words, what they give at each point, the strength of the sum, what is near. */
 static void pass(struct work *work, const int16_t *weight, int to_do) {
     int32_t sum[ROW];
     int16_t above[ROW], count[RESTS];
@@ -576,8 +618,9 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
     for (int64_t row = 0; row < work->rows; row++) {
         int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
         int samples = left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES;
-        if (work->count > 1 || to_do & STRENGTH) add_up(work->count, work->response, weight, at, sum);
+        if (work->count > 1 || to_do & (STRENGTH | NEAR)) add_up(work->count, work->response, weight, at, sum);
         if (to_do & STRENGTH) add_strength(work->strength + block, sum, samples);
+        if (to_do & NEAR) note_near(work, at, samples, sum, block);
         if (!(to_do & (WRITE | MEASURE))) continue;
         if (work->count > 1)
             compare(above, sum, work->threshold + block);
@@ -594,90 +637,164 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
             outside[i] -= inner_product(work->rest[i] + row * RESTS, count, RESTS);
         }
     }
+    if (!(to_do & MEASURE)) return;
     for (int i = 0; i < work->count; i++) {
         work->in_band[i] = (double)in_band[i] / work->divisor[i];
         work->measured[i] = (double)(in_band[i] + outside[i]) / work->divisor[i];
     }
 }
 
-static void set_threshold(struct work *work, double threshold) {
+/* A threshold in local strengths, as a factor of those. */
+static int64_t whole_scale(const struct work *work, double threshold) {
     double scale = threshold / (double)(work->block_rows * GROUP_SAMPLES) * (1 << THRESHOLD_BITS);
-    int64_t whole = scale < INT32_MAX ? (int64_t)nearest(scale) : INT32_MAX;
+    return scale < INT32_MAX ? (int64_t)nearest(scale) : INT32_MAX;
+}
+
+INLINE int32_t level_of(int32_t strength, int64_t whole) {
+    int64_t scaled = strength * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT);
+    return scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+}
+
+static void set_threshold(struct work *work, double threshold) {
+    int64_t whole = whole_scale(work, threshold);
     for (int64_t i = 0; i < work->blocks * CHANNELS; i++) {
-        int64_t scaled = work->strength[i] * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT);
-        work->threshold[i] = scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+        work->threshold[i] = level_of(work->strength[i], whole);
         if (work->count > 1) continue;
         int32_t of_one = work->threshold[i] / POINT_WEIGHT_SUM; /* its only point has all of the weight */
         work->threshold_of_one[i] = of_one < INT16_MAX ? (int16_t)of_one : INT16_MAX;
     }
 }
 
-/* Words that give what is wanted; `weight` are whole weights next to what is asked times `first_unit`, of whose sum the strength is. */
-static void solve(struct work *work, const double *asked, int16_t *weight, double first_unit) {
+static void set_near(struct work *work) {
+    int64_t whole = whole_scale(work, NEAR_STRENGTHS);
+    for (int64_t i = 0; i < work->blocks * CHANNELS; i++) {
+        int64_t level = work->threshold[i], aside = (level >> NEAR_LEVEL_SHIFT) + level_of(work->strength[i], whole);
+        work->near_low[i] = level - aside > INT32_MIN ? (int32_t)(level - aside) : INT32_MIN;
+        work->near_high[i] = level + aside < INT32_MAX ? (int32_t)(level + aside) : INT32_MAX;
+    }
+}
+
+/* Whole weights and thresholds of weights; first ones: of those whose sum the strength is, with their unit. */
+static void weigh(struct work *work, const double *now, const double *first, double first_unit, int again, int16_t *weight) {
+    double scaled[MAX_FOCI], unit = first_unit, first_norm = sqrt(product(first, first, work->count));
+    double norm = sqrt(product(now, now, work->count));
+    if (norm == 0) norm = first_norm;
+    if (again && work->count > 1) {
+        for (int i = 0; i < work->count; i++) scaled[i] = now[i] * first_norm / norm;
+        unit = whole_weights(work, scaled, weight);
+    }
+    set_threshold(work, masking_threshold(norm / sqrt(work->count)) * (unit / first_unit));
+}
+
+/* Add what is missing to the weights; from the second turn on by Anderson acceleration of depth one. */
+static void step(const struct work *work, double gain, int turn, double *now, double *before, double *residual_before) {
     int count = work->count;
-    double now[MAX_FOCI], before[MAX_FOCI], residual[MAX_FOCI], residual_before[MAX_FOCI], scaled[MAX_FOCI], best[MAX_FOCI];
+    double residual[MAX_FOCI], change[MAX_FOCI], mixing = 0;
+    for (int i = 0; i < count; i++) {
+        residual[i] = (work->wanted[i] - work->measured[i]) / gain;
+        change[i] = residual[i] - residual_before[i];
+    }
+    if (turn) {
+        double squared = product(change, change, count);
+        mixing = squared > 0 ? product(residual, change, count) / squared : 0;
+    }
+    for (int i = 0; i < count; i++) {
+        double further = now[i] + residual[i], old = before[i] + residual_before[i];
+        before[i] = now[i];
+        residual_before[i] = residual[i];
+        now[i] = turn ? further + mixing * (old - further) : further;
+    }
+}
+
+/* Weights that come next to what is wanted in some rounds, in the place of `best`, which are asked for; and what they give. */
+static void come_near(struct work *work, const double *asked, int16_t *weight, double first_unit, double *best) {
+    double now[MAX_FOCI], before[MAX_FOCI], residual_before[MAX_FOCI], best_measured[MAX_FOCI];
     double gain = 0, least_error = INFINITY;
-    double unit = first_unit, first_norm = sqrt(product(asked, asked, count));
     memcpy(now, asked, sizeof now);
     memcpy(before, asked, sizeof before);
     memcpy(residual_before, asked, sizeof residual_before);
-    for (int turn = 0; turn < MAX_ROUNDS + MAX_LOWERINGS; turn++) {
-        double norm = sqrt(product(now, now, count));
-        if (norm == 0) norm = first_norm;
-        if (turn && count > 1) {
-            for (int i = 0; i < count; i++) scaled[i] = now[i] * first_norm / norm;
-            unit = whole_weights(work, scaled, weight);
-        }
-        set_threshold(work, masking_threshold(norm / sqrt(count)) * (unit / first_unit));
-        int last = turn == MAX_ROUNDS + MAX_LOWERINGS - 1, reached = 1;
-        pass(work, weight, last ? WRITE : WRITE | MEASURE);
-        if (last) return;
-        for (int i = 0; i < count; i++) reached = reached && fabs(work->wanted[i] - work->measured[i]) <= TOLERANCE * work->wanted[i];
-        if (reached) return;
-        if (gain == 0) gain = product(work->measured, now, count) / (norm * norm);
-        if (!(gain > 0)) return;
+    for (int turn = 0; turn < MAX_ROUNDS; turn++) {
+        weigh(work, now, asked, first_unit, turn, weight);
+        pass(work, weight, MEASURE);
         double error = 0;
-        for (int i = 0; i < count; i++) {
+        for (int i = 0; i < work->count; i++) {
             double off = work->wanted[i] > 0 ? fabs(work->wanted[i] - work->measured[i]) / work->wanted[i] : 0;
             if (off > error) error = off;
         }
-        if (turn < MAX_ROUNDS && error < least_error) {
+        if (!turn || error < least_error) {
             least_error = error;
-            memcpy(best, now, sizeof best);
+            memcpy(best, now, sizeof now);
+            memcpy(best_measured, work->measured, sizeof best_measured);
         }
-        if (turn == MAX_ROUNDS - 1 && error > least_error) {
-            memcpy(now, best, sizeof now);
-            continue;
-        }
-        if (turn >= MAX_ROUNDS - 1) {
-            double most = 0, least = INFINITY;
-            for (int i = 0; i < count; i++) {
-                double share = work->wanted[i] > 0 ? work->measured[i] / work->wanted[i] : 0;
-                if (share > most) most = share;
-                if (work->measured[i] < least) least = work->measured[i];
+        if (error <= NEARLY) break;
+        if (gain == 0) gain = product(work->measured, now, work->count) / product(now, now, work->count);
+        if (!(gain > 0)) break;
+        step(work, gain, turn, now, before, residual_before);
+    }
+    memcpy(work->measured, best_measured, sizeof best_measured);
+}
+
+static double largest_size(const double *values, int count) {
+    double largest = fabs(values[0]);
+    for (int i = 1; i < count; i++)
+        if (fabs(values[i]) > largest) largest = fabs(values[i]);
+    return largest;
+}
+
+/* Flip a bit of a sample if errors, `missing`, become smaller by that. */
+INLINE int flip_one(struct work *work, int64_t sample, int channel, const double *unit, double *missing) {
+    int lane = (channel & 16) + (channel & 1) * 8 + (channel & 15) / 2, down = (work->words[sample] ^ work->idle_word) >> channel & 1;
+    double change[MAX_FOCI], gained = 0, size = 0;
+    for (int i = 0; i < work->count; i++) {
+        int value = work->response[i][sample * CHANNELS + lane] + work->rest[i][sample / REST_SAMPLES * CHANNELS + lane];
+        change[i] = (down ? -value : value) * unit[i];
+        gained += missing[i] * change[i];
+        size += change[i] * change[i];
+    }
+    if (!(gained > size)) return 0;
+    work->words[sample] ^= 1u << channel;
+    for (int i = 0; i < work->count; i++) missing[i] -= change[i];
+    return 1;
+}
+
+/* Flip some of the bits that are near their threshold; returns the largest share that a point then gets of what is wanted. */
+static double flip_near(struct work *work) {
+    double unit[MAX_FOCI], missing[MAX_FOCI];
+    for (int i = 0; i < work->count; i++) {
+        unit[i] = work->wanted[i] > 0 ? 1 / (work->divisor[i] * work->wanted[i]) : 0;
+        missing[i] = work->wanted[i] > 0 ? (work->wanted[i] - work->measured[i]) / work->wanted[i] : 0;
+    }
+    int close = largest_size(missing, work->count) <= CLOSE;
+    for (int sweep = 0; sweep < FLIP_SWEEPS && !close; sweep++)
+        for (int64_t sample = work->values / CHANNELS - 1; sample >= 0 && !close; sample--)
+            for (uint32_t left = work->near[sample]; left && !close;) {
+                int channel = 31 - __builtin_clz(left);
+                left ^= 1u << channel;
+                if (flip_one(work, sample, channel, unit, missing)) close = largest_size(missing, work->count) <= CLOSE;
             }
-            if (least < 0)
-                memcpy(now, asked, sizeof now);
-            else if (most > TOO_MUCH)
-                for (int i = 0; i < count; i++) now[i] /= most;
-            else
-                return;
-            continue;
-        }
-        double change[MAX_FOCI], mixing = 0;
-        for (int i = 0; i < count; i++) {
-            residual[i] = (work->wanted[i] - work->measured[i]) / gain;
-            change[i] = residual[i] - residual_before[i];
-        }
-        if (turn) {
-            double squared = product(change, change, count);
-            mixing = squared > 0 ? product(residual, change, count) / squared : 0;
-        }
-        for (int i = 0; i < count; i++) {
-            double further = now[i] + residual[i], old = before[i] + residual_before[i];
-            before[i] = now[i];
-            residual_before[i] = residual[i];
-            now[i] = turn ? further + mixing * (old - further) : further;
+    double most = 1 - missing[0];
+    for (int i = 1; i < work->count; i++)
+        if (1 - missing[i] > most) most = 1 - missing[i];
+    return most;
+}
+
+/* Words that give what is wanted; `weight` are whole weights next to what is asked times `first_unit`, of whose sum the strength is. */
+static void solve(struct work *work, const double *asked, int16_t *weight, double first_unit) {
+    double now[MAX_FOCI];
+    int measured = 1;
+    come_near(work, asked, weight, first_unit, now);
+    for (int i = 0; i < work->count; i++) measured = measured && !(work->measured[i] < 0);
+    if (!measured) memcpy(now, asked, sizeof now);
+    for (int lowering = 0; lowering <= MAX_LOWERINGS; lowering++) {
+        weigh(work, now, asked, first_unit, 1, weight);
+        set_near(work);
+        pass(work, weight, measured ? WRITE | NEAR : WRITE | NEAR | MEASURE);
+        measured = 0;
+        double most = flip_near(work);
+        if (most <= TOO_MUCH) return;
+        for (int i = 0; i < work->count; i++) {
+            now[i] /= most;
+            work->wanted[i] /= most;
         }
     }
 }
@@ -1120,7 +1237,10 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
     for (int i = 0; i < count; i++, room += work->sketch_rows * ROW * (int64_t)sizeof(int16_t)) work->sketch[i] = (int16_t *)room;
     work->strength = (int32_t *)room;
     work->threshold = work->strength + work->blocks * CHANNELS;
-    work->threshold_of_one = (int16_t *)(work->threshold + work->blocks * CHANNELS);
+    work->near_low = work->threshold + work->blocks * CHANNELS;
+    work->near_high = work->near_low + work->blocks * CHANNELS;
+    work->near = (uint32_t *)(work->near_high + work->blocks * CHANNELS);
+    work->threshold_of_one = (int16_t *)(work->near + plan->samples);
 }
 
 enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, TABLES, BUFFERS };

@@ -51,6 +51,9 @@ Numbers = NDArray[Any]
 LEAST_AMPLITUDE: Final = 1 / 1024  # less is no displacement either, and quotients of it would leave the range of floats
 STRENGTH_SHIFT: Final = 8  # bits that absolute values of sums lose before they are added up
 THRESHOLD_BITS: Final = 24  # behind the point of a threshold
+# Sums are near a threshold within 1/8 of it and 1/32 of the local strength
+NEAR_LEVEL_SHIFT: Final = 3
+NEAR_STRENGTHS: Final = 1 / 32
 OWN_LEVEL: Final = 1 / 8  # difference from the common level from which on a point has its own
 
 
@@ -141,10 +144,27 @@ class _Composition:
 
     def masked(self, weighted: Numbers, strength: Numbers, threshold: float) -> Numbers:
         """Bits where a sum is above a threshold, in units of the local strength."""
+        bits: Numbers = weighted > self._level(strength, threshold)
+        return bits
+
+    def near(self, weighted: Numbers, strength: Numbers, threshold: float) -> Numbers:
+        """Bits whose sum is near a threshold, in units of the local strength."""
+        level = self._level(strength, threshold)
+        aside = (level >> NEAR_LEVEL_SHIFT) + self._level(strength, NEAR_STRENGTHS)
+        near: Numbers = (weighted > level - aside) & (weighted <= np.minimum(level + aside, LARGEST))
+        return near
+
+    def _level(self, strength: Numbers, threshold: float) -> Numbers:
         scale = threshold / self._block_samples * (1 << THRESHOLD_BITS)
         whole = round(scale) if scale < LARGEST else LARGEST
-        bits: Numbers = weighted > np.minimum(strength * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT), LARGEST)
-        return bits
+        level: Numbers = np.minimum(strength * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT), LARGEST)
+        return level
+
+    def moved_by(self, places: Numbers) -> Numbers:
+        """What bits at `places`, (bit, 2) of samples and channels, add at each point: (bit, point)."""
+        samples, channels = places.T
+        moved: Numbers = (self.in_band[:, samples, channels] + self.outside[:, samples // REST_SAMPLES, channels]).T
+        return moved
 
 
 def _wanted(asked: list[float], balance: list[float], measured: list[float], in_band: list[float]) -> list[float]:
