@@ -63,8 +63,6 @@ class Solution:
     def bits(self, wanted: list[float]) -> Numbers:
         """The bits, which give what is wanted or as near to it as they come."""
         weights, measured = self._nearest(wanted)
-        if min(measured) < 0:
-            weights, measured = self._asked, []
         for lowering in range(MAX_LOWERINGS + 1):
             bits, threshold = self._weigh(weights, again=True)
             if not measured:
@@ -85,10 +83,11 @@ class Solution:
         for turn in range(MAX_ROUNDS):
             bits, _ = self._weigh(weights, again=turn > 0)
             measured, _ = self._points.measured(bits, self._divisors)
-            error = max(abs(want - got) / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
-            if not turn or error < least:
-                least, best, best_measured = error, weights, measured
-            if error <= NEARLY:
+            errors = [(want - got) / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True)]
+            squares = product(errors, errors)
+            if not turn or squares < least:
+                least, best, best_measured = squares, weights, measured
+            if max(map(abs, errors)) <= NEARLY:
                 break
             gain = gain or product(measured, weights) / product(weights, weights)
             if not gain > 0:

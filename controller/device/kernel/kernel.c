@@ -706,39 +706,37 @@ static void step(const struct work *work, double gain, int turn, double *now, do
     }
 }
 
+static double largest_size(const double *values, int count) {
+    double largest = fabs(values[0]);
+    for (int i = 1; i < count; i++)
+        if (fabs(values[i]) > largest) largest = fabs(values[i]);
+    return largest;
+}
+
 /* Weights that come next to what is wanted in some rounds, in the place of `best`, which are asked for; and what they give. */
 static void come_near(struct work *work, const double *asked, int16_t *weight, double first_unit, double *best) {
     double now[MAX_FOCI], before[MAX_FOCI], residual_before[MAX_FOCI], best_measured[MAX_FOCI];
-    double gain = 0, least_error = INFINITY;
+    double gain = 0, least = 0;
     memcpy(now, asked, sizeof now);
     memcpy(before, asked, sizeof before);
     memcpy(residual_before, asked, sizeof residual_before);
     for (int turn = 0; turn < MAX_ROUNDS; turn++) {
         weigh(work, now, asked, first_unit, turn, weight);
         pass(work, weight, MEASURE);
-        double error = 0;
-        for (int i = 0; i < work->count; i++) {
-            double off = work->wanted[i] > 0 ? fabs(work->wanted[i] - work->measured[i]) / work->wanted[i] : 0;
-            if (off > error) error = off;
-        }
-        if (!turn || error < least_error) {
-            least_error = error;
+        double error[MAX_FOCI];
+        for (int i = 0; i < work->count; i++) error[i] = work->wanted[i] > 0 ? (work->wanted[i] - work->measured[i]) / work->wanted[i] : 0;
+        double squares = product(error, error, work->count);
+        if (!turn || squares < least) {
+            least = squares;
             memcpy(best, now, sizeof now);
             memcpy(best_measured, work->measured, sizeof best_measured);
         }
-        if (error <= NEARLY) break;
+        if (largest_size(error, work->count) <= NEARLY) break;
         if (gain == 0) gain = product(work->measured, now, work->count) / product(now, now, work->count);
         if (!(gain > 0)) break;
         step(work, gain, turn, now, before, residual_before);
     }
     memcpy(work->measured, best_measured, sizeof best_measured);
-}
-
-static double largest_size(const double *values, int count) {
-    double largest = fabs(values[0]);
-    for (int i = 1; i < count; i++)
-        if (fabs(values[i]) > largest) largest = fabs(values[i]);
-    return largest;
 }
 
 /* Flip a bit of a sample if errors, `missing`, become smaller by that. */
@@ -781,15 +779,11 @@ static double flip_near(struct work *work) {
 /* Words that give what is wanted; `weight` are whole weights next to what is asked times `first_unit`, of whose sum the strength is. */
 static void solve(struct work *work, const double *asked, int16_t *weight, double first_unit) {
     double now[MAX_FOCI];
-    int measured = 1;
     come_near(work, asked, weight, first_unit, now);
-    for (int i = 0; i < work->count; i++) measured = measured && !(work->measured[i] < 0);
-    if (!measured) memcpy(now, asked, sizeof now);
     for (int lowering = 0; lowering <= MAX_LOWERINGS; lowering++) {
         weigh(work, now, asked, first_unit, 1, weight);
         set_near(work);
-        pass(work, weight, measured ? WRITE | NEAR : WRITE | NEAR | MEASURE);
-        measured = 0;
+        pass(work, weight, lowering ? WRITE | NEAR | MEASURE : WRITE | NEAR);
         double most = flip_near(work);
         if (most <= TOO_MUCH) return;
         for (int i = 0; i < work->count; i++) {

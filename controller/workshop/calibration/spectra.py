@@ -17,6 +17,7 @@ from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
 from controller.workshop.calibration.cores import cores
 from controller.workshop.calibration.records.drives import transform
+from controller.workshop.physics.responses.kept_rest import rest_rows, rest_taps
 from controller.workshop.physics.responses.modal_response import band_gain, edge_width_hz
 
 Floats = NDArray[np.float64]
@@ -33,6 +34,7 @@ class Bins:
     samples: int  # of an emission
     frequency_hz: Floats  # (bin,)
     gain: Floats  # (bin,): of the band's filter
+    rest_taps: Floats  # of what it leaves out (`kept_rest`)
 
     @classmethod
     def of(cls, waveform: Waveform, record_samples: int) -> Bins:
@@ -42,7 +44,7 @@ class Bins:
         frequency_hz = np.arange(length // 2 + 1, dtype=np.float64) * (waveform.bit_clock_hz / length)
         frequency_hz = frequency_hz[frequency_hz < waveform.band_high_hz + edge_width_hz(band_hz) / 2]
         gain = band_gain(frequency_hz, band_hz, waveform.slope)
-        return cls(length, waveform.samples, frequency_hz, gain)
+        return cls(length, waveform.samples, frequency_hz, gain, rest_taps(waveform))
 
     @property
     def in_band(self) -> NDArray[np.intp]:
@@ -87,10 +89,7 @@ class Bins:
         return times
 
     def rest(self, spectra: Spectra) -> NDArray[np.float32]:
-        """What the band leaves out, reversed in time, as means over `REST_SAMPLES`: (point, row, channel)."""
+        """What the band leaves out, reversed in time, in rows as a bank keeps it (`kept_rest`): (point, row, channel)."""
         outside = self.whole(spectra * (1 - self.gain[:, None, None]).astype(np.float32))
-        rows = self.rest_rows
-        padded = np.zeros((len(outside), rows * REST_SAMPLES, outside.shape[2]), np.float32)
-        padded[:, : self.samples] = outside[:, ::-1]
-        means: NDArray[np.float32] = padded.reshape(len(outside), rows, REST_SAMPLES, -1).mean(axis=2)
-        return means
+        kept: NDArray[np.float32] = rest_rows(outside[:, ::-1], self.rest_taps)
+        return kept

@@ -19,6 +19,7 @@ from controller.device.board.panel import CHANNELS
 from controller.workshop.physics.modes.modes import Modes, slowest_decay_s
 from controller.workshop.physics.modes.plate_modes import in_words, modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
+from controller.workshop.physics.responses.kept_rest import rest_rows, rest_taps
 from controller.workshop.physics.responses.modal_response import band_limited_response, modes_at_once, pulse_response
 from controller.workshop.physics.responses.row_responses import RowResponses, in_rows
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
@@ -43,6 +44,7 @@ class ResponseModel:
         self.samples = waveform.samples
         self._bit_period_s = waveform.bit_period_s
         self._band_hz, self._slope = waveform.band_hz, waveform.slope
+        self._rest_taps = rest_taps(waveform)
         self._decay_time_s = slowest_decay_s(self.plate_modes)
         self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
         self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
@@ -107,9 +109,9 @@ class ResponseModel:
     def entry_responses(
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
-        """`drive_order_responses`, followed by what they leave out: beside the band, and by its slope, as means over 4 samples.
+        """`drive_order_responses`, followed by what they leave out, beside the band and by its slope, in rows (`kept_rest`).
 
-        With the latter the displacement that bits give at a point is known to 1 %, not only in the band; with a slope of -1 to 3 %.
+        With the latter the displacement that bits give at a point is known to 1 %, not only in the band; with a slope of -1 to 2 %.
 
         Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 4 samples; what
         the last row has beyond the last sample is zero.
@@ -124,10 +126,9 @@ class ResponseModel:
             kernel = np.empty((self.samples + rows, self.modes), kind)
             for some in self._blocks():
                 in_band = self._modal(some, band_limited=True)
-                outside = np.zeros((len(in_band), rows * REST_SAMPLES))
-                outside[:, : self.samples] = (self._modal(some, band_limited=False) - in_band)[:, ::-1]
+                outside = (self._modal(some, band_limited=False) - in_band)[:, ::-1]
                 kernel[: self.samples, some] = in_band[:, ::-1].T
-                kernel[self.samples :, some] = outside.reshape(len(in_band), rows, REST_SAMPLES).mean(axis=2).T
+                kernel[self.samples :, some] = rest_rows(outside, self._rest_taps).T
             self._kernels[key] = kernel
         return self._kernels[key]
 
