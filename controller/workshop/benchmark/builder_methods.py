@@ -20,11 +20,14 @@ from controller.workshop.bank_builder.methods.descent import AIMS, Descent
 from controller.workshop.benchmark.focus.focus_figures import emit, random_points
 from controller.workshop.benchmark.stage.power import resistor_loss_j
 from controller.workshop.physics.audible import surface_energy
-from controller.workshop.physics.felt import LIGHT_TOUCH, ONE_NEWTON, felt_amplitudes_um
+from controller.workshop.physics.felt import LIGHT_TOUCH, ONE_NEWTON, felt_by_motion_um, pads
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.modes.retuned import drifted
+from controller.workshop.physics.pad_motion import PadMotion
 from controller.workshop.physics.plate_twin import PlateTwin
+from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import PlateSound, decibels
+from controller.workshop.physics.word_capture import volts_above_idle
 
 Floats = NDArray[np.float64]
 Words = NDArray[np.uint32]
@@ -68,11 +71,15 @@ class MethodTrial:
         modes = self._twin.modes
         self._off = [PlateTwin(board, modes=drifted(modes, off)) for off in (OFF, -OFF)]
         self._sound = PlateSound(board, modes)
+        samples = board.waveform.samples
+        self._pads = [[pads(board, modes, place, load, samples) for load in (LIGHT_TOUCH, ONE_NEWTON)] for place in self.places_m]
+        self._bare: ResponseModel | None = None  # whose words are optimised
+        self._descent: Descent | None = None  # one of them, whose forms the others share
 
     def figures(self, method: str) -> Floats:
         """Of each place: um, um off, um felt, um felt, contrast, mm, edges, J, dB, dB; in the order of `COLUMNS`."""
-        places = zip(self._words(method), self.places_m, strict=True)
-        return np.array([self._figures(words, place_m) for words, place_m in places])
+        places = zip(self._words(method), self.places_m, self._pads, strict=True)
+        return np.array([self._figures(words, place_m, fingers) for words, place_m, fingers in places])
 
     def _words(self, method: str) -> Sequence[Words]:
         keys, of_waveform = ({}, {}) if method == OWN else BOARDS.get(method, ({}, {}))
@@ -80,19 +87,23 @@ class MethodTrial:
         if method != OWN:
             waveform = msgspec.structs.replace(board.waveform, **{**BARE, **of_waveform})
             board = msgspec.structs.replace(board, waveform=waveform, **{"finger": None, **keys})
+        if method in OPTIMISED:  # all of the same board
+            self._bare = self._bare or ResponseModel(board, modes=modes)
+            self._descent = Descent(board, self._bare, OPTIMISED[method], self._descent)
+            return list(self._descent.entries(self.places_m))
         twin = PlateTwin(board, modes=modes)
-        if method in OPTIMISED:
-            return list(Descent(board, twin.responses, OPTIMISED[method]).entries(self.places_m))
         responses = (twin.words_source.drive_order_responses([place], dtype=np.float64) for place in self.places_m)
         return [focus(one, [1.0], board.idle_word) for one in responses]
 
-    def _figures(self, words: Words, place_m: Floats) -> list[float]:
+    def _figures(self, words: Words, place_m: Floats, fingers: Sequence[PadMotion]) -> list[float]:
         board, idle = self.board, np.array([self.board.idle_word], np.uint32)
-        found, *off = (emit(twin, words).focus_metrics(*place_m.tolist()) for twin in (self._twin, *self._off))
+        found = emit(self._twin, words).focus_metrics(*place_m.tolist())
+        off_m = min(float(emit(twin, words).at(place_m)[0]) for twin in self._off)
+        volts = volts_above_idle(board, words)[None]
         levels = channel_bits(np.concatenate([idle, words, idle]).astype("<u4")).astype(np.int8)
-        felt = (felt_amplitudes_um(board, self._twin.modes, words, place_m, load)[0] for load in (LIGHT_TOUCH, ONE_NEWTON))
+        felt = (float(felt_by_motion_um(one, volts, board.waveform.bit_period_s)[0, 0]) for one in fingers)
         return [
-            *(found.amplitude_m * 1e6, min(one.amplitude_m for one in off) * 1e6, *felt, found.contrast, found.spot_m * 1e3),
+            *(found.amplitude_m * 1e6, off_m * 1e6, *felt, found.contrast, found.spot_m * 1e3),
             float(np.abs(np.diff(levels, axis=0)).sum()),
             float(resistor_loss_j(board.driver, levels, board.waveform.bit_period_s).sum()),
             decibels(surface_energy(board, words, board.idle_word, modes=self._twin.modes)),

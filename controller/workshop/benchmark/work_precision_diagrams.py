@@ -42,6 +42,8 @@ SHOWN_FINGERS = ("1", "2", "4", "10")
 TIME, MEMORY = "time of composing, processor (µs)", "memory for the whole plate (MB)"
 WIRE, HEAT = "bytes on the wire for an emission", "heat in the stages for an emission (mJ)"
 LOST = "amplitude lost by the worst finger: 1 − A / bound"
+FELT = "felt amplitude lost: 1 − felt / most felt of any method"
+FELT_FLOOR = 5e-3  # felt losses below are drawn here: methods differ by more, or are felt alike
 
 
 def draw_all(folder: Path, figures: Figures) -> list[Path]:
@@ -64,34 +66,46 @@ def draw_all(folder: Path, figures: Figures) -> list[Path]:
 
 def time_diagram(figures: Figures) -> Figure:
     """Error against time, for 1, 2, 4 and 10 fingers."""
+    return _against_time(figures, _main, LOST, FLOOR)
+
+
+def felt_diagram(figures: Figures) -> Figure:
+    """What the finger that feels least lacks, against time, for 1, 2, 4 and 10 fingers."""
+    return _against_time(figures, _felt, FELT, FELT_FLOOR)
+
+
+def _against_time(
+    figures: Figures, error_of: Callable[[str], Callable[[Figures], float | None]], label: str, floor: float
+) -> Figure:
+    """An error of each family against time."""
     figure = Figure(figsize=(14, 11), layout="constrained")
     shown = [count for count in SHOWN_FINGERS if f"{count} off grid" in figures["scenes"]]
     for count, ax in zip(shown, figure.subplots(2, 2).flat, strict=False):
         family = f"{count} off grid"
-        draw_curves(ax, figures, _cost("time", family), _main(family))
+        draw_curves(ax, figures, _cost("time", family), error_of(family), floor)
         draw_marks(ax, figures, int(count))
-        ax.set(xlabel=TIME, ylabel=LOST, title=f"{count} finger{'s' * (count != '1')} between cells")
+        ax.set(xlabel=TIME, ylabel=label, title=f"{count} finger{'s' * (count != '1')} between cells")
     draw_key(figure, figures)
     return figure
 
 
 def front_page_diagram(figures: Figures) -> Figure:
-    """One finger: error against time and against memory, of some methods that are named beside their curves."""
-    figure = Figure(figsize=(12, 5.6), layout="constrained")
-    left, right = figure.subplots(1, 2, sharey=True)
+    """One finger: amplitude and felt amplitude lost, against time and memory, of some methods named beside their curves."""
+    figure = Figure(figsize=(12, 10.4), layout="constrained")
+    axes = figure.subplots(2, 2, sharex="col", sharey="row")
     family = "1 off grid"
-    for ax, curves, x_of, label in (
-        (left, FRONT_PAGE_TIME, _cost("time", family), TIME),
-        (right, FRONT_PAGE_MEMORY, _cost("memory", "", 1e-6), MEMORY),
+    for column, (curves, x_of, label) in enumerate(
+        ((FRONT_PAGE_TIME, _cost("time", family), TIME), (FRONT_PAGE_MEMORY, _cost("memory", "", 1e-6), MEMORY))
     ):
         shown = {**figures, "settings": [setting for setting in figures["settings"] if setting["curve"] in curves]}
-        draw_curves(ax, shown, x_of, _main(family), named=True)
-        ax.set(xlabel=label, ylim=(0.6 * FLOOR, 10))
-    left.set(ylabel=LOST)
-    draw_marks(left, figures, 1)
-    for ax in (left, right):
-        low, high = ax.get_xlim()
-        ax.set_xlim(low / 1.5, high * 4)  # room for the names
+        draw_curves(axes[0, column], shown, x_of, _main(family), named=True)
+        draw_curves(axes[1, column], shown, x_of, _felt(family), FELT_FLOOR, named=True)
+        axes[1, column].set(xlabel=label)
+        low, high = axes[1, column].get_xlim()
+        axes[1, column].set_xlim(low / 1.5, high * 4)  # room for the names
+    for ax, label, ends in zip(axes[:, 0], (LOST, FELT), ((0.6 * FLOOR, 10), (0.7 * FELT_FLOOR, 3)), strict=True):
+        ax.set(ylabel=label, ylim=ends)
+        draw_marks(ax, figures, 1)
     figure.suptitle(reported(figures), fontsize=8)
     return figure
 
@@ -217,6 +231,10 @@ def _main(family: str) -> Callable[[Figures], float | None]:
     return _median(family, main_error(family))
 
 
+def _felt(family: str) -> Callable[[Figures], float | None]:
+    return _median(family, "felt_loss")
+
+
 def _inverse_contrast(setting: Figures) -> float | None:
     contrast = _median("1 off grid", "contrast")(setting)
     return 1 / contrast if contrast else None
@@ -232,10 +250,11 @@ def _median(family: str, error: str, factor: float = 1.0) -> Callable[[Figures],
     return found
 
 
-TIMED = ("time", "errors", "front_page", "building")  # those that need times
+TIMED = ("time", "felt", "errors", "front_page", "building")  # those that need times
 DIAGRAMS: dict[str, Callable[[Figures], Figure]] = {
     "front_page": front_page_diagram,
     "time": time_diagram,
+    "felt": felt_diagram,
     "memory": memory_diagram,
     "wire_and_heat": wire_and_heat_diagram,
     "errors": errors_diagram,

@@ -78,9 +78,17 @@ def felt_by_all_um(
     load: FeltLoad = LIGHT_TOUCH,
 ) -> Floats:
     """The same of many emissions at the same places: (emission, finger)."""
-    samples, period_s = volts.shape[1], board.waveform.bit_period_s
-    motion = PadMotion(board, modes, fingers_m, load, load.pad_mm * 1e-3, samples, AROUND_S)
-    around = int(AROUND_S / period_s)
+    return felt_by_motion_um(pads(board, modes, fingers_m, load, volts.shape[1]), volts, board.waveform.bit_period_s)
+
+
+def pads(board: Board, modes: Modes, fingers_m: ArrayLike, load: FeltLoad, samples: int) -> PadMotion:
+    """Fingers at places, for `felt_by_motion_um` of emissions of this many samples."""
+    return PadMotion(board, modes, fingers_m, load, load.pad_mm * 1e-3, samples, AROUND_S)
+
+
+def felt_by_motion_um(motion: PadMotion, volts: Floats, period_s: float) -> Floats:
+    """As `felt_by_all_um`, by fingers that are kept for further emissions."""
+    samples, around = volts.shape[1], int(AROUND_S / period_s)
     felt_m = felt_history(motion.history(volts), period_s)[max(samples - around, 0) : samples + around + 1]
     found: Floats = felt_m.max(axis=0).T * 1e6
     return found

@@ -97,14 +97,15 @@ class _Cells:
 class Descent:
     """Optimised waveforms for single points at full amplitude."""
 
-    def __init__(self, board: Board, model: ResponseModel, aim: DescentAim) -> None:
+    def __init__(self, board: Board, model: ResponseModel, aim: DescentAim, like: Descent | None = None) -> None:
+        """`like` has another aim for the same board and model: what both need is taken from it."""
         self.name = f"descent: {aim.name}"
         self._aim, self._model = aim, model
         self._idle_word = board.idle_word
         self._idle: Floats = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
         self._most_edges = math.floor(board.limits.max_edge_rate_hz * board.waveform.duration_s)
-        self._field = FieldForm(board, model)
-        self._audible = AudibleForm(board, model, SAMPLES_AT_ONCE)
+        self._field = like._field if like else FieldForm(board, model)
+        self._audible = like._audible if like else AudibleForm(board, model, SAMPLES_AT_ONCE)
         self._late = np.ascontiguousarray(self._audible.lags[:0:-1]).reshape(-1, CHANNELS)  # longest lag first
         self._prediction = Prediction(board, model)
         cell_bytes = 8.0 * CHANNELS * (3 * model.modes + 8 * model.samples)

@@ -24,7 +24,6 @@ from controller.device.kernel.amplitude_twin import masking_threshold
 from controller.device.waveforms.composition import BLOCK_S, MAX_FOCI
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.dual import Bits, Floats, cheapest, farthest, flip, likely_polarities
-from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 EQUAL: Final = 5e-4  # of what a point shall get: flips mend a larger difference
@@ -44,7 +43,6 @@ class ExactComposition:
     def __init__(self, board: Board, source: ResponseSource) -> None:
         self.idle_word, self.bit_period_s = board.idle_word, board.waveform.bit_period_s
         self._source = source
-        self._prediction = FocusPrediction(board, source)
         idle = channel_bits(np.array([board.idle_word], np.uint32))[0]
         self.volts = np.where(idle, -1.0, 1.0) * board.driver.supply_v  # of a bit that deviates from idle, (32,)
 
@@ -53,17 +51,19 @@ class ExactComposition:
         if nulls:
             raise ValueError(f"{self.name} has no nulls")
         places_m, asked = checked_points(points)
-        words = self.words(places_m, asked, np.zeros((0, self._source.samples * CHANNELS)))
-        return WaveformDesign(words, self._prediction.at_focus(words, places_m), np.zeros(0))
+        return WaveformDesign(*self.words(places_m, asked, np.zeros((0, self._source.samples * CHANNELS))), np.zeros(0))
 
-    def words(self, places_m: Floats, asked: Floats, nulls: Floats) -> NDArray[np.uint32]:
-        """Drive words for points at which (point,) amplitudes are asked for, and rows (row, bit) that shall stay zero."""
+    def words(self, places_m: Floats, asked: Floats, nulls: Floats) -> tuple[NDArray[np.uint32], Floats]:
+        """Drive words for points at which (point,) amplitudes are asked for, and rows (row, bit) that shall stay zero.
+
+        With the displacements that they give, (point,) in m.
+        """
         in_band = self.deviations(self._source.drive_order_responses(places_m, dtype=np.float64))
         whole = self.deviations(self._source.responses(places_m)[:, ::-1])
         with threadpool_limits(1, "blas"):  # small products
             bits = best_bits(in_band, whole, asked, nulls, round(BLOCK_S / self.bit_period_s))
         packed: NDArray[np.uint32] = np.packbits(bits.reshape(-1, CHANNELS), axis=1, bitorder="little").view(WORD)[:, 0]
-        return packed ^ np.uint32(self.idle_word)
+        return packed ^ np.uint32(self.idle_word), whole @ bits
 
     def deviations(self, responses: Floats) -> Floats:
         """What each bit adds where it deviates from idle, (point, bit) in m, from responses in drive order."""

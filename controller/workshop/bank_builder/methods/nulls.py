@@ -46,10 +46,10 @@ class ExactNulls:
         if (np.linalg.norm(places_m[:, None] - nulls_m, axis=2) < PAD_M / 2).any():
             raise ValueError("a point to compose is where the plate shall stay still: on the pad of a null")
         pads_m = [place for null in nulls_m.tolist() for place in pad_places(*null)]
-        words = self._composition.words(places_m, asked, independent(self.near_focus(pads_m)))
+        words, reached_m = self._composition.words(places_m, asked, independent(self.near_focus(pads_m)))
         most_m = np.abs(self._prediction.near_focus(words, pads_m)).max(axis=1, initial=0.0)
         each_m = most_m.reshape(len(nulls_m), len(OFFSETS)).max(axis=1, initial=0.0)
-        return WaveformDesign(words, self._prediction.at_focus(words, places_m), each_m)
+        return WaveformDesign(words, reached_m, each_m)
 
     def near_focus(self, places_m: Sequence[Place]) -> Floats:
         """What each bit that deviates adds to places, (place, 2), at each sample within 25 us of T: (place * time, bit) in m."""

@@ -31,6 +31,7 @@ class Laboratory:
         self._places = places
         self._banks: dict[float, Bank] = {}
         self._tables: dict[Any, tuple[float, ResponseTable, list[Interpolation]]] = {}
+        self._prepared: set[Place] = set()
 
     def bank(self, pitch_m: float) -> Bank:
         """An open bank with the cells around all places; built when it is first asked for."""
@@ -54,7 +55,10 @@ class Laboratory:
         return table
 
     def prepare(self, places: Sequence[Place]) -> None:
-        """Fill the tables for places, and for no others."""
+        """Fill the tables for places, and for no others but those of before that they are among."""
+        if set(places) <= self._prepared:
+            return
+        self._prepared = set(places)
         for pitch_m in {pitch_m for pitch_m, _, _ in self._tables.values()}:
             wanted = []
             for table, interpolations in [(table, some) for pitch, table, some in self._tables.values() if pitch == pitch_m]:
