@@ -51,7 +51,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     build.add_argument(
         "--optimise",
-        choices=("contrast", "quiet", "balanced", "loud", "cool"),
+        choices=("contrast", "quiet", "balanced", "loud", "cool", "felt"),
         help="optimise every entry: more contrast, less sound, both, a fifth more amplitude, or less heat in the stages; about half"
         " a second of a core a cell (default: none)",
     )

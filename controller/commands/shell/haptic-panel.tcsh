@@ -21,7 +21,7 @@ complete haptic-panel \
         'c/--netlist=/f/' \
         'c/--out=/f/' \
         'c/--script=/f/' \
-        'c/--optimise=/(contrast quiet balanced loud cool)/' \
+        'c/--optimise=/(contrast quiet balanced loud cool felt)/' \
         'c/--when=/(command press enter leave)/' \
         'c/--capacitance-f=/f/' \
         'c/--field-out=/f/' \
@@ -53,7 +53,7 @@ complete haptic-panel \
         'n/--netlist/f/' \
         'n/--out/f/' \
         'n/--script/f/' \
-        'n/--optimise/(contrast quiet balanced loud cool)/' \
+        'n/--optimise/(contrast quiet balanced loud cool felt)/' \
         'n/--when/(command press enter leave)/' \
         'n/--capacitance-f/f/' \
         'n/--field-out/f/' \

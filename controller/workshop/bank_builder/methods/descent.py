@@ -6,7 +6,8 @@ What is maximised is, each term relative to the sign of the band-limited respons
 
 Amplitude and field are those of all modes, so frequencies outside the band help too, as far as silence lets them. `a` is found for
 each cell so that the amplitude becomes the plain one's: an entry that kicks harder than what is composed beside it would be felt.
-The aim "loud" is for banks that play cells alone: there it becomes a fifth more.
+The aim "loud" is for banks that play cells alone: there it becomes a fifth more. So is "felt": its amplitude is not that at T
+but what a light touch feels (`felt_form`), by its derivative at the bits of the turn before.
 
 1. Relaxation: accelerated projected gradient steps on levels between 0 and 1 (Beck and Teboulle, FISTA, with restarts).
 2. Rounding: sample by sample in time order, channel by channel; what one bit's rounding costs, the next ones make up for.
@@ -32,6 +33,7 @@ from controller.device.kernel import Point
 from controller.workshop.bank_builder.methods.audible_form import AudibleForm
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.exact import rounded
+from controller.workshop.bank_builder.methods.felt_form import FeltForm
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.physics.responses.impulse_response import ResponseModel
@@ -64,6 +66,7 @@ class DescentAim:
     steps: int  # of the relaxation
     passes: int = 1  # of the descent
     share: float = 1.0  # of the plain amplitude, that the relaxation aims at
+    felt_turns: int = 0  # of relaxation, rounding and descent for the felt amplitude, whose derivative is taken anew before each
 
 
 AIMS = {
@@ -74,6 +77,7 @@ AIMS = {
         DescentAim("balanced", contrast=0.1, silence=0.6, calm=0.15, amplitude=0.35, steps=80),
         DescentAim("loud", contrast=0.0, silence=0.5, calm=0.1, amplitude=1.5, steps=100, share=1.2),
         DescentAim("cool", contrast=0.0, silence=0.004, calm=1.4, amplitude=0.6, steps=20, passes=3, share=0.95),
+        DescentAim("felt", contrast=0.0, silence=0.5, calm=0.1, amplitude=1.5, steps=100, share=1.4, felt_turns=3),
     )
 }
 
@@ -92,6 +96,7 @@ class _Cells:
     field: Floats
     sound: Floats
     edge: Floats
+    pull: Floats | None = None  # (sample, cell, 32): of the felt amplitude by levels, which then takes the place of `shapes`
 
 
 class Descent:
@@ -104,10 +109,11 @@ class Descent:
         self._idle_word = board.idle_word
         self._idle: Floats = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
         self._most_edges = math.floor(board.limits.max_edge_rate_hz * board.waveform.duration_s)
-        self._field = like._field if like else FieldForm(board, model)
-        self._audible = like._audible if like else AudibleForm(board, model, SAMPLES_AT_ONCE)
+        self._field: FieldForm = like._field if like else FieldForm(board, model)
+        self._audible: AudibleForm = like._audible if like else AudibleForm(board, model, SAMPLES_AT_ONCE)
         self._late = np.ascontiguousarray(self._audible.lags[:0:-1]).reshape(-1, CHANNELS)  # longest lag first
         self._prediction = Prediction(board, model)
+        self._board = board
         cell_bytes = 8.0 * CHANNELS * (3 * model.modes + 8 * model.samples)
         self._at_once = max(1, min(CELLS_AT_ONCE, int(WORKING_BYTES / cell_bytes)))
 
@@ -139,16 +145,14 @@ class Descent:
         del responses
         cells, good = self._cells(points_m, words)
         if good.size:
-            levels = self._relaxed(cells)
-            for _ in range(self._aim.passes + 1):  # the first rounds what is between 0 and 1
-                self._pass(cells, levels)
+            levels = self._felt(cells, points_m[good]) if self._aim.felt_turns else self._descended(cells)
             for _ in range(CALMING_PASSES):
                 busy = self._own_edges(levels).max(axis=1) > self._most_edges
                 if not busy.any():
                     break
                 cells.edge[busy] = np.maximum(cells.edge[busy], self._least_edge_cost(cells)[busy]) * CALMER
                 self._pass(cells, levels)
-            share = _dot(cells.shapes, self._field.modal(levels)) / cells.amplitude
+            share = self._amplitude(cells, levels) / cells.amplitude
             fit = (
                 (self._own_edges(levels).max(axis=1) <= self._most_edges)
                 & (share >= LEAST_SHARE)
@@ -158,6 +162,30 @@ class Descent:
             packed = np.packbits(bits, axis=2, bitorder="little").view("<u4")[:, :, 0]
             words[good[fit]] = packed
         return words
+
+    def _descended(self, cells: _Cells) -> Floats:
+        levels = self._relaxed(cells)
+        for _ in range(self._aim.passes + 1):  # the first rounds what is between 0 and 1
+            self._pass(cells, levels)
+        return levels
+
+    def _felt(self, cells: _Cells, points_m: Floats) -> Floats:
+        """Levels for the felt amplitude, in turns: it is what its derivative at the last ones says, or more."""
+        form, levels = FeltForm(self._board, self._model, points_m), cells.plain
+        worth, plain_m = cells.worth, np.zeros(0)
+        for turn in range(self._aim.felt_turns):
+            cells.pull, felt_m = form.derivative(levels - self._idle)
+            plain_m = plain_m if turn else felt_m
+            cells.amplitude, cells.worth = plain_m, worth.copy()
+            levels = self._descended(cells)
+        return levels
+
+    def _amplitude(self, cells: _Cells, levels: Floats) -> Floats:
+        """Amplitude of levels, (cell,), in the unit of `cells.amplitude`."""
+        if cells.pull is None:
+            return _dot(cells.shapes, self._field.modal(levels))
+        found: Floats = np.sum(cells.pull * (levels - self._idle), axis=(0, 2))
+        return found
 
     def _cells(self, points_m: Floats, words: NDArray[np.uint32]) -> tuple[_Cells, NDArray[np.intp]]:
         """State of the points at which there is something to optimise, and which they are."""
@@ -189,7 +217,9 @@ class Descent:
         rate = 1 / (curvature * self._field.largest + 2 * cells.sound * self._audible.largest)
         aimed = cells.amplitude * self._aim.share
         levels, ahead = cells.plain, cells.plain
-        pull = None if self._aim.contrast else self._field.gradient(cells.shapes)
+        pull = cells.pull
+        if pull is None and not self._aim.contrast:
+            pull = self._field.gradient(cells.shapes)
         momentum = np.ones(len(aimed))
         for step in range(1, self._aim.steps + 1):
             ahead = np.rint(ahead * 1024) / 1024
@@ -212,7 +242,7 @@ class Descent:
             ahead = stepped + push[:, None] * (stepped - levels)
             levels, momentum = stepped, np.where(restart, 1.0, following)
             if step % STEPS_BEFORE_WEIGHING == 0 and step < self._aim.steps:
-                reached = _dot(cells.shapes, self._field.modal(np.rint(levels * 1024) / 1024))
+                reached = self._amplitude(cells, np.rint(levels * 1024) / 1024)
                 short = np.where(reached > 0, aimed / np.maximum(reached, aimed / 2), 2.0)
                 cells.worth *= np.square(np.square(short))  # a power of four by itself need not be the same on all machines
         result: Floats = np.rint(levels * LEVELS) / LEVELS
@@ -245,12 +275,15 @@ class Descent:
             changes = np.zeros((count, some, CHANNELS))
             for ahead in range(some):
                 sample = first + ahead
-                moves = self._field.moves(sample)
                 loud = heard[ahead]
                 if ahead:
                     loud = loud + changes[:, :ahead].reshape(count, -1) @ self._late[-ahead * CHANNELS :]
                 after = levels[sample + 1] if sample + 1 < samples else self._idle
-                slope = left @ moves - sound * loud
+                if cells.pull is None:
+                    moves = self._field.moves(sample)
+                    slope = left @ moves - sound * loud
+                else:
+                    slope = cells.pull[sample] - sound * loud
                 slope -= edge * (2 - 2 * (before + after))  # edges of a 1 here, less those of a 0
                 change = changes[:, ahead]
                 curvature = self._field.curvature[sample] + own_curvature if self._aim.contrast else own_curvature

@@ -15,8 +15,10 @@ from controller.device.bank.packing import channel_bits, drive_words, edges
 from controller.workshop.bank_builder.methods.audible_form import AudibleForm
 from controller.workshop.bank_builder.methods.descent import AIMS, Descent
 from controller.workshop.bank_builder.methods.exact import rounded
+from controller.workshop.bank_builder.methods.felt_form import FeltForm
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.physics.audible import surface_spectrum
+from controller.workshop.physics.felt import felt_amplitudes_um
 from controller.workshop.physics.field import FocusScale
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
@@ -87,6 +89,20 @@ def test_an_aim_is_reached_on_the_plate_twin_at_its_amplitude(plain, optimised, 
         assert edges(after).sum() <= busier * edges(before).sum()
 
 
+def test_what_is_optimised_to_be_felt_is_felt_and_quieter_than_what_is_loud(model, plain, optimised):
+    """Judged by `felt_amplitudes_um`, whose own reference is a plate with the finger in its matrices (`test_felt`)."""
+    form = FeltForm(BOARD, model, POINTS_M)
+    idle = channel_bits(np.array([BOARD.idle_word], np.uint32))[0].astype(float)
+    pull, felt_m = form.derivative(levels_of(optimised["felt"]) - idle)
+    assert (pull * (levels_of(optimised["felt"]) - idle)).sum(axis=(0, 2)) == pytest.approx(felt_m, rel=1e-3)
+    for index, point_m in enumerate(POINTS_M):
+        before, loud, felt = (words[index] for words in (plain, optimised["loud"], optimised["felt"]))
+        um = [felt_amplitudes_um(BOARD, model.plate_modes, words, [point_m])[0] for words in (before, loud, felt)]
+        assert felt_m[index] * 1e6 == pytest.approx(um[2], rel=1e-3)
+        assert um[2] == pytest.approx(1.4 * um[0], rel=0.08)
+        assert SOUND.exposure_pa2_s(felt, BOARD.idle_word) < 0.5 * SOUND.exposure_pa2_s(loud, BOARD.idle_word)
+
+
 def test_the_forms_measure_what_plate_twin_and_surface_spectrum_measure(model, plain):
     generator = np.random.default_rng(2)
     waveforms = [*plain, *(generator.integers(0, 1 << 32, BOARD.waveform.samples).astype(np.uint32) for _ in range(2))]
@@ -149,7 +165,8 @@ from controller.workshop.bank_builder.methods.descent import AIMS, Descent
 board = small_board()
 product = np.sin(np.arange(4e4)).reshape(200, 200)
 print({pool["architecture"] for pool in threadpoolctl.threadpool_info()}, (product @ product).tobytes().hex()[:2000])
-print(Descent(board, ResponseModel(board), AIMS["balanced"]).entries([(0.034, 0.031)]).tobytes().hex())
+model = ResponseModel(board)
+print(*(Descent(board, model, AIMS[aim]).entries([(0.034, 0.031)]).tobytes().hex() for aim in ("balanced", "felt")))
 """
 
 
