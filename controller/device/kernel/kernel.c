@@ -406,9 +406,8 @@ INLINE ushorts between(const ushorts *even, int16_t near, int16_t far) {
     return (ushorts)((shorts)inner >> 1) + high(inner, near) - high(outer, far);
 }
 
-INLINE uint32_t word_of(const ushorts *above, uint32_t idle_word) {
-    return (bits_of(above[0], above[1]) | bits_of(above[2], above[3]) << 16) ^ idle_word;
-}
+/* Bits of a sample's channels. */
+INLINE uint32_t word_of(const ushorts *above) { return bits_of(above[0], above[1]) | bits_of(above[2], above[3]) << 16; }
 
 APART void compose_one_compact(struct work *work, const struct patch *patch) {
     ushorts room[4 * (1 + MAX_EVEN)] = {{0}}, *even = room + 4, part[4];
@@ -417,10 +416,10 @@ APART void compose_one_compact(struct work *work, const struct patch *patch) {
     outputs(work->idle_word, &patch->tables->in_band, patch->levels, patch->weight, patch->cells, even);
     for (int64_t sample = 0; sample < samples; sample += 2, even += 4) {
         for (int i = 0; i < 4; i++) part[i] = positive(even[i]);
-        work->words[sample] = word_of(part, work->idle_word);
+        work->words[sample] = word_of(part) ^ work->idle_word;
         if (sample + 1 == samples) break;
         for (int i = 0; i < 4; i++) part[i] = positive(between(even + i, near, far));
-        work->words[sample + 1] = word_of(part, work->idle_word);
+        work->words[sample + 1] = word_of(part) ^ work->idle_word;
     }
 }
 
@@ -467,9 +466,15 @@ APART void compose_one(struct work *work, const struct patch *patch) {
     }
 }
 
+#ifndef __SSE2__
+APART void add_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
+    for (int i = 0; i < ROW; i++) sum[i] += p * a[i];
+}
+
 APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
     for (int i = 0; i < ROW; i++) sum[i] += p * a[i] + q * b[i];
 }
+#endif
 
 #ifdef __SSE2__
 /* Sums of eight samples: responses in pairs, of which one instruction makes products and their sum. */
@@ -504,15 +509,11 @@ APART void add_up(int count, int16_t *const *response, const int16_t *weight, in
     }
 }
 #else
-APART void add_times(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
-    for (int i = 0; i < ROW; i++) sum[i] += p * a[i];
-}
-
 static void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
     memset(sum, 0, ROW * sizeof *sum);
     int row = 0;
     for (; row + 1 < count; row += 2) add_two(sum, response[row] + at, response[row + 1] + at, weight[row], weight[row + 1]);
-    if (row < count) add_times(sum, response[row] + at, weight[row]);
+    if (row < count) add_one(sum, response[row] + at, weight[row]);
 }
 #endif
 
@@ -552,14 +553,14 @@ APART void add_strength(int32_t *restrict strength, const int32_t *restrict sum,
         }
 }
 
-/* Bits of a sample's channels. */
-INLINE uint32_t word_of(const int16_t *above) {
-    return bits_of(load(above), load(above + 8)) | bits_of(load(above + 16), load(above + 24)) << 16;
+INLINE uint32_t word_at(const int16_t *above) {
+    ushorts four[4] = {load(above), load(above + 8), load(above + 16), load(above + 24)};
+    return word_of(four);
 }
 
 INLINE void write_words(const struct work *work, int64_t at, int samples, const int16_t *above) {
     for (int sample = 0; sample < samples; sample++)
-        work->words[at / CHANNELS + sample] = word_of(above + CHANNELS * sample) ^ work->idle_word;
+        work->words[at / CHANNELS + sample] = word_at(above + CHANNELS * sample) ^ work->idle_word;
 }
 
 /* Where sums are above one bound and not above another. */
@@ -574,7 +575,7 @@ APART void compare_both(int16_t *restrict between, const int32_t *restrict sum, 
 static void note_near(const struct work *work, int64_t at, int samples, const int32_t *sum, int64_t block) {
     int16_t between[ROW];
     compare_both(between, sum, work->near_low + block, work->near_high + block);
-    for (int sample = 0; sample < samples; sample++) work->near[at / CHANNELS + sample] = word_of(between + CHANNELS * sample);
+    for (int sample = 0; sample < samples; sample++) work->near[at / CHANNELS + sample] = word_at(between + CHANNELS * sample);
 }
 
 /* ---- words: weights and thresholds ---- */

@@ -93,8 +93,8 @@ def test_places_are_rounded_by_the_same_share_of_a_wave(banks):
     x_m, y_m = 0.0303, 0.0217
     assert one.key([(x_m / 2, y_m / 2, 1.0)]) == two.key([(x_m, y_m, 1.0)])
     assert one.key([(x_m, y_m, 1.0)]) != two.key([(x_m, y_m, 1.0)])
-    near = one.null_key([(0.02, 0.02, 1.0)], [(0.027, 0.02)]), two.null_key([(0.02, 0.02, 1.0)], [(0.027, 0.02)])
-    assert [len(key) for key in near] == [2, 1]  # 7 mm are 0.66 wavelengths, and 0.33
+    near = one.null_key([(0.02, 0.02, 1.0)], [(0.031, 0.02)]), two.null_key([(0.02, 0.02, 1.0)], [(0.031, 0.02)])
+    assert [len(key) for key in near] == [2, 1]  # 11 mm are 1.04 wavelengths, and 0.52
     assert two.single_focus(((10, 20, 3),)) == (5e-3, 10e-3, 3)
 
 

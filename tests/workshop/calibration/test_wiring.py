@@ -197,9 +197,7 @@ def test_points_that_lie_elsewhere_are_found_and_accuse_nobody(off_m):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("off_mm", "code", "said"), [("4", 1, "channels 3 and 9 look swapped"), ("14", 75, "undecided: all 32")]
-)
+@pytest.mark.parametrize(("off_mm", "code", "said"), [("4", 1, "channels 3 and 9 look swapped"), ("14", 75, "undecided: all 32")])
 def test_the_command_finds_the_frame_first_and_accuses_nobody_without_one(tmp_path, capsys, off_mm, code, said):
     """Beyond 12 mm there is no frame."""
     folder, points = str(tmp_path / "wires"), str(tmp_path / "points.csv")

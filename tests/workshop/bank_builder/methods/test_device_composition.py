@@ -3,6 +3,7 @@ import pytest
 
 from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
+from controller.device.kernel.null_twin import RING
 from controller.device.waveforms.composition import Composer
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.methods.design import DesignMethod
@@ -19,7 +20,8 @@ NULL = [(0.1, 0.06)]
 def bank(board, tmp_path_factory):
     grid = Grid.of(board.plate, 2.5e-3)
     cells = np.zeros(grid.cells, bool)
-    for x_m, y_m, *_ in (*POINTS, *NULL):
+    pad = [(x_m + along_x, y_m + along_y) for x_m, y_m in NULL for along_x, along_y in RING]
+    for x_m, y_m, *_ in (*POINTS, *NULL, *pad):
         cells[list(grid.corners(x_m, y_m)[0])] = True
     path = tmp_path_factory.mktemp("bank") / "bank"
     build_bank(BankRequest(board, path, 2.5e-3, cells))
