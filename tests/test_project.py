@@ -30,7 +30,7 @@ def tracked():
     [
         ["ruff", "check", "--no-cache"],
         ["ruff", "format", "--check", "--no-cache"],
-        ["mypy", *MYPY_CACHE],
+        pytest.param(["mypy", *MYPY_CACHE], marks=pytest.mark.kernel),  # a minute: with what CI runs too
         ["lint-imports", "--no-cache"],
     ],
 )
