@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device.application_socket.protocol.schema import protocol_schema
-from controller.workshop.simulation.conformance import CONVERSATION, has, main, named, steps_of
+from controller.workshop.simulation.conformance import ATTEMPTS, CONVERSATION, has, main, named, steps_of
 
 JSON = st.recursive(
     st.none() | st.booleans() | st.integers(-9, 9) | st.text(max_size=3),
@@ -89,3 +89,27 @@ def test_what_answers_in_another_language_is_one_line(tmp_path, capsys):
         assert main(["--socket", str(tmp_path / "s")]) == 69
         thread.join()
     assert "what answers is no panel" in capsys.readouterr().err
+
+
+@each_row(("skipped", "code"), [(2, 0), (1000, 1)], ids=["later", "never"])
+def test_a_play_that_is_skipped_is_sent_again_and_not_for_ever(tmp_path, capsys, skipped, code):
+    step = {"say": {"kind": "play", "effect": "click", "id": 1}, "answer": {"outcome": "played"}}
+    (tmp_path / "mine.json").write_text(json.dumps({"steps": [step]}))
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(str(tmp_path / "s"))
+        listener.listen()
+        asked = []
+
+        def answer():
+            with listener.accept()[0] as client, client.makefile("rw") as lines:
+                for line in lines:
+                    asked.append(json.loads(line))
+                    lines.write(json.dumps({"id": 1, "outcome": "skipped" if len(asked) <= skipped else "played"}) + "\n")
+                    lines.flush()
+
+        thread = threading.Thread(target=answer)
+        thread.start()
+        assert main(["--socket", str(tmp_path / "s"), "--conversation", str(tmp_path / "mine.json")]) == code
+        thread.join()
+    assert asked == [step["say"]] * min(skipped + 1, ATTEMPTS)
+    assert ("1 steps, all as recorded" in capsys.readouterr().out) == (code == 0)
