@@ -52,6 +52,7 @@ class Dispatcher:
             self._moving = turn.finger if turn.finger == scheduler.spaced else None
             self._moved_s = now_s - turn.report_ns * 1e-9
         if not on:
+            self._moving = None
             if scheduler.due:
                 scheduler.reset(turn.fpga_s)
             return False
