@@ -30,8 +30,10 @@ from controller.workshop.gateware.model.model import GatewareModel
 class UartPanel:
     """The gateware model behind its UART: bytes in, bytes out.
 
-    The gateware was just reset; its permits are set here. A byte takes the time of ten bits, whenever the terminal delivers it.
-    Tick 0 is the present value of `now_s`, which the gateware's clock follows.
+    The gateware was just reset; its permits are set here. A byte takes the time of ten bits. The line is never idle while bytes
+    wait: those that a busy terminal delivers late have come before, the last of them now at the latest. An answer that is there
+    thus reports no time to come, unless its host writes faster than the line sends. Tick 0 is the present value of `now_s`, which
+    the gateware's clock follows.
     """
 
     def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:
@@ -50,10 +52,14 @@ class UartPanel:
 
     def receive(self, data: bytes) -> bytes:
         """Receive `data`; returns the bytes of the answers."""
-        self._tick = max(self._tick, (self._now_s() - self.start_s) * self._clock_hz)
+        now, line_ticks = (self._now_s() - self.start_s) * self._clock_hz, len(data) * self._byte_ticks
+        last = max(self._tick + line_ticks, now)
+        first = max(last - line_ticks, self.gateware.now)  # no byte comes before a moment that the gateware has passed
+        byte_ticks = (last - first) / max(len(data), 1)
+        self._tick = first
         answers = bytearray()
         for byte in data:
-            self._tick += self._byte_ticks
+            self._tick += byte_ticks
             if byte and self._synced:
                 if not self._line:
                     self._select_tick = int(self._tick)

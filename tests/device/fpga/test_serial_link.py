@@ -469,6 +469,25 @@ def test_the_panel_gives_no_answer_while_one_is_on_its_way():
     assert panel.receive(on_wire(frame) * 4).count(b"\0") == 4
 
 
+@each_row("late_s", [0.0, 0.1])
+def test_an_answer_that_is_there_reports_no_time_to_come_although_the_terminal_delivers_late(late_s):
+    """Else the host, whose wire has long been free, takes the next heartbeat's smaller advance for a reset."""
+    now_s = 0.0
+    panel = UartPanel(model(BOARD), BOARD.link.clock_hz, BAUD, lambda: now_s)
+    frame = bytearray(FRAME_BYTES)
+    frames.pack_nop(frame, 0, 1)
+    panel.receive(b"\0")
+    message = 40 * on_wire(frame)
+    line_s = len(message) * serial_link.BITS_PER_BYTE / BAUD
+    now_s = line_s + late_s
+    statuses = [parse_status(cobs.decode(answer)) for answer in panel.receive(message).split(b"\0")[:-1]]
+    ticks = [status.timestamp_ticks for status in statuses]
+    assert len(ticks) == 40
+    assert ticks[-1] <= now_s * BOARD.link.clock_hz
+    frame_ticks = len(on_wire(frame)) * serial_link.BITS_PER_BYTE * BOARD.link.clock_hz / BAUD
+    assert np.allclose(np.diff(ticks), frame_ticks, atol=1)
+
+
 def test_the_panel_takes_nothing_before_the_first_zero():
     panel = UartPanel(model(BOARD), 80_000_000, BAUD, lambda: 0.0)
     frame = bytearray(FRAME_BYTES)
