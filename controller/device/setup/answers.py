@@ -37,7 +37,7 @@ class SetupAnswers(Record, frozen=True, kw_only=True):
     held: How the glass is held at its edges.
     screen_length_mm: Extent along x of the touch panel's active area, in the middle of the glass; 0: all of it.
     screen_width_mm: The same along y.
-    disc: Piezo disc of the catalogue.
+    disc: Piezo disc: 7BB-12-9, 7BB-15-6, 7BB-20-6, 7BB-27-4 or FT-20T-6.5A.
     discs: Number of discs, each cut in four.
     rim_mm: From the edge of the glass to the rim of a disc.
     resistor_w: Power rating of a stage's resistor, of which half may be used.

@@ -14,6 +14,7 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.board.parts import catalogue
 from controller.device.board.records import as_record
+from controller.device.board.reference import attributes
 from controller.device.board.relations.checked import judge
 from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.device.doctor.finding import Finding
@@ -47,6 +48,10 @@ def test_a_folder_holds_all_that_the_board_names(tmp_path):
     limits = board.limits
     assert 0.9 < limits.max_channel_edge_rate_hz * worst_edge_j(board.driver) / (limits.resistor_rating_w * limits.derating) <= 1
     assert not judge(board).odd
+
+
+def test_the_question_for_a_disc_names_every_disc_of_the_catalogue():
+    assert set(re.findall(r"\S+-\S+\w", attributes(SetupAnswers)["disc"])) == set(catalogue())
 
 
 def test_a_simulated_board_is_delivered_without_a_bitstream(tmp_path):
