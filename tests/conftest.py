@@ -32,7 +32,7 @@ pytest_plugins = ["random_banks"]
 # `--hypothesis-profile explore` tries others each time.
 untimed = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("explore", untimed, max_examples=1000)
-settings.register_profile("repeatable", untimed, derandomize=True)
+settings.register_profile("repeatable", untimed, derandomize=True, max_examples=50)
 settings.register_profile("quick", settings.get_profile("repeatable"), max_examples=20)
 settings.load_profile("repeatable")
 set_hypothesis_home_dir(Path(sys.prefix, "hypothesis"))  # not in the checkout
