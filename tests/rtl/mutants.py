@@ -1,7 +1,7 @@
 """Do the tests notice a fault of the Verilog? Mutants of all its modules, each run against the tests until one fails.
 
 usage: python -m tests.rtl.mutants [--modules M …] [--count N] [--seed N] [--jobs N] [--json FILE] [--resume] [--only NAME …]
-       [--list] [--quick]
+       [--chosen] [--list] [--quick]
 
 All mutants are compiled into one library, once (verilog_mutants.py), so that a mutant costs what its tests do. What may kill
 it, in this order: short conformance (timing tables, some states and random scripts, model against compiled Verilog), the benches
@@ -14,6 +14,7 @@ import argparse
 import collections
 import contextlib
 import hashlib
+import itertools
 import json
 import multiprocessing
 import os
@@ -48,6 +49,7 @@ from controller.workshop.gateware.timing_table import load_cases
 
 RTL = ROOT / "fpga_rtl"
 SURVIVORS = HERE / "mutants_survivors.toml"
+CHOSEN = HERE / "chosen_mutants.toml"
 SEED, COUNT = 2015, 300
 SAFETY = ("output_gate", "safety_island", "stage_limits")  # twice as many mutants for their size
 CPU_SECONDS = 600  # of one mutant's scripts: what takes longer hangs
@@ -96,6 +98,19 @@ def chosen(texts, count, seed):
     weights = {module: len(found[module]) ** 0.7 * (2 if module in SAFETY else 1) for module in texts}
     share = count / sum(weights.values())
     return [mutant for module in texts for mutant in sample(found[module], max(3, round(weights[module] * share)), seed)]
+
+
+def by_hand(texts):
+    """The mutants of CHOSEN, in its order."""
+    for entry in tomllib.loads(CHOSEN.read_text())["mutant"]:
+        module, within, old = entry["module"], entry["within"].strip("\n"), entry["old"]
+        text = texts[module]
+        assert (text.count(within), within.count(old)) == (1, 1), f"{entry['name']}: not once in {module}"
+        start = text.index(within) + within.index(old)
+        line = text.count("\n", 0, start)
+        place = {"start": start, "end": start + len(old), "line": line + 1, "before": text.splitlines()[line].strip()}
+        new = entry.get("new", "")
+        yield Mutant(module, "chosen", text=new, form="expression" if new else "leave", name=f"{module}: {entry['name']}", **place)
 
 
 def compiles(mutant, text):
@@ -337,7 +352,7 @@ class Verdicts:
         self.of = {
             name: verdict
             for name, verdict in kept.items()
-            if verdict["of"] == self._texts.get(name.partition("/")[0])
+            if verdict["of"] == self._texts.get(verdict["module"])
             and (
                 verdict["verdict"] in {"killed", "not built"}
                 or (verdict["tree"] == self._all and verdict["verdict"] != LIVES_SO_FAR)
@@ -454,6 +469,7 @@ def main():
     parser.add_argument("--json", type=Path, metavar="FILE")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="mutants by name, whatever was chosen", default=[])
+    parser.add_argument("--chosen", action="store_true", help=f"those of {CHOSEN.name}")
     parser.add_argument("--list", action="store_true", help="show the mutants, run none")
     parser.add_argument("--quick", action="store_true", help="short conformance and benches only; --resume without it goes on")
     parser.add_argument("--folder", type=Path, help="keep what is built here")
@@ -465,11 +481,15 @@ def main():
         parser.error("--resume needs --json FILE")
     some = {module: texts[module] for module in asked.modules} or texts
     mutants = chosen(some, asked.count, asked.seed)
+    if asked.chosen:
+        mutants = [mutant for mutant in by_hand(texts) if mutant.module in some]
     if asked.only:
-        mutants = [mutant for module, text in texts.items() for mutant in find(module, text) if mutant.name in asked.only]
+        everything = itertools.chain(by_hand(texts), *(find(module, text) for module, text in texts.items()))
+        mutants = [mutant for mutant in everything if mutant.name in asked.only]
     if asked.list:
         for mutant in mutants:
-            print(f"{mutant.name:44} line {mutant.line:3}  {OPERATORS[mutant.operator]}\n    {mutant.shown(texts[mutant.module])}")
+            what, change = OPERATORS.get(mutant.operator, ""), mutant.shown(texts[mutant.module])
+            print(f"{mutant.name:44} line {mutant.line:3}  {what}\n    {change}")
         return 0
     verdicts = Verdicts(asked.json, asked.resume, texts)
     with tempfile.TemporaryDirectory() as temporary:
