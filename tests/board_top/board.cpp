@@ -39,13 +39,14 @@ public:
         eval();
     }
 
-    // Or it stops, and with it the PLL, whose lock falls or stays; or it runs, and the PLL stops for ever under its lock
-    void oscillate(bool runs, bool lock_stays) {
-        const char *stays[] = {runs ? "+clk_stops" : "+lock_stays"};
-        if (lock_stays) context_.commandArgsAdd(1, stays);
+    // Or it stops, and with it the PLL
+    void oscillate(bool runs) {
         oscillates_ = runs;
         edge_ = now_ + half_ps_;
     }
+
+    // A fault of the PLL, from now on (EHXPLLL.v)
+    void pll(const char *fault) { context_.commandArgsAdd(1, &fault); }
 
     void run(uint64_t until) {
         while (now_ < until) {
@@ -122,7 +123,8 @@ uint64_t board_now(const Board *board) { return board->now(); }
 uint64_t board_levels(const Board *board) { return board->levels(); }
 uint32_t board_leds(const Board *board) { return board->leds(); }
 void board_drive(Board *board, uint64_t mask, uint64_t levels) { board->drive(mask, levels); }
-void board_oscillate(Board *board, uint32_t runs, uint32_t lock_stays) { board->oscillate(runs, lock_stays); }
+void board_oscillate(Board *board, uint32_t runs) { board->oscillate(runs); }
+void board_pll(Board *board, const char *fault) { board->pll(fault); }
 void board_run(Board *board, uint64_t until) { board->run(until); }
 size_t board_changes(const Board *board) { return board->times.size(); }
 

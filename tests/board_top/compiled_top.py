@@ -191,9 +191,13 @@ class CompiledTop:
         levels = self._levels & ~self._stuck | self._stuck_levels
         self._library.board_drive(self._board, self._mask | self._stuck, levels)
 
-    def oscillate(self, runs, *, lock_stays=False):
-        """Stop the oscillator, under the PLL's lock or not, or let it run; or, under its lock, the PLL alone, for ever."""
-        self._library.board_oscillate(self._board, runs, lock_stays)
+    def oscillate(self, runs):
+        """Stop the oscillator, or let it run."""
+        self._library.board_oscillate(self._board, runs)
+
+    def pll(self, fault):
+        """A fault of the PLL from now on: its `lock_stays` without a clock, or `clk_stops` under it, or its `lock_blinks`, once."""
+        self._library.board_pll(self._board, f"+{fault}".encode())
 
     def high(self, pins):
         """Whether all of these header pins are high."""
@@ -250,7 +254,8 @@ def _load(path):
         ("levels", number, [board]),
         ("leds", ctypes.c_uint32, [board]),
         ("drive", None, [board, number, number]),
-        ("oscillate", None, [board, ctypes.c_uint32, ctypes.c_uint32]),
+        ("oscillate", None, [board, ctypes.c_uint32]),
+        ("pll", None, [board, ctypes.c_char_p]),
         ("run", None, [board, number]),
         ("exchange", None, [board, address, number, number, number, size, ctypes.c_char_p, address]),
         ("changes", size, [board]),

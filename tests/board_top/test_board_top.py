@@ -14,7 +14,7 @@ from controller.device.board.lookup import data_folder
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.capture import Capture
-from controller.device.fpga.exchange import Refused
+from controller.device.fpga.exchange import FpgaReset, Refused
 from controller.device.fpga.frames import (
     FRAME_BYTES,
     LOAD_FRAME_BYTES,
@@ -218,9 +218,10 @@ def test_when_its_oscillator_stops_the_outputs_are_low_as_soon_as_the_pll_says_s
 def test_when_its_clock_stops_under_a_lock_that_stays_the_outputs_are_low_within_3_us_and_a_permit_stops_them_at_once(pi):
     outputs = sum(channel_pins()) | sum(signal_pins()[name] for name in ("hv_enable", "hv_alive", "focus"))
     link = opened(pi)
+    pi.board.pll("lock_stays")
     for lost in (None, "run permit", "temperature good"):
         arm(pi, session_on(pi, link))
-        pi.board.oscillate(False, lock_stays=True)
+        pi.board.oscillate(False)
         pi.board.run(500_000)
         assert pi.board.high(signal_pins()["configured"] | signal_pins()["hv_enable"])
         if lost:
@@ -237,11 +238,29 @@ def test_when_its_clock_stops_under_a_lock_that_stays_the_outputs_are_low_within
         assert pi.board.high(signal_pins()["configured"])
         assert pi.board.levels & outputs == 0, "armed no longer"
     arm(pi, session_on(pi, link))
-    pi.board.oscillate(True, lock_stays=True)
+    pi.board.pll("clk_stops")
     pi.board.run(500_000)
     assert pi.board.high(signal_pins()["hv_enable"])
     pi.board.run(2_500_000)
     assert pi.board.levels & outputs == 0, "the PLL alone"
+
+
+def test_a_lock_that_is_lost_for_a_nanosecond_resets_the_panel(pi):
+    """Which no clock sees: outputs that came back with it would be on without an ARM."""
+    outputs = sum(channel_pins()) | signal_pins()["hv_enable"]
+    session = session_on(pi, opened(pi))
+    arm(pi, session)
+    assert pi.board.levels & outputs
+    pi.board.take()
+    pi.board.pll("lock_blinks")
+    pi.board.run(1_000_000)
+    assert pi.board.high(signal_pins()["configured"])
+    assert pi.board.levels & outputs == 0
+    words = pi.board.take()[1].tolist()
+    assert not words[0] & (outputs | signal_pins()["configured"])
+    assert not any(word & outputs for word in words), "not for a moment"
+    with pytest.raises(FpgaReset):
+        session.heartbeat()
 
 
 def test_a_permit_that_is_lost_for_a_nanosecond_is_lost(pi):

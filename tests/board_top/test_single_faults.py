@@ -200,21 +200,23 @@ def one_frame_in(damaged_of):
     return perform
 
 
-def oscillator(*, lock_stays):
-    """It stops: the PLL says so, or only the FPGA's own oscillator finds out."""
+def oscillator(host):
+    """It stops, and runs again before it is asked why."""
+    fault = host.fault
 
-    def perform(host):
-        fault = host.fault
+    def runs_again():
+        host.board.oscillate(True)
+        host.board.run(5e-6 * PS)
+        return fault()
 
-        def runs_again():
-            host.board.oscillate(True)
-            host.board.run(5e-6 * PS)
-            return fault()
+    host.fault = runs_again
+    return host.watch(lambda: host.board.oscillate(False), for_s=AT_ONCE_S)
 
-        host.fault = runs_again
-        return host.watch(lambda: host.board.oscillate(False, lock_stays=lock_stays), for_s=AT_ONCE_S)
 
-    return perform
+def oscillator_under_a_lock(host):
+    """Only the FPGA's own oscillator finds out."""
+    host.board.pll("lock_stays")
+    return oscillator(host)
 
 
 def cable(host):
@@ -273,8 +275,8 @@ ROWS = {
     "temperature low, or its wire off": stuck("temperature good", 0, AT_ONCE_S),
     "temperature high": stuck("temperature good", 1),
     "temperature floating, noise": noisy("temperature good"),
-    "oscillator stopped": oscillator(lock_stays=False),
-    "oscillator stopped, the PLL's lock stays": oscillator(lock_stays=True),
+    "oscillator stopped": oscillator,
+    "oscillator stopped, the PLL's lock stays": oscillator_under_a_lock,
     "host killed": killed,
     "host hangs": hangs,
     "cable to the host off, or the host without supply": cable,
