@@ -22,13 +22,18 @@ DRIVE_TICKS = 3
 DECIDED_TICKS = 38  # from drive_i to a fault: pins, and 36 ticks at most until edges are too many
 
 
-async def armed(dut, **asked):
-    """The outputs on, with everything asked for that can be, but for what is given."""
+async def ramping_up(dut, **asked):
+    """Behind an ARM whose supply has settled, with everything asked for that can be, but for what is given."""
     await after_reset(dut, run_permit_i=1, temperature_ok_i=1, bit_ticks_i=5, **{f"{k}_i": v for k, v in (ASKED | asked).items()})
     await clocks(dut, 5)
     await pulse(dut, dut.arm_i, heard_i=1)
     dut.heard_i.value = 0
     await clocks(dut, SETTLE_TICKS)
+
+
+async def armed(dut, **asked):
+    """The outputs on, behind `ramping_up`."""
+    await ramping_up(dut, **asked)
     await pulse(dut, dut.ramp_done_i)
     await clocks(dut, DRIVE_TICKS + 1)
     assert dut.armed_o.value == 1
@@ -200,6 +205,22 @@ async def only_frames_of_the_link_that_armed_keep_it_on(dut):
             await clocks(dut, 50)
             await pulse(dut, dut.heard_i)
         assert fault(dut) == (Fault(0) if keeps else Fault.HOST_SILENT)
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def in_both_ramps_too(dut):
+    for disarmed in (False, True):
+        for link, keeps in ((0, True), (1, False)):
+            await (armed if disarmed else ramping_up)(dut, heartbeat_ticks=40, link=0)
+            if disarmed:
+                await pulse(dut, dut.disarm_i)
+            assert dut.hv_enable_o.value == 1
+            dut.link_i.value = link
+            for _ in range(5):  # for as long as the duty of a ramp permits
+                await clocks(dut, 20)
+                await pulse(dut, dut.heard_i)
+            assert (dut.off_o.value == 0) == keeps
+            assert fault(dut) == (Fault(0) if keeps else Fault.HOST_SILENT)
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
