@@ -59,5 +59,11 @@ class CalibrationError(ControllerError):
     exit_code = 78
 
 
+class WorkersError(ControllerError):
+    """Workers that are not there, are lost, or have another version."""
+
+    exit_code = 78
+
+
 class UpdateError(ControllerError):
     """A release, repository or update that is refused, or that cannot be fetched or installed; the running release stays."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import os
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from controller.commands.common.arguments import natural
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import progress_bar, show
+from controller.commands.common.worker_options import add_worker_options, asked_for, workers_of
 from controller.console import tell
 from controller.device.bank.inspection import bank_info, measured_at, verify_bank
 from controller.device.bank.lookup import FoundBank, bank_as_it_is, find_bank
@@ -60,8 +60,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         action="store_true",
         help="a twentieth of the size: responses in four bits, all waveforms composed (default: as compose.method says)",
     )
-    build.add_argument("--workers", type=int, metavar="N", help="processes that optimise (default: one for each core)")
-    build.add_argument("--dask", metavar="ADDRESS", help="optimise on the workers of this dask scheduler, tcp://HOST:PORT")
+    add_worker_options(build)
     build.set_defaults(command=bank_build)
     choices = actions.add_parser("choices", parents=[common], help="what pitch and memory cost a scene, and what auto would choose")
     choices.add_argument("--scene", metavar="S", help="the scene (default: the board's own)")
@@ -93,19 +92,17 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def bank_build(options: argparse.Namespace) -> int:
     """Build a bank for a board: for the whole plate, or for the cells that a scene can reach."""
     board = named_board(options.board)
-    if options.optimise is None and (options.workers is not None or options.dask is not None):
-        raise UsageError("--workers and --dask are of use with --optimise: a plain bank takes seconds")
-    if options.workers is not None and (options.workers < 1 or options.dask is not None):
-        raise UsageError("--workers: 1 or more processes of this computer, and not with --dask")
+    if options.optimise is None and asked_for(options):
+        raise UsageError("--workers, --dask and --scheduler-file are of use with --optimise: a plain bank takes seconds")
     with _builder_installed(bank_path(board)):
         from controller.workshop.bank_builder.methods.descent import AIMS
-        from controller.workshop.bank_builder.optimised import ALONE, Workers
         from controller.workshop.bank_builder.own_bank import order, warn_of_pitch
+        from controller.workshop.workers import ALONE
     wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm, compact=options.compact)
     path = Path(options.out) if options.out else wanted.own_path
     if measured_at(path):
         tell(f"{path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}")
-    workers = Workers(options.workers or len(os.sched_getaffinity(0)), options.dask) if options.optimise else ALONE
+    workers = workers_of(options) if options.optimise else ALONE
     try:
         report = wanted.build(path, aim=AIMS.get(options.optimise), workers=workers, memory_mb=options.memory_mb)
     except KeyboardInterrupt:

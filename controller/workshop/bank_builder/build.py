@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.device.bank.file_format import Header, creator
+from controller.device.bank.file_format import Header
 from controller.device.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.device.board.board import Board
 from controller.device.board.paths import make_folder
@@ -25,11 +25,12 @@ from controller.workshop.bank_builder.compact.trial import Trial
 from controller.workshop.bank_builder.interpolation_error import interpolation_error
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
-from controller.workshop.bank_builder.optimised import Task, Words, kept_path, optimised_words, remove_kept
+from controller.workshop.bank_builder.optimised import Optimise, Words, kept_path, optimised_words, remove_kept
 from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.bank_builder.writer import BankWriter
 from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.workers import Mapped
 
 WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
 CELLS_COMPARED = 32  # at most, of an optimised bank: 10 ms each
@@ -67,7 +68,7 @@ def build_bank(request: BankRequest) -> BuildReport:
         BankWriter(path, plan.header, plan.wanted, overwrite=request.overwrite) as writer,  # before the work: it may be refused
     ):
         entries = _Entries(plan.board, plan.header, writer)
-        optimised = _optimised(request, plan) if aim else None
+        optimised, mapped = _optimised(request, plan) if aim else (None, None)
         if plan.design:
             error = _write_compact(plan, plan.design, entries)
         else:
@@ -91,17 +92,19 @@ def build_bank(request: BankRequest) -> BuildReport:
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=entries.worst_edge_rate_hz,
         interpolation_error=results["interpolation_error"],
-        optimised={"aim": aim.name, "amplitude_of_plain": results["amplitude_of_plain"]} if aim else None,
+        optimised={"aim": aim.name, "amplitude_of_plain": results["amplitude_of_plain"], "workers": mapped.figures()}
+        if aim and mapped
+        else None,
     )
 
 
-def _optimised(request: BankRequest, plan: BankPlan) -> Words:
-    """Optimised drive words of all cells; what an interrupted build has kept of them is not computed again."""
+def _optimised(request: BankRequest, plan: BankPlan) -> tuple[Words, Mapped]:
+    """Optimised drive words of all cells, and who found them; what an interrupted build has kept is not computed again."""
     assert request.aim
     kept = kept_path(request.path, inputs_sha256(plan.board, {key: plan.header.parameters[key] for key in WORDS_DEPEND_ON}))
-    points_m = tuple((x_m, y_m) for x_m, y_m in plan.points_m.tolist())
-    whole = Task(plan.board, request.highest_mode_hz, request.aim, points_m, creator())
-    return optimised_words(whole, plan.numbers, kept, request.workers, progress=request.progress)
+    points_m = dict(zip(plan.numbers.tolist(), map(tuple, plan.points_m.tolist()), strict=True))
+    optimise = Optimise(plan.board, request.highest_mode_hz, request.aim)
+    return optimised_words(optimise, points_m, kept, request.workers, progress=request.progress)
 
 
 def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, name: str, *, progress: bool) -> None:

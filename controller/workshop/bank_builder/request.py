@@ -15,9 +15,9 @@ from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.scene.scene import FixedEmitter
 from controller.workshop.bank_builder.methods.descent import DescentAim
-from controller.workshop.bank_builder.optimised import ALONE, Workers
 from controller.workshop.physics.plate import mode_cut_hz
 from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.workers import ALONE, Workers
 
 
 def cells_around(grid: Grid, places_m: Iterable[tuple[float, float]]) -> NDArray[np.bool_]:

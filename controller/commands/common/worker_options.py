@@ -1,0 +1,52 @@
+"""Options of commands whose work many processes or machines can share."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.errors import UsageError
+
+if TYPE_CHECKING:
+    from controller.workshop.workers import Workers
+
+LEAST_MB = 200  # Python, NumPy and this package alone take 100
+
+
+def add_worker_options(command: argparse.ArgumentParser) -> None:
+    """Declare them."""
+    group = command.add_argument_group("who computes (default: a process for each core)")
+    group.add_argument("--workers", type=int, metavar="N", help="processes of this computer; 1: this process itself")
+    group.add_argument("--dask", metavar="ADDRESS", help="workers of this dask scheduler, tcp://HOST:PORT or tls://HOST:PORT")
+    group.add_argument(
+        "--scheduler-file",
+        type=Path,
+        metavar="FILE",
+        help="workers of the scheduler that wrote this file (--scheduler-file too)",
+    )
+    group.add_argument(
+        "--worker-memory-mb", type=float, metavar="M", help="memory that each of --workers may take; one that takes more is ended"
+    )
+
+
+def asked_for(options: argparse.Namespace) -> bool:
+    """Whether any of them is given."""
+    return any(value is not None for value in (options.workers, options.dask, options.scheduler_file, options.worker_memory_mb))
+
+
+def workers_of(options: argparse.Namespace) -> Workers:
+    """Who is to compute; raises UsageError if options contradict each other."""
+    from controller.workshop.workers import Workers
+
+    given = [name for name in ("workers", "dask", "scheduler_file") if getattr(options, name) is not None]
+    if len(given) > 1:
+        raise UsageError(f"{' and '.join('--' + name.replace('_', '-') for name in given)}: give one of them")
+    if options.workers is not None and options.workers < 1:
+        raise UsageError("--workers: 1 or more processes of this computer")
+    if options.worker_memory_mb is not None and not (options.worker_memory_mb >= LEAST_MB and given in ([], ["workers"])):
+        raise UsageError(
+            f"--worker-memory-mb: {LEAST_MB} or more, for processes of this computer (elsewhere: dask worker --memory-limit)"
+        )
+    return Workers(options.workers or len(os.sched_getaffinity(0)), options.dask, options.scheduler_file, options.worker_memory_mb)

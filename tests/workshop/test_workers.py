@@ -1,0 +1,249 @@
+import contextlib
+import importlib.metadata
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tables import each_row
+from worker_functions import Fatal, cubes, greedy
+
+from controller.cli import main
+from controller.device.bank.file_format import creator
+from controller.errors import UsageError, WorkersError
+from controller.workshop import workers as module
+from controller.workshop.workers import Group, Workers, dask_errors, map_kept
+
+ITEMS = {10 * number: number for number in range(12)}
+RESULTS = dict(zip(ITEMS, cubes(ITEMS.values()), strict=True))
+
+
+def test_results_come_by_number_and_nothing_is_computed_twice(tmp_path):
+    calls = []
+
+    def counted(items):
+        calls.append(items)
+        return cubes(items)
+
+    some = dict(list(ITEMS.items())[:5])
+    first = map_kept(counted, some, tmp_path / "kept", at_once=2)
+    assert first.results == {number: RESULTS[number] for number in some}
+    assert (first.kept, [len(items) for items in calls]) == (0, [2, 2, 1])
+    calls.clear()
+    second = map_kept(counted, ITEMS, tmp_path / "kept", at_once=100)
+    assert second.results == RESULTS
+    assert (second.kept, calls) == (5, [(5, 6), (7, 8), (9, 10), (11,)])  # four tasks a worker
+    (share,) = second.shares.values()
+    assert share.items == 7
+    assert 20 < share.peak_mb < 10_000
+    assert second.figures()["kept"] == 5
+
+
+@each_row("damage", [
+    lambda data: data[:-1],
+    lambda data: data + b"\0" * 12,
+    lambda data: data + b"\xff" * 40,
+    lambda data: data[:-9] + bytes([data[-9] ^ 1]) + data[-8:],
+])  # fmt: skip
+def test_what_a_power_cut_has_torn_is_computed_again(damage, tmp_path):
+    kept = tmp_path / "kept"
+    map_kept(cubes, ITEMS, kept)
+    whole = kept.read_bytes()
+    kept.write_bytes(damage(whole))
+    again = map_kept(cubes, ITEMS, kept)
+    assert again.results == RESULTS
+    assert again.kept in (11, 12)
+    assert kept.read_bytes() == whole
+
+
+def test_an_interrupted_call_goes_on_where_it_was(tmp_path):
+    def interrupted(items):
+        if 6 in items:
+            raise KeyboardInterrupt
+        return cubes(items)
+
+    with pytest.raises(KeyboardInterrupt):
+        map_kept(interrupted, ITEMS, tmp_path / "kept")
+    assert map_kept(cubes, ITEMS, tmp_path / "kept").kept == 6
+
+
+def test_two_commands_with_one_file_do_not_meet(tmp_path):
+    def inner(items):
+        map_kept(cubes, ITEMS, tmp_path / "kept")
+
+    with pytest.raises(UsageError, match="another command"):
+        map_kept(inner, ITEMS, tmp_path / "kept")
+
+
+def test_a_file_that_cannot_be_written_is_named(tmp_path):
+    with pytest.raises(WorkersError, match=r"none/kept: cannot be written \(No such file"):
+        map_kept(cubes, ITEMS, tmp_path / "none" / "kept")
+
+
+def test_a_worker_of_another_version_is_refused():
+    with pytest.raises(WorkersError, match="another version"):
+        Group(cubes, (1,), creator() + "x").compute()
+
+
+@each_row("error", [TypeError("identity() got an unexpected\nkeyword"), RuntimeError(""), OSError("closed")])
+def test_whatever_dask_raises_is_one_line(error):
+    with pytest.raises(WorkersError, match="--workers 2: dask failed") as caught, dask_errors("--workers 2"):
+        raise error
+    assert "\n" not in str(caught.value)
+
+
+def test_errors_of_ours_and_want_of_dask_itself_stay_what_they_are():
+    for error in (WorkersError("a worker has another version"), ModuleNotFoundError("no dask", name="dask")):
+        with pytest.raises(type(error)) as caught, dask_errors("--workers 2"):
+            raise error
+        assert caught.value is error
+
+
+@each_row("text", [None, "", "[]", "{}", '{"address": "tcp://127.0.0.1:1"}'])
+def test_a_scheduler_file_that_leads_nowhere_is_one_line(text, tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "FOUND_WITHIN_S", 0.05)
+    file = tmp_path / "scheduler.json"
+    if text is not None:
+        file.write_text(text)
+    with pytest.raises(WorkersError, match=rf"--scheduler-file {file}: (not the file|no dask scheduler)") as caught:
+        map_kept(cubes, ITEMS, tmp_path / "kept", Workers(scheduler_file=file))
+    assert "\n" not in str(caught.value)
+
+
+@each_row("arguments, said", [
+    (["--workers", "0"], "--workers: 1 or more"),
+    (["--workers", "2", "--dask", "tcp://h:1"], "--workers and --dask: give one"),
+    (["--dask", "tcp://h:1", "--scheduler-file", "f"], "--dask and --scheduler-file: give one"),
+    (["--worker-memory-mb", "20"], "200 or more"),
+    (["--worker-memory-mb", "2000", "--dask", "tcp://h:1"], "dask worker --memory-limit"),
+])  # fmt: skip
+def test_options_that_contradict_each_other_are_refused(arguments, said, capsys):
+    assert main(["bank", "build", "--optimise", "quiet", *arguments]) == 2
+    assert said in capsys.readouterr().err
+
+
+PAGE = Path(module.__file__).with_name("cluster.md").read_text()
+SCRIPT = re.search(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)[1]
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """Starts the page's scheduler with two workers, in a process that is prepared by some code; its address."""
+    with contextlib.ExitStack() as stack:
+
+        def start(first="", *changes, environment=()):
+            script = SCRIPT
+            for old, new in changes:
+                assert old in script
+                script = script.replace(old, new)
+            (tmp_path / "cluster.py").write_text(f"import sys\n{first}\n{script}")
+            process = subprocess.Popen(
+                [sys.executable, str(tmp_path / "cluster.py")],
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])} | dict(environment),
+            )  # fmt: skip
+            stack.enter_context(process)  # its standard input is closed, and it ends
+            return process.stdout.readline().strip()
+
+        yield start
+
+
+@pytest.mark.slow
+def test_the_cluster_of_the_page_gives_the_same_results_when_a_worker_is_killed(cluster, tmp_path):
+    found = map_kept(Fatal(str(tmp_path / "killed"), 4), ITEMS, tmp_path / "kept", Workers(address=cluster()))
+    assert (tmp_path / "killed").exists()
+    assert found.results == RESULTS
+
+
+@pytest.mark.slow
+def test_workers_without_the_package_are_reported(cluster, tmp_path):
+    address = cluster("sys.modules['controller'] = None", ("n_workers=2", 'n_workers=1, processes=False, protocol="tcp://"'))
+    with pytest.raises(WorkersError, match=f"--dask {address}: .*lack this package.*what was done is kept") as caught:
+        map_kept(cubes, ITEMS, tmp_path / "kept", Workers(address=address))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.slow
+def test_a_scheduler_of_another_version_is_reported_with_both(cluster, tmp_path):
+    address = cluster(
+        "import importlib.metadata as reported\nversion = reported.version\n"
+        "reported.version = lambda name: '2024.8.0' if name == 'distributed' else version(name)"
+    )
+    here = re.escape(importlib.metadata.version("distributed"))
+    both = rf"scheduler has distributed 2024\.8\.0, this computer distributed {here}: install"
+    with pytest.raises(WorkersError, match=both):
+        map_kept(cubes, ITEMS, tmp_path / "kept", Workers(address=address))
+
+
+@pytest.mark.slow
+def test_results_are_the_same_by_two_processes_of_which_one_is_killed(tmp_path):
+    found = map_kept(Fatal(str(tmp_path / "killed"), 4), ITEMS, tmp_path / "kept", Workers(2))
+    assert (tmp_path / "killed").exists()
+    assert found.results == RESULTS
+    assert sum(share.items for share in found.shares.values()) == len(ITEMS)
+
+
+KILLED = """
+import sys
+from pathlib import Path
+from worker_functions import Fatal
+from controller.workshop.workers import Workers, map_kept
+if __name__ == "__main__":
+    kept = Path(sys.argv[1])
+    map_kept(Fatal(sys.argv[2], 9, kept), {10 * n: n for n in range(12)}, kept, Workers(2))
+"""
+
+
+@pytest.mark.slow
+def test_after_kill_9_of_everything_the_same_call_goes_on(tmp_path):
+    """The process that asks, the scheduler in it and both workers end at once, with the tenth item."""
+    script = tmp_path / "killed.py"
+    script.write_text(KILLED)
+    ended = subprocess.run(
+        [sys.executable, str(script), str(tmp_path / "kept"), str(tmp_path / "mark")],
+        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])}, start_new_session=True, check=False,
+    )  # fmt: skip
+    assert ended.returncode == -9
+    for number in (1, 2):
+        kept = tmp_path / f"kept{number}"
+        kept.write_bytes((tmp_path / "kept").read_bytes())
+        again = map_kept(cubes, ITEMS, kept, Workers(number))
+        assert again.results == RESULTS
+        assert 0 < again.kept < len(ITEMS)
+
+
+@pytest.mark.slow
+def test_a_worker_that_takes_too_much_memory_is_ended_and_said_so(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "LOST_WORKERS", 0)
+    with pytest.raises(WorkersError, match="--workers 2: the workers are lost"):
+        map_kept(greedy, {1: 1}, tmp_path / "kept", Workers(2, memory_mb=400))
+
+
+@pytest.mark.slow
+def test_a_scheduler_with_tls_is_reached_by_dask_own_configuration(cluster, tmp_path, monkeypatch):
+    import dask
+    from distributed import Security
+
+    security = Security.temporary()
+    for key in ("tls_ca_file", "tls_client_cert", "tls_client_key"):
+        (tmp_path / key).write_text(getattr(security, key))
+    own = {"cert": str(tmp_path / "tls_client_cert"), "key": str(tmp_path / "tls_client_key")}
+    tls = {"ca-file": str(tmp_path / "tls_ca_file"), "scheduler": own, "worker": own, "client": own}
+    (tmp_path / "dask.yaml").write_text(json.dumps({"distributed": {"comm": {"tls": tls}}}))
+    address = cluster(
+        "from distributed import Security",
+        ("LocalCluster(", 'LocalCluster(security=Security(), protocol="tls://", '),
+        environment={"DASK_CONFIG": str(tmp_path)}.items(),
+    )
+    assert address.startswith("tls://")
+    with pytest.raises(WorkersError, match="no dask scheduler answers"):
+        map_kept(cubes, ITEMS, tmp_path / "kept", Workers(address=address))
+    file = tmp_path / "scheduler.json"
+    file.write_text(json.dumps({"address": address}))
+    with dask.config.set({"distributed.comm.tls.ca-file": tls["ca-file"], "distributed.comm.tls.client": tls["client"]}):
+        found = map_kept(Fatal(str(tmp_path / "killed"), 4), ITEMS, tmp_path / "kept", Workers(scheduler_file=file))
+    assert (tmp_path / "killed").exists()
+    assert found.results == RESULTS
