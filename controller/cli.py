@@ -31,6 +31,7 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
     "bank": "build, describe and verify banks of precomputed waveforms",
     "effect": "make effects of files from haptic designers, and such files of effects",
     "design": "estimate a panel's performance from its parameters",
+    "tolerance": "draw plates from production tolerances: what yield will there be, and what does it depend on",
     "focus": "focus on given points of the plate model, and measure the result",
     "benchmark": "compare methods of finding drive words: time, memory, bytes and energy against error",
     "record": "store the events of a touch panel",

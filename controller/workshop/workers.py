@@ -36,6 +36,12 @@ FOUND_WITHIN_S = 30.0  # a scheduler on another machine
 LOST_WORKERS = 10  # that one task may have had; more, and it is taken to be the cause
 OWN_HTTP = "127.0.0.1:0"  # without an address dask's pages are open to the network, at a port that another may have
 SAME = "install the same version on all"
+OWN_CLUSTER = {
+    "distributed.scheduler.http.routes": [],
+    "distributed.worker.http.routes": [],
+    # Without dask's MALLOC_TRIM_THRESHOLD_, by which each large array that is freed goes back to the system: a third of the time
+    "distributed.nanny.pre-spawn-environ": dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), 1),
+}
 KEPT = "what was done is kept: the same command goes on there"
 SAID_CHARACTERS = 160
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
@@ -247,7 +253,7 @@ def _open_client(workers: Workers) -> Iterator[Any]:
     with contextlib.ExitStack() as stack:
         stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": LOST_WORKERS}))
         if not workers.strangers:
-            stack.enter_context(dask.config.set({"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}))
+            stack.enter_context(dask.config.set(OWN_CLUSTER))
             local = LocalCluster(
                 n_workers=workers.processes,
                 threads_per_worker=1,

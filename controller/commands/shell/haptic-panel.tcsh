@@ -22,8 +22,10 @@ complete haptic-panel \
         'c/--out=/f/' \
         'c/--script=/f/' \
         'c/--optimise=/(contrast quiet balanced loud cool felt)/' \
+        'c/--scheduler-file=/f/' \
         'c/--when=/(command press enter leave)/' \
         'c/--capacitance-f=/f/' \
+        'c/--tolerances=/f/' \
         'c/--field-out=/f/' \
         'c/--movie=/f/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
@@ -38,7 +40,7 @@ complete haptic-panel \
         'c/--passphrase-file=/f/' \
         'c/--role=/(root targets snapshot timestamp)/' \
         'c/--settings=/f/' \
-        'c/--/(accept add alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s compact counter csv dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms emission felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from from-ms full-scale gain-percent gateware ghosts glass grid held help high-hz host idle-figures inductance-h inside inverted json key lag length-mm link listen low-hz margin-mm markdown memory-mb methods minimum-counter mirror missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc netlist no-chirps no-pictures no-skip no-timing noise offset-mm once optimise out passphrase-file pause-s period-ms pid pitch-mm plate platform plot points poisson-ratio port position-mm power price publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root rotation-deg same-as scale scattered scene screen-length-mm screen-width-mm script seconds sectors seed seeds sensor sensor-mass-mg serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold to-ms top touch touch-key touched-s unproven v-per-m v-per-m-s v-per-m-s2 verbose version waveform wheels when width-mm work workers write wrong www yes young-modulus-pa)/' \
+        'c/--/(accept add alone alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s compact counter csv dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms emission felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from from-ms full-scale gain-percent gateware ghosts glass grid held help high-hz host idle-figures inductance-h inside inverted json key lag least length-mm link listen low-hz margin-mm markdown memory-mb methods minimum-counter mirror missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc netlist no-chirps no-pictures no-skip no-timing noise offset-mm once optimise out passphrase-file pause-s period-ms pid pitch-mm places plate plates platform plot points poisson-ratio port position-mm power price publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root rotation-deg same-as scale scattered scene scheduler-file screen-length-mm screen-width-mm script seconds sectors seed seeds sensor sensor-mass-mg serial settings settle-ms size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold to-ms tolerances top touch touch-key touched-s unproven v-per-m v-per-m-s v-per-m-s2 verbose version waveform wheels when width-mm work worker-memory-mb workers write wrong www yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -54,8 +56,10 @@ complete haptic-panel \
         'n/--out/f/' \
         'n/--script/f/' \
         'n/--optimise/(contrast quiet balanced loud cool felt)/' \
+        'n/--scheduler-file/f/' \
         'n/--when/(command press enter leave)/' \
         'n/--capacitance-f/f/' \
+        'n/--tolerances/f/' \
         'n/--field-out/f/' \
         'n/--movie/f/' \
         'n/--no-skip/(idle resident repeated ahead near cells together)/' \
@@ -70,7 +74,7 @@ complete haptic-panel \
         'n/--passphrase-file/f/' \
         'n/--role/(root targets snapshot timestamp)/' \
         'n/--settings/f/' \
-        'p/1/(run serve status client doctor setup rehearse board gateware bank effect design focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)/' \
+        'p/1/(run serve status client doctor setup rehearse board gateware bank effect design tolerance focus benchmark record calibrate calibrate-touch update page trace metrics reload completion)/' \
         'n/client/(play touches contacts emissions regions load save stop disarm arm state test-channel trace figures describe faults log hello)/' \
         'n/board/(check bom reference schema)/' \
         'n/gateware/(check build info load waves)/' \

@@ -82,23 +82,8 @@ class PlateUnderTest:
             some = volts[first : first + AT_ONCE].transpose(1, 2, 0).astype(np.float32)
             driven = self._in_drive_order @ some.reshape(len(some), -1)
             modal[:, first : first + AT_ONCE] = np.matmul(forces, driven.reshape(len(driven), *some.shape[1:]))[:, 0]
-        return [self._field(level) for level in np.ascontiguousarray(modal.T)]
-
-    def _field(self, level: Floats) -> Field:
-        """Displacement of modes, (mode,), all of it: no time but T is asked for."""
-        modes, step = self.model.plate_modes, self.model.step
-        settled = np.zeros((modes.count, 2), np.complex128)
-        return Field(
-            modes=modes,
-            step=step,
-            pole_amplitudes=np.zeros(step.poles.size, np.complex128),
-            driver_amplitudes=settled,
-            level=level,
-            near_s=np.zeros(0),
-            near_force=np.zeros((modes.count, 0)),
-            early_driver_amplitudes=settled,
-            scale=self._scale,
-        )
+        plate = self.model.plate_modes, self.model.step
+        return [Field.of_modal(*plate, one, self._scale) for one in np.ascontiguousarray(modal.T)]
 
     def reference(self, points: Sequence[tuple[float, float]]) -> Reference:
         """What this plate can give at points."""

@@ -87,6 +87,22 @@ class Field:
     early_driver_amplitudes: Complex
     scale: FocusScale  # where the focus is measured
 
+    @classmethod
+    def of_modal(cls, modes: Modes, step: StepResponse, modal: Floats, scale: FocusScale) -> Field:
+        """A plate whose modes are displaced by `modal` at T, in m: (mode,); of no other time anything is known."""
+        settled = np.zeros((modes.count, 2), np.complex128)
+        return cls(
+            modes=modes,
+            step=step,
+            pole_amplitudes=np.zeros(step.poles.size, np.complex128),
+            driver_amplitudes=settled,
+            level=modal,
+            near_s=np.zeros(0),
+            near_force=np.zeros((modes.count, 0)),
+            early_driver_amplitudes=settled,
+            scale=scale,
+        )
+
     @cached_property
     def modal(self) -> Floats:
         """Displacement of each mode at T in m: (mode,)."""

@@ -1,0 +1,112 @@
+"""`haptic-panel tolerance`: what yield production will have, before tools are ordered."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from controller.commands.common.arguments import natural
+from controller.commands.common.named_board import named_board
+from controller.commands.common.output import picture_path, show
+from controller.commands.common.worker_options import add_worker_options, workers_of
+from controller.console import tell
+from controller.errors import UsageError
+
+if TYPE_CHECKING:
+    from controller.commands.common.output import Declare
+
+ROWS = {
+    "relative": "amplitude, over the design's",
+    "weakest": "at the weakest place",
+    "amplitude_um": "amplitude (µm)",
+    "contrast": "contrast",
+    "spot_mm": "spot (mm)",
+}
+TITLES = {"model": "model's bank", "clock": "best bit clock", "calibrated": "calibrated"}
+
+
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    command = declare(
+        example="haptic-panel tolerance --board simulated --plates 1000 --plot build/yield.png",
+        parents=[common],
+        description="Draw plates from production tolerances and play three banks on each: that of the board's model, the same at "
+        "the bit clock that suits the plate best, and one calibrated on the plate. Prints distributions of amplitude, contrast and "
+        "spot, the share of good plates, and what each tolerance costs alone. What is done is kept: more plates go on from fewer.",
+    )
+    command.add_argument("--plates", type=natural, default=40, metavar="N", help="plates to draw (default: 40)")
+    command.add_argument("--seed", type=natural, default=1, help="of the plates and of the places on them (default: 1)")
+    command.add_argument("--tolerances", type=Path, metavar="FILE", help="what varies, and how (default: those shipped)")
+    command.add_argument(
+        "--least", type=float, default=0.7, metavar="A", help="a plate is good if its weakest place has this share (default: 0.7)"
+    )
+    command.add_argument("--places", type=natural, default=9, metavar="N", help="places at which a plate is judged (default: 9)")
+    command.add_argument("--points", type=natural, default=250, metavar="N", help="points of a calibration (default: 250)")
+    command.add_argument("--snr-db", type=float, default=40.0, metavar="DB", help="of its records (default: 40)")
+    command.add_argument(
+        "--alone", type=natural, default=6, metavar="N", help="plates on which each tolerance varies alone; 0: none (default: 6)"
+    )
+    command.add_argument("--plot", metavar="FILE", help="draw it (.png, .svg, .pdf)")
+    add_worker_options(command)
+    command.set_defaults(command=tolerance)
+
+
+def tolerance(options: argparse.Namespace) -> int:
+    """Print the figures of many drawn plates."""
+    from controller.device.board.records import load_toml
+    from controller.workshop.tolerance.figures import PLATES_MAX, study_figures
+    from controller.workshop.tolerance.study import Study
+    from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances
+
+    limits = {"plates": (1, PLATES_MAX), "places": (1, 100), "points": (100, 10_000), "snr_db": (0, 100), "least": (0, 2)}
+    for name, (low, high) in limits.items():
+        if not low <= getattr(options, name) <= high:  # NaN too
+            raise UsageError(f"--{name.replace('_', '-')} {getattr(options, name):g}: must be {low} to {high:,}")
+    if options.alone > options.plates:
+        raise UsageError(f"--alone {options.alone}: at most as many as --plates {options.plates}")
+    picture = picture_path(options)
+    study = Study(
+        named_board(options.board),
+        load_toml(options.tolerances or SHIPPED, Tolerances),
+        options.seed,
+        options.places,
+        options.points,
+        options.snr_db,
+    )
+    try:
+        figures = study_figures(study, options.plates, options.alone, options.least, workers_of(options))
+    except KeyboardInterrupt:
+        tell("what is done is kept: the same command goes on from there")
+        raise
+    if picture:
+        from controller.workshop.tolerance.plot_tolerance import plot_tolerance
+
+        plot_tolerance(picture, figures)
+    show(options, figures, _table)
+    return 0
+
+
+def _table(figures: dict[str, Any]) -> str:
+    nominal = figures["nominal"]
+    lines = [
+        f"board {figures['board']}: {figures['plates']} plates of seed {figures['seed']}, judged at {figures['places']} places; "
+        f"the design has {nominal['amplitude_um']:.2f} µm, contrast {nominal['contrast']:.1f}, spot {nominal['spot_mm']:.2f} mm",
+        "",
+        f"{'':<46}{'p5':>8}{'p50':>8}{'p95':>8}{'worst':>8}",
+    ]
+    for name, title in ROWS.items():
+        for bank, of_bank in figures["banks"].items():
+            values = "".join(f"{of_bank[name][key]:>8.3g}" for key in ("p5", "p50", "p95", "worst"))
+            lines.append(f"{title if bank == 'model' else '':<30}{TITLES[bank]:<16}{values}")
+    lines.append("")
+    for bank, of_bank in figures["banks"].items():
+        title = f"good, weakest from {figures['least']:g} on (%)" if bank == "model" else ""
+        shares = [100 * of_bank[name] for name in ("good", "good_from", "good_to")]
+        lines.append(f"{title:<30}{TITLES[bank]:<16}{shares[0]:>8.3g}  (95 %: {shares[1]:.3g} to {shares[2]:.3g})")
+    if figures["alone"]:
+        head = f"each alone, {figures['alone_plates']} plates: mean, worst"
+        lines += ["", f"{head:<46}" + "".join(f"{title:>16}" for title in TITLES.values())]
+    for name, banks in sorted(figures["alone"].items(), key=lambda found: found[1]["model"]["mean"]):
+        lines.append(f"{name:<46}" + "".join(f"{banks[bank]['mean']:>8.3f}{banks[bank]['worst']:>8.3f}" for bank in TITLES))
+    return "\n".join(lines)
