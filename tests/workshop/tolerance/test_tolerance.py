@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from small_plate import WHOLE, small_board
 from tables import each_row
+from threadpoolctl import threadpool_limits
 from workshop.tolerance.independent_plate import amplitudes
 
 from controller.cli import main
@@ -13,6 +14,9 @@ from controller.commands import tolerance as command
 from controller.device.board.records import as_record, load_toml
 from controller.errors import ConfigError
 from controller.workshop.benchmark.plate_under_test import PlateUnderTest
+from controller.workshop.calibration.interpolate import interpolate
+from controller.workshop.calibration.learning import learn
+from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.word_capture import volts_above_idle
 from controller.workshop.tolerance.figures import spread, study_figures, wilson
@@ -235,3 +239,24 @@ def records(file):
     data = file.read_bytes()
     size = 12 + 3 * 2 * 3 * 8 + 4
     return [data[first : first + size] for first in range(0, len(data), size)]
+
+
+@pytest.mark.slow
+def test_a_real_calibration_keeps_what_the_study_assumes(tmp_path):
+    """250 scattered points at 40 dB of a plate that is thicker than its board says: measured, learned, interpolated, played."""
+    study = Study(WHOLE, ALL)
+    drawn = draw(WHOLE, ALL, 1, 0, "thickness_percent")
+    plate = f"thickness_mm={drawn.board.plate.thickness_mm}"
+    assert main(["calibrate", "simulate", str(tmp_path / "measured"), "--scattered", "250", "--plate", plate]) == 0
+    with threadpool_limits(1, "blas"):
+        source, _ = interpolate(WHOLE, learn(tmp_path / "measured", WHOLE).require())
+    places_m = nominal_of(study).places_m
+    under_test = PlateUnderTest(drawn.board)
+    own = under_test.reference(places_m)
+    words = [focus(response[None], [1.0], WHOLE.idle_word) for response in source.drive_order_responses(places_m)]
+    moved_m = [np.vdot(whole, under_test.volts(one)) for whole, one in zip(own.whole, words, strict=True)]
+    real, assumed = np.array(moved_m) / own.alone_m, study.play(drawn, 0)[2, :, 0] / own.alone_m
+    print(
+        f"kept by a real calibration {real.mean():.4f}, worst {real.min():.4f}; assumed {assumed.mean():.4f}, {assumed.min():.4f}"
+    )
+    assert real.mean() == pytest.approx(assumed.mean(), abs=5e-3)
