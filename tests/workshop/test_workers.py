@@ -143,7 +143,7 @@ def cluster(tmp_path):
             process = subprocess.Popen(
                 [sys.executable, str(tmp_path / "cluster.py")],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])} | dict(environment),
+                env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])} | dict(environment), start_new_session=True,
             )  # fmt: skip
             stack.enter_context(process)  # its standard input is closed, and it ends
             return process.stdout.readline().strip()
@@ -156,6 +156,17 @@ def test_the_cluster_of_the_page_gives_the_same_results_when_a_worker_is_killed(
     found = map_kept(Fatal(str(tmp_path / "killed"), 4), ITEMS, tmp_path / "kept", Workers(address=cluster()))
     assert (tmp_path / "killed").exists()
     assert found.results == RESULTS
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_goes_away_is_one_line_and_what_was_done_is_kept(cluster, tmp_path):
+    kept = tmp_path / "kept"
+    with pytest.raises(WorkersError, match=f"--dask .*; {module.KEPT}") as caught:
+        map_kept(Fatal(str(tmp_path / "killed"), 9, kept), ITEMS, kept, Workers(address=cluster()))
+    assert "\n" not in str(caught.value)
+    again = map_kept(cubes, ITEMS, kept)
+    assert again.results == RESULTS
+    assert again.kept > 0
 
 
 @pytest.mark.slow
