@@ -67,6 +67,7 @@ SLOWER = [
     "workshop/physics/test_ritz.py",
     "workshop/publish/test_make_release.py",
     "workshop/simulation/",
+    "workshop/tolerance/",
 ]
 SECONDS = {  # tests of other files that take longest
     "test_a_calibrated_bank_focuses_where_the_models_own_does_not",

@@ -7,6 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from controller.device.board.paths import make_folder, state_folder
 from controller.workshop.tolerance.study import BANKS, FIGURES, Item, Study, nominal_of
@@ -35,7 +36,8 @@ def study_figures(study: Study, plates: int, alone: int, least: float, workers: 
     mapped = map_kept(study, items, _kept(study), workers, at_once=AT_ONCE, what="plates", unit="plate")
     shape = (len(BANKS), study.places, len(FIGURES))
     found = {item: np.frombuffer(mapped.results[key]).reshape(shape) for key, item in items.items()}
-    nominal = nominal_of(study)
+    with threadpool_limits(1, "blas"):  # the same bits as in a worker
+        nominal = nominal_of(study)
     every = np.array([found[number, None] for number in range(plates)])
     relative = every[..., 0] / nominal.figures[:, 0]
     alone_m = {name: np.array([found[number, name][..., 0] for number in range(alone)]) for name in names if alone}
