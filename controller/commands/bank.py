@@ -97,7 +97,7 @@ def bank_build(options: argparse.Namespace) -> int:
     with _builder_installed(bank_path(board)):
         from controller.workshop.bank_builder.methods.descent import AIMS
         from controller.workshop.bank_builder.own_bank import order, warn_of_pitch
-        from controller.workshop.workers import ALONE
+        from controller.workshop.workers.workers import ALONE
     wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm, compact=options.compact)
     path = Path(options.out) if options.out else wanted.own_path
     if measured_at(path):

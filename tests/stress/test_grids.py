@@ -13,7 +13,7 @@ from controller.device.waveforms.composition import Composer
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.methods.descent import AIMS
 from controller.workshop.bank_builder.request import BankRequest
-from controller.workshop.workers import Workers
+from controller.workshop.workers.workers import Workers
 
 THICK = {"thickness_mm": 5.0}
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from controller.errors import UsageError
 
 if TYPE_CHECKING:
-    from controller.workshop.workers import Workers
+    from controller.workshop.workers.workers import Workers
 
 LEAST_MB = 200  # Python, NumPy and this package alone take 100
 
@@ -38,7 +38,7 @@ def asked_for(options: argparse.Namespace) -> bool:
 
 def workers_of(options: argparse.Namespace) -> Workers:
     """Who is to compute; raises UsageError if options contradict each other."""
-    from controller.workshop.workers import Workers
+    from controller.workshop.workers.workers import Workers
 
     given = [name for name in ("workers", "dask", "scheduler_file") if getattr(options, name) is not None]
     if len(given) > 1:

@@ -30,7 +30,7 @@ from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.bank_builder.writer import BankWriter
 from controller.workshop.physics.responses.response_source import ResponseSource
-from controller.workshop.workers import Mapped
+from controller.workshop.workers.map_kept import Mapped
 
 WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
 CELLS_COMPARED = 32  # at most, of an optimised bank: 10 ms each

@@ -1,4 +1,4 @@
-"""Optimised drive words of many cells, kept in a file beside the bank until the bank is there (`workshop/workers.py`).
+"""Optimised drive words of many cells, kept in a file beside the bank until the bank is there (`workshop/workers/`).
 
 A cell's words do not depend on where and with which others they are computed (`workshop/bank_builder/methods/exact.py`).
 """
@@ -19,7 +19,8 @@ from controller.device.bank.packing import WORD
 from controller.device.board.board import Board
 from controller.workshop.bank_builder.methods.descent import CELLS_AT_ONCE, Descent, DescentAim
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-from controller.workshop.workers import Mapped, Workers, map_kept
+from controller.workshop.workers.map_kept import Mapped, map_kept
+from controller.workshop.workers.workers import Workers
 
 Words = NDArray[np.uint32]
 Point = tuple[float, float]

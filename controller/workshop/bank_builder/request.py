@@ -17,7 +17,7 @@ from controller.device.scene.scene import FixedEmitter
 from controller.workshop.bank_builder.methods.descent import DescentAim
 from controller.workshop.physics.plate import mode_cut_hz
 from controller.workshop.physics.responses.response_source import ResponseSource
-from controller.workshop.workers import ALONE, Workers
+from controller.workshop.workers.workers import ALONE, Workers
 
 
 def cells_around(grid: Grid, places_m: Iterable[tuple[float, float]]) -> NDArray[np.bool_]:

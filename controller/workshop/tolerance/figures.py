@@ -11,7 +11,8 @@ from threadpoolctl import threadpool_limits
 
 from controller.device.board.paths import make_folder, state_folder
 from controller.workshop.tolerance.study import BANKS, FIGURES, Item, Study, nominal_of
-from controller.workshop.workers import Workers, map_kept
+from controller.workshop.workers.map_kept import map_kept
+from controller.workshop.workers.workers import Workers
 
 Floats = NDArray[np.float64]
 

@@ -23,7 +23,7 @@ from controller.workshop.tolerance.figures import spread, study_figures, wilson
 from controller.workshop.tolerance.played import PlayedPlate
 from controller.workshop.tolerance.study import KEPT, Study, nominal_of
 from controller.workshop.tolerance.tolerances import SHIPPED, Spread, Tolerances, draw
-from controller.workshop.workers import ALONE, Workers
+from controller.workshop.workers.workers import ALONE, Workers
 
 BOARD = small_board()
 ALL = load_toml(SHIPPED, Tolerances)

@@ -14,8 +14,10 @@ from worker_functions import Fatal, cubes, greedy
 from controller.cli import main
 from controller.device.bank.file_format import creator
 from controller.errors import UsageError, WorkersError
-from controller.workshop import workers as module
-from controller.workshop.workers import Group, Workers, dask_errors, map_kept
+from controller.workshop.workers import dask_client as module
+from controller.workshop.workers.dask_client import dask_errors
+from controller.workshop.workers.map_kept import Group, map_kept
+from controller.workshop.workers.workers import Workers
 
 ITEMS = {10 * number: number for number in range(12)}
 RESULTS = dict(zip(ITEMS, cubes(ITEMS.values()), strict=True))
@@ -125,7 +127,7 @@ def test_options_that_contradict_each_other_are_refused(arguments, said, capsys)
     assert said in capsys.readouterr().err
 
 
-PAGE = Path(module.__file__).with_name("cluster.md").read_text()
+PAGE = Path(module.__file__).with_name("README.md").read_text()
 SCRIPT = re.search(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)[1]
 
 
@@ -143,7 +145,7 @@ def cluster(tmp_path):
             process = subprocess.Popen(
                 [sys.executable, str(tmp_path / "cluster.py")],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])} | dict(environment), start_new_session=True,
+                env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])} | dict(environment), start_new_session=True,
             )  # fmt: skip
             stack.enter_context(process)  # its standard input is closed, and it ends
             return process.stdout.readline().strip()
@@ -201,7 +203,8 @@ KILLED = """
 import sys
 from pathlib import Path
 from worker_functions import Fatal
-from controller.workshop.workers import Workers, map_kept
+from controller.workshop.workers.map_kept import map_kept
+from controller.workshop.workers.workers import Workers
 if __name__ == "__main__":
     kept = Path(sys.argv[1])
     map_kept(Fatal(sys.argv[2], 9, kept), {10 * n: n for n in range(12)}, kept, Workers(2))
@@ -215,7 +218,7 @@ def test_after_kill_9_of_everything_the_same_call_goes_on(tmp_path):
     script.write_text(KILLED)
     ended = subprocess.run(
         [sys.executable, str(script), str(tmp_path / "kept"), str(tmp_path / "mark")],
-        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])}, start_new_session=True, check=False,
+        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}, start_new_session=True, check=False,
     )  # fmt: skip
     assert ended.returncode == -9
     for number in (1, 2):

@@ -1,0 +1,57 @@
+"""The file that keeps what is done: records of number and result with a CRC-32, of which the last may be torn."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from controller.device.kernel.crc import intact, sealed
+from controller.errors import UsageError, WorkersError
+from controller.regular_file import open_private
+
+RECORD = struct.Struct("<QI")  # number of the item, bytes of its result; then these; then the CRC-32 of all
+
+
+class KeptFile:
+    """The file of results that are there, one record each, of which the last may be torn."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
+        self.results: dict[int, bytes] = {}
+        whole = 0
+        while len(head := file.read(RECORD.size)) == RECORD.size:
+            number, size = RECORD.unpack(head)
+            record = head + file.read(min(size, os.fstat(file.fileno()).st_size) + 4)  # a torn size may be any
+            if len(record) != RECORD.size + size + 4 or not intact(record):
+                break
+            self.results[number] = record[RECORD.size : -4]
+            whole += len(record)
+        file.seek(whole)
+        file.truncate()
+
+    @classmethod
+    @contextlib.contextmanager
+    def open(cls, path: Path) -> Iterator[KeptFile]:
+        """The file at a path, made if it is not there; raises WorkersError if it cannot be written, UsageError if it is in use."""
+        try:
+            with os.fdopen(open_private(path), "r+b") as file:
+                try:
+                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except BlockingIOError:
+                    raise UsageError(f"{path}: another command is at work on the same: wait for it, or give another file") from None
+                yield cls(file)
+        except OSError as error:
+            raise WorkersError(f"{path}: cannot be written ({error.strerror})") from error
+
+    def add(self, number: int, result: bytes) -> None:
+        """Append a result."""
+        self._file.write(sealed(RECORD.pack(number, len(result)) + result))
+
+    def flush(self) -> None:
+        """Hand what was added to the system."""
+        self._file.flush()

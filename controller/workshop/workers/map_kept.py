@@ -1,0 +1,137 @@
+"""One function of many items: in this process, in processes of this machine, or on the workers of a dask scheduler.
+
+Results do not depend on where and with which others they are computed, so a task is a small group of items, and one whose worker is
+lost is simply computed again by another. What is done is kept in a file: the same call goes on where a failure has ended it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import platform
+import resource
+import threading
+import time
+from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from controller.device.bank.file_format import creator
+from controller.errors import WorkersError
+from controller.workshop.workers.dask_client import dask_errors, open_client, results_of
+from controller.workshop.workers.kept_file import KeptFile
+from controller.workshop.workers.workers import ALONE, Workers
+
+Item = TypeVar("Item")
+
+TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
+ONE_AT_A_TIME = threading.Lock()  # in a process: a model may have one workspace, and a dask worker several threads
+
+
+@dataclass
+class Share:
+    """What one worker has done."""
+
+    items: int = 0
+    processor_s: float = 0.0
+    peak_mb: float = 0.0  # largest resident memory of its process, in MB of 10^6 bytes
+
+
+@dataclass(frozen=True)
+class Mapped:
+    """Results of all items by number, and who has computed them."""
+
+    results: dict[int, bytes]
+    kept: int  # were there before
+    shares: dict[str, Share] = field(default_factory=dict)  # by the host and process of each worker
+
+    def figures(self) -> dict[str, Any]:
+        """Who did how much, as plain values."""
+        return {"kept": self.kept, **{worker: asdict(share) for worker, share in sorted(self.shares.items())}}
+
+
+@dataclass(frozen=True)
+class Group(Generic[Item]):
+    """A task: some items, the function for them, and who asks."""
+
+    function: Callable[[Sequence[Item]], Sequence[bytes]]
+    items: tuple[Item, ...]
+    maker: str  # `creator()` of who asks: a worker of another version would compute something else
+
+    def compute(self) -> tuple[Sequence[bytes], str, Share]:
+        """Results, the worker's name and its share; raises WorkersError if it is of another version."""
+        if self.maker != creator():
+            raise WorkersError(
+                f"a worker has another version than asked for: {creator()}, not {self.maker}: install the same on all"
+            )
+        before_s = time.process_time()
+        with ONE_AT_A_TIME, threadpool_limits(1, "blas"):
+            results = self.function(self.items)
+        peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024e-6
+        return results, f"{platform.node()}, process {os.getpid()}", Share(len(self.items), time.process_time() - before_s, peak_mb)
+
+
+def map_kept(
+    function: Callable[[Sequence[Item]], Sequence[bytes]],
+    items: Mapping[int, Item],
+    kept: Path,
+    workers: Workers = ALONE,
+    *,
+    at_once: int = 1,
+    what: str = "",
+    unit: str = "item",
+) -> Mapped:
+    """Results of `function`, bytes for each of at most `at_once` items, for all `items` by number: the same whoever computes.
+
+    `function` and items are pickled. What the file `kept` holds is not computed again: the caller names it by all that determines
+    the results, and removes it when they are safe. With `what`, a bar of that name shows the time left on stderr if that is a
+    terminal.
+
+    Raises WorkersError if the scheduler is not found, a worker has another version, all workers are lost, or what is done cannot be
+    kept; UsageError if another process has the file.
+    """
+    with KeptFile.open(kept) as done:
+        results = {number: done.results[number] for number in items if number in done.results}
+        missing = [number for number in items if number not in results]
+        mapped = Mapped(results, len(results))
+        size = at_once if workers.strangers else max(1, min(at_once, -(-len(missing) // (TASKS_PER_WORKER * workers.processes))))
+        groups = [missing[first : first + size] for first in range(0, len(missing), size)]
+        tasks = [Group(function, tuple(items[number] for number in group), creator()) for group in groups]
+        bar = tqdm(total=len(items), initial=len(results), unit=unit, desc=what, disable=None if what else True)
+        with bar, contextlib.closing(_computed(tasks, workers)) as computed:
+            for index, (found, worker, share) in computed:
+                for number, result in zip(groups[index], found, strict=True):
+                    results[number] = result
+                    done.add(number, result)
+                done.flush()
+                of_worker = mapped.shares.setdefault(worker, Share())
+                of_worker.items += share.items
+                of_worker.processor_s += share.processor_s
+                of_worker.peak_mb = max(of_worker.peak_mb, share.peak_mb)
+                bar.update(len(found))
+    return mapped
+
+
+def _computed(tasks: Sequence[Group[Any]], workers: Workers) -> Generator[tuple[int, tuple[Sequence[bytes], str, Share]]]:
+    """Number of each task and what it computes, as they come."""
+    if not tasks:
+        return
+    if not workers.strangers and workers.processes == 1:
+        for number, task in enumerate(tasks):
+            yield number, task.compute()
+        return
+    with contextlib.ExitStack() as stack:
+        with dask_errors(workers.option):
+            client = stack.enter_context(open_client(workers))
+            number_of = {future: number for number, future in enumerate(client.map(Group.compute, tasks, pure=False))}
+            results = results_of(number_of)
+        while True:
+            with dask_errors(workers.option):  # of dask, not of who takes the results
+                found = next(results, None)
+            if found is None:
+                return
+            yield found
