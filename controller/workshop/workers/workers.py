@@ -1,4 +1,4 @@
-"""Who computes."""
+"""Who computes what many processes or machines can share."""
 
 from __future__ import annotations
 
