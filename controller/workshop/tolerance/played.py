@@ -26,7 +26,7 @@ BLOCK = 32  # samples: exponentials are products of those at the blocks' starts 
 
 @dataclass(frozen=True, eq=False)
 class PlayedPlate:
-    """Partial fractions of every mode on every channel that does something."""
+    """Partial fractions of every mode on every channel that has a patch."""
 
     channels: NDArray[np.intp]  # (channel,)
     step: StepResponse  # of the board's own stage: poles, and which mode they belong to
@@ -38,7 +38,7 @@ class PlayedPlate:
     def of(cls, board: Board, modes: Modes, gain: Floats, capacitance: Floats) -> PlayedPlate:
         """The plate of a board with `modes`; moments and capacitances of its channels, (32,) both, are over the board's."""
         forces = channel_forces(board, modes) * gain
-        channels = np.flatnonzero(forces.any(axis=0))
+        channels = np.sort([actuator.channel for actuator in board.actuators])
         steps: dict[float, StepResponse] = {}
         for share in {1.0, *capacitance[channels].tolist()}:
             driver = msgspec.structs.replace(board.driver, capacitance_f=board.driver.capacitance_f * share)

@@ -132,7 +132,8 @@ class _OnPlate:
         scale, found = FocusScale.of(self._study.board), []
         for place, modal in zip(self._places_m.tolist(), self._modal(words, period_s), strict=True):
             metrics = Field.of_modal(self._modes, self._plate.step, modal, scale).focus_metrics(*place)
-            found.append((metrics.amplitude_m, metrics.contrast, metrics.spot_m))
+            contrast = metrics.contrast if np.isfinite(metrics.contrast) else 0.0  # of a plate that nothing moves
+            found.append((metrics.amplitude_m, contrast, metrics.spot_m))
         return np.array(found)
 
     def best_period_s(self, nominal: Nominal) -> float:

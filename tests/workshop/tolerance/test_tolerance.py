@@ -153,6 +153,12 @@ def test_a_dead_channel_is_a_board_without_its_patch():
     assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
 
 
+def test_a_plate_on_which_nothing_works_has_no_amplitude_and_no_contrast():
+    figures = STUDY.play(draw(BOARD, Tolerances(dead_probability=0.9999), 1, 0), 0)
+    assert (figures[:, :, :2] == 0).all()
+    assert np.isfinite(figures).all()
+
+
 def test_the_bit_clock_takes_back_what_stretches_all_frequencies_and_a_calibration_the_rest():
     plate = msgspec.structs.replace(BOARD.plate, thickness_mm=BOARD.plate.thickness_mm * 1.02)
     drawn = draw(msgspec.structs.replace(BOARD, plate=plate), NONE, 1, 0)
