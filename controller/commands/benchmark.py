@@ -27,7 +27,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         example="haptic-panel benchmark --quick --out results",
         parents=[common],
         description="Compare methods of finding drive words on the plate model: work-precision diagrams (PNG, SVG) and their "
-        "figures (JSON). Takes about 11 minutes of one core; --quick: 2 minutes.",
+        "figures (JSON). Takes about 10 minutes of one core, --quick 2.5 minutes; two cores share all but the timing.",
     )
     benchmark.add_argument("--quick", action="store_true", help="fewer scenes and repetitions")
     benchmark.add_argument(

@@ -41,11 +41,13 @@ def building_figures(board: Board, judge: Judge, drawn: Sequence[FingerScene]) -
         for above_hz in ABOVE_BAND_HZ
     ]
     models += [(whole, "float32", "all modes"), (whole, "float64", "all modes")]
-    for model, kind, label in models:
-        losses = []
-        for scene in drawn:
-            words = drive_words(model.drive_order_responses(scene.expected, dtype=kind)[0], board.idle_word)
-            losses.append(judge.errors(scene, [words], [False])[0]["bound_loss"])
+    lost = []
+    for scene in drawn:
+        words = [
+            drive_words(model.drive_order_responses(scene.expected, dtype=kind)[0], board.idle_word) for model, kind, _ in models
+        ]
+        lost.append([errors["bound_loss"] for errors in judge.errors(scene, words, [False] * len(words))])
+    for (model, kind, label), losses in zip(models, np.transpose(lost).tolist(), strict=True):
         found.append(
             {
                 "curve": f"number of modes, {kind}",

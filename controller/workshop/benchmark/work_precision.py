@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import itertools
 import tempfile
-from collections.abc import Callable, Iterable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +30,11 @@ from controller.workshop.benchmark.methods.candidate import Candidate
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.benchmark.methods.registry import all_candidates
 from controller.workshop.benchmark.pareto import AXES, front
+from controller.workshop.benchmark.processes import USABLE, in_processes
 
 Figures = dict[str, Any]
 Progress = Callable[[int, int], None]
+TabledScene = tuple[FingerScene, bool]  # and whether methods from tables of responses take part in it
 SCHEMA_VERSION = 1
 PLACES_AT_ONCE = 90  # whose cells are held: 0.7 GB; all that --quick needs, so that none are computed twice
 BETTER_HIGH = {"contrast", "amplitude_over_unfiltered", "felt_um"}  # the worst of these is the smallest
@@ -58,7 +62,8 @@ def work_precision(
     effort: Effort,
     seed: int = 1,  # of the scenes. Errors of equal seeds are equal
     *,
-    timing: bool = True,  # whether times are measured
+    timing: bool = True,  # whether times are measured, by this process alone
+    processes: int = USABLE,  # that evaluate scenes
     candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,  # makes the methods
     progress: Progress = lambda _done, _total: None,  # called with what is done and all there is to do
 ) -> Figures:
@@ -77,7 +82,7 @@ def work_precision(
             def step() -> None:
                 progress(next(done), total)
 
-            found = _errors(laboratory, judge, methods, drawn, effort.tabled_scenes, step)
+            found = _errors(laboratory, judge, methods, _tabled(drawn, effort.tabled_scenes), processes, step)
             times: dict[int, dict[int, CallTiming]] = {}
             measured: Figures = {"baselines": [], "left_out": [], "machine": {}, "building": []}
             if timing:
@@ -145,39 +150,59 @@ def _errors(
     laboratory: Laboratory,
     judge: Judge,
     methods: Sequence[Candidate],
-    drawn: Sequence[FingerScene],
-    tabled_scenes: int,
+    drawn: Sequence[TabledScene],
+    processes: int,
     step: Callable[[], None],
 ) -> list[dict[str, list[Errors]]]:
     """Errors of each method by family."""
     found: list[dict[str, list[Errors]]] = [{} for _ in methods]
-    waiting = [scene for scene in drawn if scene.points]
-    tabled = {id(scene) for family in _families(waiting) for scene in family[:tabled_scenes]}
-    while waiting:
-        some = [waiting.pop(0)]
-        while waiting and sum(len(scene.points) for scene in (*some, waiting[0]) if id(scene) in tabled) <= PLACES_AT_ONCE:
-            some.append(waiting.pop(0))
-        laboratory.prepare([place for scene in some if id(scene) in tabled for place in scene.expected])
-        for scene in some:
-            able = [
-                index
-                for index, method in enumerate(methods)
-                if len(scene.points) <= method.most_fingers and (not method.tabled or id(scene) in tabled)
-            ]
-            words = [methods[index].words_of(methods[index].run(_full(scene), scene.null)) for index in able]
-            evaluated = judge.errors(scene, words, [methods[index].free_polarity and len(scene.points) > 1 for index in able])
-            for index, errors in zip(able, evaluated, strict=True):
-                found[index].setdefault(scene.family, []).append(errors)
+    for some in _at_once(drawn):
+        laboratory.prepare([place for scene, tabled in some if tabled for place in scene.expected])
+        evaluated = in_processes(partial(_judged, judge, methods), some, processes)
+        for (scene, _), errors in zip(some, evaluated, strict=True):
+            for index, one in errors.items():
+                found[index].setdefault(scene.family, []).append(one)
             step()
     return found
 
 
-def _families(drawn: Sequence[FingerScene]) -> list[list[FingerScene]]:
-    """Scenes of each family."""
-    found: dict[str, list[FingerScene]] = {}
+def _judged(judge: Judge, methods: Sequence[Candidate], given: TabledScene) -> dict[int, Errors]:
+    """Errors of those methods, by their index, that take part in a scene."""
+    scene, tabled = given
+    able = {
+        index: method
+        for index, method in enumerate(methods)
+        if len(scene.points) <= method.most_fingers and (tabled or not method.tabled)
+    }
+    words = [method.words_of(method.run(_full(scene), scene.null)) for method in able.values()]
+    evaluated = judge.errors(scene, words, [method.free_polarity and len(scene.points) > 1 for method in able.values()])
+    return dict(zip(able, evaluated, strict=True))
+
+
+def _tabled(drawn: Sequence[FingerScene], most: int) -> list[TabledScene]:
+    """Scenes with a finger, and whether methods from tables take part: in so many of each family."""
+    seen: Counter[str] = Counter()
+    found = []
     for scene in drawn:
-        found.setdefault(scene.family, []).append(scene)
-    return list(found.values())
+        if scene.points:
+            seen[scene.family] += 1
+            found.append((scene, seen[scene.family] <= most))
+    return found
+
+
+def _at_once(drawn: Sequence[TabledScene]) -> Iterator[list[TabledScene]]:
+    """Successive scenes whose cells are held together."""
+    some: list[TabledScene] = []
+    places = 0
+    for scene, tabled in drawn:
+        more = len(scene.points) * tabled
+        if some and places + more > PLACES_AT_ONCE:
+            yield some
+            some, places = [], 0
+        some.append((scene, tabled))
+        places += more
+    if some:
+        yield some
 
 
 def _times(

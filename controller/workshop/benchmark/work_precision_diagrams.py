@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from controller.workshop.benchmark.pareto import cost, main_error
+from controller.workshop.benchmark.processes import USABLE, in_processes
 from controller.workshop.benchmark.work_precision_curves import (
     FLOOR,
     draw_curves,
@@ -46,21 +49,24 @@ FELT = "felt amplitude lost: 1 − felt / most felt of any method"
 FELT_FLOOR = 5e-3  # felt losses below are drawn here: methods differ by more, or are felt alike
 
 
-def draw_all(folder: Path, figures: Figures) -> list[Path]:
+def draw_all(folder: Path, figures: Figures, processes: int = USABLE) -> list[Path]:
     """Draw every diagram as PNG and SVG into a folder that is there; returns the files written.
 
     Raises ConfigError if one cannot be written.
     """
     timed = any(setting["time_us"] for setting in figures["settings"])
-    written = []
-    for name, draw in DIAGRAMS.items():
-        if name in TIMED and not timed:
-            continue
-        figure = draw(figures)
-        for suffix in SUFFIXES:
-            path = folder / f"{name}{suffix}"
-            save_figure(figure, path, 110)
-            written.append(path)
+    names = [name for name in DIAGRAMS if timed or name not in TIMED]
+    drawn = in_processes(partial(_draw, folder, figures), names, processes)
+    return list(itertools.chain.from_iterable(drawn))
+
+
+def _draw(folder: Path, figures: Figures, name: str) -> list[Path]:
+    """Write one diagram, which is laid out once for its files."""
+    figure = DIAGRAMS[name](figures)
+    written = [folder / f"{name}{suffix}" for suffix in SUFFIXES]
+    for path in written:
+        save_figure(figure, path, 110)
+        figure.set_layout_engine("none")
     return written
 
 

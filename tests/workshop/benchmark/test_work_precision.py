@@ -55,7 +55,7 @@ def hasty():
 
 @pytest.fixture(scope="module")
 def figures(coarse):
-    return work_precision(coarse, EFFORT, seed=5, candidates=few)
+    return work_precision(coarse, EFFORT, seed=5, candidates=few, processes=1)
 
 
 def test_figures_are_as_the_schema_says(figures):
@@ -80,11 +80,15 @@ def flat(figures):
 
 
 def test_errors_are_the_same_for_a_seed(coarse, figures):
-    again = work_precision(coarse, EFFORT, seed=5, timing=False, candidates=lambda laboratory: few(laboratory)[:2])
+    again = work_precision(coarse, EFFORT, seed=5, timing=False, candidates=lambda laboratory: few(laboratory)[:2], processes=1)
     assert flat(again) == pytest.approx({name: value for name, value in flat(figures).items() if name in flat(again)}, rel=1e-6)
     assert len(flat(again)) > 200
     assert not any(setting["time_us"] for setting in again["settings"])
     assert again["baselines"] == again["building"] == []
+
+
+def test_errors_are_the_same_in_processes_to_the_last_digit(coarse, figures):
+    assert flat(work_precision(coarse, EFFORT, seed=5, timing=False, candidates=few, processes=2)) == flat(figures)
 
 
 def test_the_full_field_loses_nothing_alone_and_the_nearest_of_coarse_cells_much(figures):
