@@ -16,7 +16,7 @@ from controller import __version__
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
 from controller.device.bank.provenance import MODEL_VERSION, Provenance, provenance_of
-from controller.device.kernel import load_frames_bytes
+from controller.device.kernel import LARGEST_EQUALISER, load_frames_bytes
 from controller.device.kernel.crc import intact, sealed
 from controller.errors import BankError
 
@@ -114,6 +114,12 @@ class Header:
         return (
             float(reported) if isinstance(reported, int | float) and LEAST_WAVE_SCALE <= reported <= 1 / LEAST_WAVE_SCALE else 1.0
         )
+
+    @property
+    def equaliser(self) -> float:
+        """What gives back to a response between cells what interpolation takes from it (`kernel.bank_twin`); 0, if not given."""
+        reported: object = self.parameters.get("equaliser")
+        return float(reported) if isinstance(reported, int | float) and 0 <= reported <= LARGEST_EQUALISER else 0.0
 
     @property
     def provenance(self) -> Provenance | None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from controller.device.kernel.bank_twin import (
     GROUP_SAMPLES,
+    LARGEST_EQUALISER,
     MAX_BLOCK_SAMPLES,
     MAX_FOCI,
     MAX_SAMPLES,
@@ -38,6 +39,7 @@ from controller.errors import UsageError
 __all__ = [
     "COMPILED",
     "GROUP_SAMPLES",
+    "LARGEST_EQUALISER",
     "MAX_BLOCK_SAMPLES",
     "MAX_FOCI",
     "MAX_NULLS",

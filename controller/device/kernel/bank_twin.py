@@ -27,6 +27,7 @@ class PlaceCells(NamedTuple):
 
     responses: Cells
     rest: Cells
+    tap: int = 0  # of the equaliser, in 2^-14
 
 
 CHANNELS: Final = 32
@@ -35,12 +36,15 @@ GROUP_SAMPLES: Final = 8  # of which blocks consist
 MAX_FOCI: Final = 10
 MAX_SAMPLES: Final = 2000  # so that sums of absolute values stay below 2^31
 MAX_BLOCK_SAMPLES: Final = 256
+STEPS_PER_BLOCK: Final = 12  # steps of 8 us: between the taps of an equaliser, and between times near T
+LARGEST_EQUALISER: Final = 0.5  # so that an equalised response is within 16 bits
+TAP_BITS: Final = 15  # behind the point of a product with a tap
 LARGEST: Final = (1 << 31) - 1
 WEIGHT_SUM: Final = 256  # of the cells around a point: four roundings may add 2, and 258 * 127 is still within 16 bits
 
 # What a composition needs to know of bank and board: samples, bytes from one response to the next, cells along x and y,
-# responses, idle word, samples of a block; pitch, x and y of cell 0 in m.
-PLAN: Final = struct.Struct("<7q3d")
+# responses, idle word, samples of a block; pitch, x and y of cell 0 in m; and the equaliser (`Responses.equalised`).
+PLAN: Final = struct.Struct("<7q4d")
 ENTRY: Final = struct.Struct("=i")
 SCALE: Final = struct.Struct("=f")
 
@@ -66,7 +70,7 @@ def room_bytes(samples: int) -> int:
     # 32 bits for each value of the points' responses, of their sum, and five more in what follows
     # and 64 bits for each of their sketches, of the sum of these and two more
     of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP)
-    of_nulls = 26 * (samples + rest_rows(samples) + MAX_BLOCK_SAMPLES)  # 16 bits for each value of five sums at four pads
+    of_nulls = 27 * (samples + rest_rows(samples) + MAX_BLOCK_SAMPLES)  # 16 bits for each value of five sums at four pads, and more
     of_points = (MAX_FOCI + 2) * (samples + rest_rows(samples)) + 5 * (samples + MAX_BLOCK_SAMPLES)
     return 4 * CHANNELS * (of_points + of_sketches) + 2 * CHANNELS * of_nulls
 
@@ -95,7 +99,7 @@ class Responses:
         plan, entries, scales, good, response, tables = bank
         if memoryview(plan).nbytes != PLAN.size:
             raise ValueError(f"a plan has {PLAN.size} bytes, not {memoryview(plan).nbytes}")
-        samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m = PLAN.unpack(plan)
+        samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m, equaliser = PLAN.unpack(plan)
         if not 1 <= samples <= MAX_SAMPLES:
             raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
         if not GROUP_SAMPLES <= block <= MAX_BLOCK_SAMPLES or block % GROUP_SAMPLES:
@@ -114,6 +118,7 @@ class Responses:
             and 0 < pitch_m < math.inf
             and math.isfinite(x0_m)
             and math.isfinite(y0_m)
+            and 0 <= equaliser <= LARGEST_EQUALISER
         ):
             raise ValueError("a number of the plan is beyond its range")
         self.entries, self.scales = memoryview(entries).cast("B"), memoryview(scales).cast("B")
@@ -122,7 +127,8 @@ class Responses:
             raise ValueError("the tables are too short for the plan")
         self.samples, self.block_samples, self.idle_word, self.count = samples, block, idle_word, count
         self.stride, self.values, self.nx, self.ny = stride, values, nx, ny
-        self.pitch_m, self.x0_m, self.y0_m = pitch_m, x0_m, y0_m
+        self.pitch_m, self.x0_m, self.y0_m, self._equaliser = pitch_m, x0_m, y0_m, equaliser
+        self.step = max(block // STEPS_PER_BLOCK, 1)
 
     def patch(self, x_m: float, y_m: float) -> tuple[PlaceCells, int]:
         """Responses around a point that have a weight, with their weights; and -1, or the first cell without one."""
@@ -148,7 +154,8 @@ class Responses:
             total += share * scale
         if len(cells) == 1:
             return PlaceCells([(numbers[0], WEIGHT_SUM)], []), -1
-        return PlaceCells(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0), []), -1
+        tap = round(self._equaliser * (right * (1 - right) + up * (1 - up)) * (1 << TAP_BITS - 1))
+        return PlaceCells(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0), [], tap), -1
 
     def _entry(self, cell: int) -> tuple[int, float]:
         """Number and scale of the response of a cell; below 0 if it has none, or one that may not be used."""
@@ -196,6 +203,14 @@ class Responses:
             short += np.multiply(levels[start : start + self.values], share, dtype=np.int16)
         found: Numbers = short.reshape(-1, CHANNELS) * (1 - 2 * turned)
         return found
+
+    def equalised(self, patch: PlaceCells) -> Numbers:
+        """The same, halved, with what interpolation takes from the shorter waves in the band given back (`equaliser` of a bank)."""
+        met = self.turned(patch)
+        beside = np.pad(met[: self.samples].astype(np.int32), ((self.step, self.step), (0, 0))) * patch.tap >> TAP_BITS
+        halved: Numbers = met >> 1
+        halved[: self.samples] -= (beside[: self.samples] + beside[2 * self.step :]).astype(np.int16)
+        return halved
 
     def _from_weights(self, tables: CompactTables, patch: PlaceCells, turned: Numbers) -> Numbers:
         levels = np.frombuffer(self.response, np.uint8)

@@ -58,17 +58,19 @@ enum {
     ROW = GROUP_SAMPLES * CHANNELS, /* values that are worked on at a time */
     RESTS = GROUP_SAMPLES / REST_SAMPLES * CHANNELS, /* and their rest outside the band */
     LINE_BYTES = 64,
+    STEPS_PER_BLOCK = 12,
 };
 static const double NEARLY = 0.03, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
+static const double LARGEST_EQUALISER = 0.5;      /* bank_twin.py */
 static const double ONES[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
 
 struct plan {
     int64_t samples, stride, nx, ny, entries, idle_word, block_samples;
-    double pitch_m, x0_m, y0_m;
+    double pitch_m, x0_m, y0_m, equaliser;
 };
 
 /* ---- words: numbers of compact_twin.py ---- */
@@ -115,6 +117,7 @@ struct patch {
     const uint8_t *levels[MAX_CELLS], *rest[MAX_CELLS];
     int16_t weight[MAX_CELLS], rest_weight[MAX_CELLS];
     int cells, rests;
+    int16_t tap;                 /* of the equaliser; 0: none */
     const struct tables *tables; /* of a compact bank, else 0 */
 };
 
@@ -122,6 +125,7 @@ struct patch {
 struct work {
     int count;
     int64_t values, rests, rows, block_rows, blocks; /* values of a response in the band, outside it; rows of eight samples, in a block too; blocks */
+    int64_t step; /* samples between the taps of an equaliser */
     uint32_t idle_word;
     int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
     int32_t *strength, *threshold, *near_low, *near_high; /* of each block and channel; between the last two, sums are near their threshold */
@@ -206,10 +210,9 @@ INLINE uints add_absolute(uints sum, ushorts value) {
     return sum + (two >> 16) + (two & 0xffff);
 }
 
-/* Values of a response of a point, negated in channels that idle high; returns the sum of their absolute values. */
-INLINE int64_t interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int64_t from, int64_t values, int16_t *out) {
+/* Values of a response of a point, negated in channels that idle high. */
+INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int64_t from, int64_t values, int16_t *out) {
     ushorts weight[4], even, odd, turn_even[2], turn_odd[2];
-    uints sum = {0};
     for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
     for (int half = 0; half < 2; half++) turned(idle_word, 16 * half, turn_even + half, turn_odd + half);
     for (int64_t at = 0; at < values; at += CHANNELS)
@@ -220,9 +223,7 @@ INLINE int64_t interpolate_cells(uint32_t idle_word, const struct patch *patch, 
             odd = negated(odd, turn_odd[half]);
             store(out + here, even);
             store(out + here + 8, odd);
-            sum = add_absolute(add_absolute(sum, even), odd);
         }
-    return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
 }
 
 /* ---- words: responses of a compact bank ---- */
@@ -424,10 +425,9 @@ APART void compose_one_compact(struct work *work, const struct patch *patch) {
 }
 
 /* As `interpolate`: the samples of a point, or the rest behind them. */
-APART int64_t from_compact(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+APART void from_compact(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
     ushorts room[4 * (1 + MAX_EVEN)], *even = room + 4;
     int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
-    uints sum = {0};
     int rest = from != 0;
     const struct layer *layer = rest ? &patch->tables->rest : &patch->tables->in_band;
     memset(room, 0, 4 * sizeof *room);
@@ -436,22 +436,43 @@ APART int64_t from_compact(uint32_t idle_word, const struct patch *patch, int64_
     for (int64_t row = 0; row < values / CHANNELS; row += 2 - rest, even += 4)
         for (int i = 0; i < 4; i++) {
             store(out + row * CHANNELS + 8 * i, even[i]);
-            sum = add_absolute(sum, even[i]);
-            if (rest || row + 1 == values / CHANNELS) continue;
-            ushorts value = between(even + i, near, far);
-            store(out + (row + 1) * CHANNELS + 8 * i, value);
-            sum = add_absolute(sum, value);
+            if (!rest && row + 1 < values / CHANNELS) store(out + (row + 1) * CHANNELS + 8 * i, between(even + i, near, far));
         }
+}
+
+APART void interpolate(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+    if (patch->tables) {
+        from_compact(idle_word, patch, from, values, out);
+        return;
+    }
+    switch (patch->cells) {
+    case 1: interpolate_cells(idle_word, patch, 1, from, values, out); break;
+    case 2: interpolate_cells(idle_word, patch, 2, from, values, out); break;
+    default: interpolate_cells(idle_word, patch, 4, from, values, out);
+    }
+}
+
+/* Half of a response less a share of itself `apart` values before and after; returns the sum of absolute values. */
+APART int64_t equalise(const int16_t *restrict met, int64_t apart, int16_t tap, int64_t values, int16_t *restrict out) {
+    uints sum = {0};
+    for (int64_t at = 0; at < values; at += 8) {
+        ushorts value = (ushorts)((shorts)load(met + at) >> 1) - high(load(met + at - apart), tap) - high(load(met + at + apart), tap);
+        store(out + at, value);
+        sum = add_absolute(sum, value);
+    }
     return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
 }
 
-APART int64_t interpolate(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
-    if (patch->tables) return from_compact(idle_word, patch, from, values, out);
-    switch (patch->cells) {
-    case 1: return interpolate_cells(idle_word, patch, 1, from, values, out);
-    case 2: return interpolate_cells(idle_word, patch, 2, from, values, out);
-    default: return interpolate_cells(idle_word, patch, 4, from, values, out);
-    }
+/* Response of a point and its rest, equalised, with some room for it; returns the sum of absolute values in the band. */
+static int64_t respond(const struct work *work, const struct patch *patch, int16_t *response, int16_t *rest, int16_t *room) {
+    int64_t apart = work->step * CHANNELS;
+    int16_t *met = room + apart;
+    memset(room, 0, (size_t)apart * sizeof *room);
+    interpolate(work->idle_word, patch, 0, work->values, met);
+    memset(met + work->values, 0, (size_t)apart * sizeof *room);
+    interpolate(work->idle_word, patch, work->values, work->rests, rest);
+    for (int64_t i = 0; i < work->rests; i++) rest[i] >>= 1;
+    return equalise(met, apart, patch->tap, work->values, response);
 }
 
 APART void compose_one(struct work *work, const struct patch *patch) {
@@ -938,10 +959,9 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
         return;
     }
     for (int i = 0; i < work->count; i++) {
-        int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
+        int64_t norm = respond(work, patches + i, work->response[i], work->rest[i], (int16_t *)work->strength);
         work->divisor[i] = norm ? (double)norm : INFINITY;
         memset(work->response[i] + work->values, 0, (size_t)(work->rows * ROW - work->values) * sizeof(int16_t));
-        interpolate(work->idle_word, patches + i, work->values, work->rests, work->rest[i]);
         memset(work->rest[i] + work->rests, 0, (size_t)(work->rows * RESTS - work->rests) * sizeof(int16_t));
     }
     memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
@@ -1033,6 +1053,7 @@ static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, str
     int64_t iy = first_of(y_m - plan->y0_m, plan->pitch_m, plan->ny, &tables->in_band, &up);
     stencil_shares(&tables->in_band, right, up, share);
     patch->tables = tables;
+    patch->tap = 0;
     patch->cells = (int)(across * across);
     for (int i = 0; i < patch->cells; i++) {
         int64_t cell = (iy + i / across) * plan->nx + ix + i % across;
@@ -1099,6 +1120,7 @@ static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struc
     double unit = total > 0 ? WEIGHT_SUM / total : 0;
     for (int i = 0; i < patch->cells; i++) patch->weight[i] = (int16_t)nearest(share[i] * unit);
     if (patch->cells == 1) patch->weight[0] = WEIGHT_SUM;
+    patch->tap = (int16_t)nearest(plan->equaliser * (right * (1 - right) + up * (1 - up)) * (1 << (TAP_BITS - 1)));
     return -1;
 }
 
@@ -1175,7 +1197,8 @@ static int valid(const struct plan *plan, const struct tables *tables) {
     if (plan->idle_word >= 0 && plan->idle_word <= UINT32_MAX && plan->nx >= 1 && plan->nx <= INT32_MAX && plan->ny >= 1 &&
         plan->ny <= INT32_MAX && plan->entries >= 0 && plan->entries <= INT32_MAX && values <= plan->stride && plan->stride <= INT32_MAX &&
         (!tables->there || (plan->nx >= tables->in_band.across && plan->ny >= tables->in_band.across)) &&
-        plan->pitch_m > 0 && plan->pitch_m < INFINITY && isfinite(plan->x0_m) && isfinite(plan->y0_m))
+        plan->pitch_m > 0 && plan->pitch_m < INFINITY && isfinite(plan->x0_m) && isfinite(plan->y0_m) && plan->equaliser >= 0 &&
+        plan->equaliser <= LARGEST_EQUALISER)
         return 1;
     PyErr_SetString(PyExc_ValueError, "a number of the plan is beyond its range");
     return 0;
@@ -1209,7 +1232,7 @@ static int read_point(PyObject *points, Py_ssize_t index, double *read) {
 
 static Py_ssize_t room_needed(int64_t samples) {
     int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES, of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP);
-    int64_t of_nulls = 26 * (samples + rows + MAX_BLOCK_SAMPLES); /* MAX_NULLS times SUMS, PLACES of the last one */
+    int64_t of_nulls = 27 * (samples + rows + MAX_BLOCK_SAMPLES); /* MAX_NULLS times SUMS, PLACES of the last one, one to equalise */
     return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches) + 2 * CHANNELS * of_nulls;
 }
 
@@ -1221,6 +1244,7 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
     work->block_rows = plan->block_samples / GROUP_SAMPLES;
     work->blocks = (work->rows + work->block_rows - 1) / work->block_rows;
     work->idle_word = (uint32_t)plan->idle_word;
+    work->step = plan->block_samples < STEPS_PER_BLOCK ? 1 : plan->block_samples / STEPS_PER_BLOCK;
     work->words = words;
     room += -(uintptr_t)room % LINE_BYTES;
     for (int i = 0; i < count; i++) {
@@ -1335,11 +1359,10 @@ enum {
     BLOCKS_APART = 2, /* of those from which the equations are taken */
     PLACES = 6, /* of a pad, in a ring */
     SUMS = 5, /* of what is met there */
-    SUM_SHIFT = 4, /* bits that responses lose before */
+    SUM_SHIFT = 3, /* bits that responses lose before */
     MARGIN_WEIGHT_SUM = 4095, /* of the points, and 15 times as much for the corrections: below 2^31 together */
     CORRECTION_WEIGHT_SUM = 61440,
     WEIGHT_BITS = 20,
-    STEPS_PER_BLOCK = 12,
 };
 static const double FLOOR = 0.25, RIDGE = 0.3, PI = 3.141592653589793;
 static const double RING_M[PLACES][2] = {{2.8e-3, 0.0},   {1.4e-3, 2.42487113e-3},   {-1.4e-3, 2.42487113e-3},
@@ -1505,21 +1528,25 @@ APART void sums_of_ring(const int16_t *restrict met, int64_t apart, int16_t *con
     }
 }
 
-/* Responses in the band, and what is beside it for each four samples: together. */
+/* Responses in the band, and what is beside it for each four samples: together, of 16 bits and then fewer. */
 APART void add_rests(int16_t *restrict met, const int16_t *restrict rest, int64_t values) {
     for (int64_t at = 0; at < values; at += CHANNELS)
-        for (int i = 0; i < CHANNELS; i++) met[at + i] = (int16_t)((met[at + i] >> SUM_SHIFT) + (rest[at / CHANNELS / REST_SAMPLES * CHANNELS + i] >> SUM_SHIFT));
+        for (int i = 0; i < CHANNELS; i++) {
+            int32_t both = met[at + i] + rest[at / CHANNELS / REST_SAMPLES * CHANNELS + i];
+            both = both > INT16_MAX ? INT16_MAX : both;
+            both = both < INT16_MIN ? INT16_MIN : both;
+            met[at + i] = (int16_t)(both >> SUM_SHIFT);
+        }
 }
 
 /* The sums of a pad from the patches of its places; `room` begins with the sums and ends with what is met. Returns where it goes on. */
-static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct patch *patches, uint32_t idle_word, int16_t *room) {
+static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct work *work, const struct patch *patches, int16_t *room) {
     int64_t padded = nulls->rows * ROW, reach = TIMES * nulls->step * CHANNELS, whole = padded + 2 * reach;
     int16_t *sums[SUMS], *met = room + SUMS * whole, *rest = met + PLACES * padded;
     memset(room, 0, (size_t)(SUMS * whole) * sizeof *room);
     for (int i = 0; i < SUMS; i++) still[i].response = sums[i] = room + i * whole + reach;
     for (int place = 0; place < PLACES; place++) {
-        interpolate(idle_word, patches + place, 0, nulls->values, met + place * padded);
-        interpolate(idle_word, patches + place, nulls->values, nulls->rests, rest);
+        respond(work, patches + place, met + place * padded, rest, rest + nulls->rests);
         add_rests(met + place * padded, rest, nulls->values);
     }
     sums_of_ring(met, padded, sums, nulls->values);
@@ -1541,7 +1568,7 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     int16_t *next = nulls.above + padded;
     take_bits(&nulls, work->words, work->idle_word);
     for (int i = 0; i < work->count; i++) {
-        int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
+        int64_t norm = respond(work, patches + i, work->response[i], work->rest[i], next);
         memset(work->response[i] + work->values, 0, (size_t)(padded - work->values) * sizeof(int16_t));
         int64_t given = -(int64_t)inner_product(nulls.above, work->response[i], (int)work->values);
         share[i] = norm ? 1 / (double)norm : 0;
@@ -1565,7 +1592,7 @@ static void keep_still(struct work *work, const struct patch *patches, const str
         nulls.weight[i] = (int64_t)nearest(scale / (strength > floor ? strength : floor));
     }
     nulls.unit = PI * scale / (double)(nulls.block_rows * GROUP_SAMPLES);
-    for (int i = 0; i < count; i++) next = take_sums(&nulls, nulls.sums + SUMS * i, places + PLACES * i, work->idle_word, next);
+    for (int i = 0; i < count; i++) next = take_sums(&nulls, nulls.sums + SUMS * i, work, places + PLACES * i, next);
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         for (int i = 0; i < SUMS * count; i++)
             if (i % SUMS < SUMS_OF[count - 1] && nulls.sums[i].solvable) correct(&nulls, nulls.sums + i);
@@ -1599,8 +1626,7 @@ static PyObject *null_places_in(const Py_buffer *buffer, PyObject *const *argume
         if (cell >= 0) return PyLong_FromLongLong(cell);
     }
     lay_out(&work, plan, (int)count, buffer[ROOM].buf, buffer[WORDS].buf);
-    int64_t step = plan->block_samples / STEPS_PER_BLOCK;
-    keep_still(&work, patches, patches + count, (int)still, step ? step : 1);
+    keep_still(&work, patches, patches + count, (int)still, work.step);
     return PyLong_FromLong(-1);
 }
 

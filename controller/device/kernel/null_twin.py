@@ -31,6 +31,7 @@ from controller.device.kernel.bank_twin import (
     CHANNELS,
     MAX_FOCI,
     REST_SAMPLES,
+    STEPS_PER_BLOCK,
     BankBuffers,
     PlaceCells,
     Point,
@@ -45,7 +46,6 @@ Numbers = NDArray[Any]
 
 MAX_NULLS: Final = 4
 TIMES: Final = 7  # around T
-STEPS_PER_BLOCK: Final = 12
 SWEEPS: Final = 3
 BLOCKS_APART: Final = 2  # of those from which the equations are taken
 RING: Final = (  # places of a null, in m beside its middle: 0.35 of a pad of 8 mm
@@ -64,7 +64,8 @@ SUMS: Final = (  # of what is met in the ring: orthogonal; eight at most, so tha
     (0, 1, -1, 0, 1, -1),
 )
 SUMS_OF: Final = (len(SUMS), 1, 1, 1)  # of each of so many pads: more of them would cost the points too much
-SUM_SHIFT: Final = 4  # bits that responses lose before
+SUM_SHIFT: Final = 3  # bits that responses lose before
+WITHIN: Final = (-(1 << 15), (1 << 15) - 1)
 MARGIN_WEIGHT_SUM: Final = 4095  # of the points, and 15 times as much for all corrections: below 2^31 together
 CORRECTION_WEIGHT_SUM: Final = 61440
 LARGEST_WEIGHT: Final = 32767
@@ -128,13 +129,14 @@ class _Nulls:
         self._bits = (
             np.unpackbits(as_bytes, axis=1, bitorder="little").reshape(-1).astype(np.float64)
         )  # where they deviate from idle
-        turned = [bank.turned(patch) for patch in patches]
+        turned = [bank.equalised(patch) for patch in patches]
         self._points = [response[: self._samples] for response in turned[:points]]
         self._still, kept = [], SUMS[: SUMS_OF[(len(turned) - points) // len(RING) - 1]]
         for first in range(points, len(turned), len(RING)):
-            shorter = np.array(turned[first : first + len(RING)]) >> SUM_SHIFT
-            beside = np.repeat(shorter[:, self._samples :], REST_SAMPLES, axis=1)[:, : self._samples]
-            self._still += [np.einsum("p,prc->rc", shares, shorter[:, : self._samples] + beside) for shares in kept]
+            ring = np.array(turned[first : first + len(RING)], np.int32)
+            beside = np.repeat(ring[:, self._samples :], REST_SAMPLES, axis=1)[:, : self._samples]
+            shorter = np.clip(ring[:, : self._samples] + beside, *WITHIN) >> SUM_SHIFT
+            self._still += [np.einsum("p,prc->rc", shares, shorter) for shares in kept]
         self._spent = 0
 
     def keep_still(self) -> None:

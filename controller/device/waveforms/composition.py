@@ -12,12 +12,14 @@ from controller.device import kernel
 from controller.device.bank.packing import CHANNELS
 from controller.device.bank.reader import Bank
 from controller.device.kernel import MAX_FOCI, MAX_SAMPLES, Point
+from controller.device.kernel.bank_twin import STEPS_PER_BLOCK
 from controller.device.kernel.null_twin import RING
 from controller.errors import BankError
 
 __all__ = ["MAX_FOCI", "Composer", "Point"]
 
 BLOCK_S = 96e-6  # over which the local strength of a response is taken
+EQUALISER_S = BLOCK_S / STEPS_PER_BLOCK  # between the taps of an equaliser
 
 
 def block_samples(bit_clock_hz: float) -> int:
@@ -53,6 +55,7 @@ class Composer:
             grid.pitch_m,
             grid.x0_m,
             grid.y0_m,
+            bank.header.equaliser,
         )
         tables = memoryview(array("i", entries)), memoryview(array("f", scales))
         self._buffers = kernel.BankBuffers(plan, *tables, good, b"", common)  # the responses follow once their section is mapped

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import math
+
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
+from controller.device.kernel import LARGEST_EQUALISER
+from controller.device.waveforms.composition import EQUALISER_S
 from controller.workshop.physics.design.design import characteristic_time_s
 
 # On the paper's plate, in whose band's middle waves are 10.54 mm long; `wave_scale` says what they are on others
 MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
 ENOUGH_HZ = 100e3  # bits of a low band still excite what lies far above it: their corners pass the driver up to here
 FEW_MODES = 2_200  # as many as can be computed whatever the edges
+STEEPER = (
+    1.25  # slope of the loss between cells over that of its first order in the pitch: by 24 places, of which 1.0 and 1.5 err more
+)
+LEAST_TILT = 1.0  # of an equaliser
 
 
 def mode_cut_hz(board: Board) -> float:
@@ -29,3 +37,16 @@ def wave_scale(board: Board) -> float:
     Lengths that were found on the paper's plate go with it. Rounded to three digits: exactly one for the shipped boards.
     """
     return float(f"{bending_wavelength_m(board.plate, board.waveform.middle_hz) / WAVELENGTH_M:.3g}")
+
+
+def equaliser(board: Board, pitch_m: float) -> float:
+    """What a bank's `equaliser` is: the share of a response's neighbours, 8 us away, that gives back what interpolation takes.
+
+    Interpolated between cells, a wave of number k keeps 1 - (k pitch)^2 a / 4 on average over its directions, `a` as
+    `bank_twin` has it: the less, the higher its frequency f, since k^2 goes with f. Three taps, 1 - 2 share a cos(2 pi f 8 us), go
+    the other way in the middle of a band between 15 and 58 kHz; elsewhere there is none.
+    """
+    turned = 2 * math.pi * board.waveform.middle_hz * EQUALISER_S
+    tilt = 2 * turned * math.sin(turned)
+    taken = (2 * math.pi * pitch_m / bending_wavelength_m(board.plate, board.waveform.middle_hz)) ** 2 / 4
+    return float(f"{min(STEEPER * taken / tilt, LARGEST_EQUALISER):.3g}") if tilt > LEAST_TILT else 0.0

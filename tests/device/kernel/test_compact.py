@@ -63,7 +63,7 @@ def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x
     )
     rest = compact_twin.PulseLayer(rest_across, 16, rest_weights, min(7, rest_weights), taps[1])
     stride = -(-compact_twin.row_bytes(weights, in_band.block_rows) // 64) * 64
-    plan = kernel.PLAN.pack(samples, stride, nx, ny, nx * ny, idle_word, 48, PITCH_M, 5e-3, 6e-3)
+    plan = kernel.PLAN.pack(samples, stride, nx, ny, nx * ny, idle_word, 48, PITCH_M, 5e-3, 6e-3, 0.0)
     scales = (10 ** random.uniform(-12, -11, nx * ny)).astype(np.float32)
     bank = kernel.BankBuffers(
         plan,

@@ -37,11 +37,15 @@ def weighed(bank, points):
     """Responses, and for each its weight of either sign, straight from the definition.
 
     The polarities with which the sum of every fourth sample has most energy, as few of them negative as positive; then two rounds
-    in which weights are divided by what their points get: in every fourth sample, and in all. Nothing is outside the band here.
+    in which weights are divided by what their points get: in every fourth sample, and in all. Nothing is outside the band here, and
+    the bank has no equaliser: responses of several are only halved.
     """
+    turned = 1 - 2 * channel_bits(np.uint32([IDLE_WORD])).astype(np.int64)
     responses = [interpolated(bank, x_m, y_m) for x_m, y_m, _ in points]
+    if len(points) > 1:
+        responses = [(here * turned >> 1) * turned for here in responses]
     norms = np.array([float(np.abs(here).sum()) for here in responses])
-    deviating = [here * (1 - 2 * channel_bits(np.uint32([IDLE_WORD])).astype(np.int64)) for here in responses]
+    deviating = [here * turned for here in responses]
     fourth, each = np.array([here[::4] >> 4 for here in deviating]), np.array(deviating)
     fourth, each = fourth.reshape(len(points), -1), each.reshape(len(points), -1)
     choices = np.array([(1, *rest) for rest in itertools.product((1, -1), repeat=len(points) - 1)])
