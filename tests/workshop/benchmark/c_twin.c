@@ -24,7 +24,7 @@ struct config {
     uint32_t (*crc32)(uint32_t, const uint8_t *, uint32_t);
     int64_t drive_stride, response_stride;
     int64_t nx, ny, regions, slots;
-    double pitch_m, x0_m, y0_m, snap_m, near_m, lattice_m;
+    double pitch_m, x0_m, y0_m, equaliser, snap_m, near_m, lattice_m;
     double length_m, width_m, lag_s, max_size_m;
     double rectangle[16][4], spacing_m[16]; /* spacing 0: none */
     int64_t idle_word;
@@ -471,7 +471,7 @@ static double along(double distance_m, int64_t last, int64_t *index)
     return (all % 1000000) * 1e-6;
 }
 
-struct patch { const int8_t *from[4]; int16_t weight[4]; int cells; };
+struct patch { const int8_t *from[4]; int16_t weight[4]; int cells, tap; };
 
 static void patch_at(double x_m, double y_m, struct patch *p)
 {
@@ -480,6 +480,7 @@ static void patch_at(double x_m, double y_m, struct patch *p)
     int columns = right ? 2 : 1, rows_ = up ? 2 : 1;
     double share[4], total = 0, vertical[2] = {1 - up, up}, horizontal[2] = {1 - right, right};
     p->cells = 0;
+    p->tap = (int)rint(c.equaliser * (right * (1 - right) + up * (1 - up)) * (1 << 14));
     for (int row = 0; row < rows_; row++)
         for (int column = 0; column < columns; column++) {
             int entry = c.entry_of[(iy + row) * c.nx + ix + column];
@@ -506,6 +507,26 @@ static void take_rest(const struct patch *p, int16_t *out)
     for (int n = 0; n < RESTS; n += CHANNELS)
         for (int q = 0; q < CHANNELS; q++)
             out[n + q] = (int16_t)((a[n + q] * weight[0] + b[n + q] * weight[1] + d[n + q] * weight[2] + e[n + q] * weight[3]) * flip[q]);
+}
+
+/* Halved, with what interpolation takes from short waves given back, 8 us before and after; the sum of absolute values in the band. */
+enum { APART = 4 * CHANNELS };
+
+static int64_t equalise(int tap, int16_t *response, int16_t *rest)
+{
+    static int16_t met[VALUES + 2 * APART];
+    int64_t size = 0;
+    memcpy(met + APART, response, VALUES * sizeof *met);
+    for (int v = 0; v < RESTS; v++) rest[v] >>= 1;
+    for (int n = 0; n < VALUES; n += CHANNELS) {
+        int32_t part = 0;
+        for (int v = n; v < n + CHANNELS; v++) {
+            response[v] = (int16_t)((met[v + APART] >> 1) - (met[v] * tap >> 15) - (met[v + 2 * APART] * tap >> 15));
+            part += response[v] < 0 ? -response[v] : response[v];
+        }
+        size += part;
+    }
+    return size;
 }
 
 /* Samples 0, 4, 8, .. of a response. */
@@ -686,21 +707,13 @@ static void compose(const double (*points)[2], int count)
         struct patch patch, *p = &patch;
         patch_at(points[i][0], points[i][1], p);
         take_rest(p, rest_of[i]);
-        for (int n = 0; n < SAMPLES;) {
-            u16x8 low = {0}, high = {0}; /* bytes of the absolute values: 32 samples of them fit 16 bits */
-            for (int end = n + 32 < SAMPLES ? n + 32 : SAMPLES; n < end; n++)
-                for (int half = 0; half < 2; half++) {
-                    i16x8 *v = rows[i] + n * GROUPS + 2 * half;
-                    sixteen(p, n * CHANNELS + 16 * half, v);
-                    for (int k = 0; k < 2; k++) {
-                        i16x8 value = v[k] *= flips[2 * half + k], sign = value >> 15;
-                        u16x8 magnitude = (u16x8)((value ^ sign) - sign);
-                        low += magnitude & 255;
-                        high += magnitude >> 8;
-                    }
-                }
-            for (int k = 0; k < PER; k++) size[i] += low[k] + 256 * (int64_t)high[k];
-        }
+        for (int n = 0; n < SAMPLES; n++)
+            for (int half = 0; half < 2; half++) {
+                i16x8 *v = rows[i] + n * GROUPS + 2 * half;
+                sixteen(p, n * CHANNELS + 16 * half, v);
+                for (int k = 0; k < 2; k++) v[k] *= flips[2 * half + k];
+            }
+        size[i] = equalise(p->tap, (int16_t *)rows[i], rest_of[i]);
     }
     for (int i = 0; i < count; i++) response[i] = (const int16_t *)rows[i];
     weigh(size, response, count, weight);
@@ -774,15 +787,8 @@ static void compose(const double (*points)[2], int count)
         patch_at(points[i][0], points[i][1], &p);
         take_rest(&p, rest_of[i]);
         add_up(&p);
-        for (int n = 0; n < SAMPLES; n++) {
-            int part = 0;
-            for (int q = 0; q < CHANNELS; q++) {
-                int value = sum_of[n * CHANNELS + q] * flip[q];
-                rows[i][n * CHANNELS + q] = (int16_t)value;
-                part += value < 0 ? -value : value;
-            }
-            size[i] += part;
-        }
+        for (int v = 0; v < VALUES; v++) rows[i][v] = (int16_t)(sum_of[v] * flip[v % CHANNELS]);
+        size[i] = equalise(p.tap, rows[i], rest_of[i]);
     }
     for (int i = 0; i < count; i++) response[i] = (const int16_t *)rows[i];
     weigh(size, response, count, weight);

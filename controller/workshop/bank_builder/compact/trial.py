@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from array import array
 from collections.abc import Callable
 from typing import Any, Final
@@ -11,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device import kernel
-from controller.device.bank.file_format import REST_SAMPLES
-from controller.device.bank.packing import CHANNELS, channel_bits, drive_words
+from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.device.waveforms.composition import block_samples
 from controller.workshop.bank_builder.compact.design import CompactDesign
@@ -61,10 +59,9 @@ class Trial:
         points_m = np.random.default_rng(SEED).uniform((0, 0), (board.plate.length_m, board.plate.width_m), (PLACES, 2))
         inside = (points_m >= (grid.x0_m, grid.y0_m)).all(axis=1) & (points_m <= grid.place(grid.cells - 1)).all(axis=1)
         self._places = [place for place in points_m[inside].tolist() if self._composes(place, 1.0)]
-        count = design.samples + math.ceil(design.samples / REST_SAMPLES)
-        self._exact = np.empty((len(self._places), count, CHANNELS), np.float32)
-        if self._places:
-            source.entry_responses(np.array(self._places), out=self._exact)
+        there = np.array(self._places).reshape(-1, 2)
+        self._best = [drive_words(response, board.idle_word) for response in source.drive_order_responses(there)]
+        self._whole = source.responses(there)[:, ::-1].astype(np.float32)
 
     def rest_gain(self) -> float:
         """Gain of the rest for which amplitudes below full come out as asked on average.
@@ -80,7 +77,7 @@ class Trial:
 
     def loss(self, gain: float) -> dict[str, Any]:
         """Amplitude lost by words, as `InterpolationError.summary` reports it; empty without a place."""
-        best = [self._displacement(drive_words(exact[: self._samples], self._board.idle_word), exact) for exact in self._exact]
+        best = [self._displacement(words, whole) for words, whole in zip(self._best, self._whole, strict=True)]
         lost = [1 - reached / most if most else 0.0 for reached, most in zip(self._displacements(gain, 1.0), best, strict=True)]
         if not lost:
             return {}
@@ -97,16 +94,15 @@ class Trial:
     def _displacements(self, gain: float, amplitude: float) -> list[float]:
         self._buffers = self._buffers._replace(tables=self._tables_of(gain))
         found = []
-        for place, exact in zip(self._places, self._exact, strict=True):
+        for place, whole in zip(self._places, self._whole, strict=True):
             self._composes(place, amplitude)
-            found.append(self._displacement(np.frombuffer(self._words, "<u4"), exact))
+            found.append(self._displacement(np.frombuffer(self._words, "<u4"), whole))
         return found
 
     def _composes(self, place: list[float], amplitude: float) -> bool:
         """Whether a place has all its cells; its words are in `_words` then."""
         return kernel.compose(self._words, self._room, self._buffers, [(place[0], place[1], amplitude)]) < 0
 
-    def _displacement(self, words: NDArray[np.uint32], exact: Reals) -> float:
+    def _displacement(self, words: NDArray[np.uint32], whole: Reals) -> float:
         idle_bits = channel_bits(np.array([self._board.idle_word], np.uint32))[0].astype(np.float64)
-        whole = exact[: self._samples] + np.repeat(exact[self._samples :], REST_SAMPLES, axis=0)[: self._samples]
         return float(((channel_bits(words) - idle_bits) * whole).sum())

@@ -6,14 +6,14 @@
 #include <string.h>
 #include <time.h>
 
-enum { CHANNELS = 32, SAMPLES = 1000, VALUES = SAMPLES * CHANNELS, RESTS = VALUES / 4, POINTS = 10 };
+enum { CHANNELS = 32, SAMPLES = 1000, VALUES = SAMPLES * CHANNELS, RESTS = VALUES / 4, POINTS = 10, APART = 4 * CHANNELS };
 
 struct bank {
     const int8_t *response;
     const int32_t *entry_of;
     const float *scale_of;
     int64_t stride, nx, ny;
-    double pitch_m, x0_m, y0_m;
+    double pitch_m, x0_m, y0_m, equaliser;
     uint32_t idle_word;
 };
 
@@ -32,10 +32,10 @@ static double along(double distance_m, double pitch_m, int64_t last, int64_t *in
     return 0;
 }
 
-/* Values of a response of a point; the sum of their absolute values. */
-static int64_t interpolate(const struct bank *b, double x_m, double y_m, int first, int values, int16_t *out)
+/* Values of a response of a point. */
+static void interpolate(const struct bank *b, double x_m, double y_m, int first, int values, int16_t *out)
 {
-    int64_t ix, iy, norm = 0;
+    int64_t ix, iy;
     double right = along(x_m - b->x0_m, b->pitch_m, b->nx - 1, &ix), up = along(y_m - b->y0_m, b->pitch_m, b->ny - 1, &iy);
     double share[4] = {(1 - up) * (1 - right), (1 - up) * right, up * (1 - right), up * right}, total = 0;
     const int8_t *from[4];
@@ -58,12 +58,6 @@ static int64_t interpolate(const struct bank *b, double x_m, double y_m, int fir
     else
         for (int v = 0; v < values; v++)
             out[v] = (int16_t)(p[v] * weight[0]) + (int16_t)(q[v] * weight[1]) + (int16_t)(r[v] * weight[2]) + (int16_t)(s[v] * weight[3]);
-    for (int n = 0; n < values / CHANNELS; n++) {
-        int32_t part = 0;
-        for (int c = 0; c < CHANNELS; c++) part += abs(out[n * CHANNELS + c]);
-        norm += part;
-    }
-    return norm;
 }
 
 /* Negated in channels that idle high: a bit deviates from idle where the sum is positive. */
@@ -71,6 +65,24 @@ static void turn(int16_t *response, int rows, const int16_t *idles_high)
 {
     for (int n = 0; n < rows; n++, response += CHANNELS)
         for (int c = 0; c < CHANNELS; c++) response[c] = (response[c] ^ -idles_high[c]) + idles_high[c];
+}
+
+/* Halved, with the band's slope given back: 8 us before and after; the sum of absolute values in the band. */
+static int64_t equalise(const struct bank *b, double x_m, double y_m, int16_t *response, int16_t *rest)
+{
+    static int16_t met[VALUES + 2 * APART];
+    int64_t ix, iy, norm = 0;
+    double right = along(x_m - b->x0_m, b->pitch_m, b->nx - 1, &ix), up = along(y_m - b->y0_m, b->pitch_m, b->ny - 1, &iy);
+    int32_t tap = (int32_t)rint(b->equaliser * (right * (1 - right) + up * (1 - up)) * (1 << 14));
+    memcpy(met + APART, response, VALUES * sizeof *met);
+    for (int v = 0; v < VALUES; v++) response[v] = (int16_t)((met[v + APART] >> 1) - (met[v] * tap >> 15) - (met[v + 2 * APART] * tap >> 15));
+    for (int v = 0; v < RESTS; v++) rest[v] >>= 1;
+    for (int n = 0; n < SAMPLES; n++) {
+        int32_t part = 0;
+        for (int c = 0; c < CHANNELS; c++) part += abs(response[n * CHANNELS + c]);
+        norm += part;
+    }
+    return norm;
 }
 
 static void sketch(const int16_t *response, int16_t *out)
@@ -184,17 +196,18 @@ static void balance(const double *divisor, int count, double *weight)
 
 static void compose(const struct bank *b, const double (*points)[2], int count, uint32_t *words)
 {
-    int64_t norm[POINTS];
+    int64_t norm[POINTS] = {1};
     double divisor[POINTS], weight_of[POINTS];
     int16_t whole[POINTS], idles_high[CHANNELS];
     int sign[POINTS] = {1};
     for (int c = 0; c < CHANNELS; c++) idles_high[c] = b->idle_word >> c & 1;
     for (int i = 0; i < count; i++) {
-        norm[i] = interpolate(b, points[i][0], points[i][1], 0, VALUES, response_of[i]);
+        interpolate(b, points[i][0], points[i][1], 0, VALUES, response_of[i]);
         turn(response_of[i], SAMPLES, idles_high);
         if (count == 1) continue;
         interpolate(b, points[i][0], points[i][1], VALUES, RESTS, rest_of[i]);
         turn(rest_of[i], SAMPLES / 4, idles_high);
+        norm[i] = equalise(b, points[i][0], points[i][1], response_of[i], rest_of[i]);
         sketch(response_of[i], sketch_of[i]);
     }
     if (count > 1) find_polarities(norm, count, sign);

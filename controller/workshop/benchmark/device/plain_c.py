@@ -28,7 +28,7 @@ class BankOfReference(ctypes.Structure):
     _fields_ = (
         *((name, ctypes.c_void_p) for name in ("response", "entry_of", "scale_of")),
         *((name, ctypes.c_int64) for name in ("stride", "nx", "ny")),
-        *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m")),
+        *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m", "equaliser")),
         ("idle_word", ctypes.c_uint32),
     )
 
@@ -50,7 +50,17 @@ class PlainC:
         entry_of, scale_of, response = (some.ctypes.data for some in self._kept)
         stride = bank.sections["response"].stride
         self._bank = BankOfReference(
-            response, entry_of, scale_of, stride, grid.nx, grid.ny, grid.pitch_m, grid.x0_m, grid.y0_m, idle_word
+            response,
+            entry_of,
+            scale_of,
+            stride,
+            grid.nx,
+            grid.ny,
+            grid.pitch_m,
+            grid.x0_m,
+            grid.y0_m,
+            bank.header.equaliser,
+            idle_word,
         )
         self.words = (ctypes.c_uint32 * bank.samples)()  # of the last call
 
