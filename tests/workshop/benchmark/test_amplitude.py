@@ -10,12 +10,14 @@ from controller.commands.common.tables import amplitude_table
 from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
 from controller.device.board.devices import MIN_AMPLITUDE
+from controller.device.kernel import bank_twin
 from controller.device.waveforms.composition import Composer
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.benchmark.focus.amplitude import amplitude_figures, plot_amplitude
 from controller.workshop.benchmark.focus.focus_figures import emit
+from controller.workshop.physics.plate import equaliser
 from controller.workshop.physics.plate_twin import PlateTwin
 
 PITCH_M = 2.5e-3
@@ -70,6 +72,35 @@ def test_every_finger_gets_the_amplitude_it_asks_for_of_what_exact_composition_g
     assert found == pytest.approx(asked, rel=0.05)
     assert found != pytest.approx(0.94 * np.array(asked), rel=0.05)  # 5 % is not much more than is needed
     assert found != pytest.approx(1.06 * np.array(asked), rel=0.05)
+
+
+def test_between_cells_a_response_has_the_slope_of_its_band(board, scenes, composer):
+    """Energy above 55 kHz over that below 35, relative to exact responses: interpolated, and equalised."""
+    places = [(x_m, y_m) for scene in scenes for x_m, y_m, _ in scene]
+    for scene in scenes:
+        composer.compose(scene)  # whose cells are then checked
+    known = bank_twin.Responses(composer._buffers)
+    patches = [known.patch(*place)[0] for place in places]
+    exact = PlateTwin(board).responses.drive_order_responses(places)
+    hz = np.fft.rfftfreq(known.samples, board.waveform.bit_period_s)
+
+    def slope(response):
+        energy = (np.abs(np.fft.rfft(response[: known.samples], axis=0)) ** 2).sum(axis=1)
+        return energy[hz > 55e3].sum() / energy[hz < 35e3].sum()
+
+    kept, given_back = (
+        np.median([slope(of(patch)) / slope(one) for patch, one in zip(patches, exact, strict=True)])
+        for of in (known.turned, known.equalised)
+    )
+    assert kept < 0.8
+    assert given_back == pytest.approx(1, abs=0.1)
+
+
+def test_a_band_that_three_taps_cannot_follow_has_no_equaliser(board):
+    high = msgspec.structs.replace(board.waveform, band_low_hz=60e3, band_high_hz=120e3)
+    assert equaliser(board, PITCH_M) == pytest.approx(0.2, rel=0.01)
+    assert equaliser(board, PITCH_M / 2) == pytest.approx(0.05, rel=0.01)
+    assert equaliser(msgspec.structs.replace(board, waveform=high), PITCH_M) == 0
 
 
 def test_a_quarter_of_the_amplitude_keeps_the_contrast(board, scenes, composer):
