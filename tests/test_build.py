@@ -40,6 +40,7 @@ def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(wheel):
         "fpga_rtl/haptic_core.v",
         "fpga_rtl/registers.vh",
         "fpga_rtl/simulation/wrapper.cpp",
+        "fpga_rtl/simulation/leap.sv",
     ):
         assert f"{data}/{wanted}" in names
     assert any(name.startswith(f"{data}/systemd/") for name in names)

@@ -9,18 +9,16 @@
 #include <vector>
 
 #include "Vhaptic_core.h"
-#include "Vhaptic_core___024root.h"
+#if __has_include("Vhaptic_core__Dpi.h")
+#include "Vhaptic_core__Dpi.h"
+#define LEAPS 1  // leap.sv is part of it
+#endif
 #include "verilated.h"
 #if VM_TRACE
 #include "verilated_fst_c.h"
 #endif
 
 double sc_time_stamp() { return 0; }  // wanted by Verilator's run time
-
-// What Vhaptic_core::eval() calls, without its locks and message queues for threads that are not there: half again as fast;
-// and what that calls for the edges in __VnbaTriggered, of which bit 0 is the rise of clk_i
-void Vhaptic_core___024root___eval(Vhaptic_core___024root *);
-void Vhaptic_core___024root___eval_nba(Vhaptic_core___024root *);
 
 namespace {
 
@@ -45,8 +43,9 @@ public:
         context_.traceEverOn(true);
 #endif
         core_.eval();
-        core_.clk_i = 1;
-        core_.eval();  // from here on clock() has seen it high
+#if LEAPS
+        scope_ = svGetScopeFromName("TOP.haptic_core.leap");
+#endif
         for (int i = 0; i < RESET_CLOCKS; ++i) clock();
         core_.rst_i = 0;
     }
@@ -82,9 +81,8 @@ public:
     void run(uint64_t tick) {
         while (now_ < tick) {
             if (next_input_ <= now_) apply();
-            clock();
-            ++now_;
-            record();
+            if (sck_ != core_.spi_sck_i) edge();
+            pass(std::min(tick, next_input_) - now_);
         }
     }
 
@@ -93,25 +91,27 @@ public:
         const auto rise = [=](uint64_t bit) { return select + SELECT_TO_SCK_TICKS + bit * room / bits; };
         std::fill_n(miso, size, uint8_t{0});
         run(select);
-        core_.spi_cs_n_i = 0;
+        drive(core_.spi_cs_n_i, 0);
         for (uint64_t bit = 0; bit < bits; ++bit) {
             core_.spi_mosi_i = mosi[bit / 8] >> (7 - bit % 8) & 1;
             run(rise(bit));
             miso[bit / 8] |= core_.spi_miso_o << (7 - bit % 8);
-            core_.spi_sck_i = 1;
+            sck_ = 1;
+            sees_ = bit % 8 == 0 || bit % 8 == 7;
             run((rise(bit) + rise(bit + 1)) / 2);
-            core_.spi_sck_i = 0;
+            sck_ = 0;
         }
         run(release);
-        core_.spi_cs_n_i = 1;
+        drive(core_.spi_cs_n_i, 1);
     }
 
     // The link's pins tick by tick, for everything that is no proper frame: bit 0 chip select, 1 SCK, 2 MOSI; MISO behind each tick
     void wave(size_t ticks, const uint8_t *levels, uint8_t *miso) {
         for (size_t i = 0; i < ticks; ++i) {
-            core_.spi_cs_n_i = levels[i] & 1;
-            core_.spi_sck_i = levels[i] >> 1 & 1;
+            drive(core_.spi_cs_n_i, levels[i] & 1);
             core_.spi_mosi_i = levels[i] >> 2 & 1;
+            sck_ = levels[i] >> 1 & 1;
+            sees_ = true;
             run(now_ + 1);
             miso[i] = core_.spi_miso_o;
         }
@@ -142,26 +142,69 @@ private:
     double half_tick_ps_ = 0;
     uint64_t from_ = NEVER, to_ = 0;
 #else
-    // A rise of the clock; nothing happens at its fall, which is therefore only noted. Where no other edge comes with it, or of
-    // it, nobody has to look for edges.
+    // A rise of the clock, with which all inputs are seen that were set before; nothing happens at its fall
     void clock() {
-        Vhaptic_core___024root &root = *core_.rootp;
-        const auto reset_moved = [&] {
-            return root.haptic_core__DOT__spi_link__DOT__spi_peripheral__DOT__sck_reset_q
-                   != root.__Vtrigprevexpr___TOP__haptic_core__DOT__spi_link__DOT__spi_peripheral__DOT__sck_reset_q__0;
-        };
         core_.clk_i = 1;
-        if (core_.spi_sck_i != root.__Vtrigprevexpr___TOP__spi_sck_i__0) {
-            root.__Vtrigprevexpr___TOP__clk_i__0 = 0;
-            Vhaptic_core___024root___eval(&root);
-        } else {
-            root.__VnbaTriggered[0] = 1;
-            Vhaptic_core___024root___eval_nba(&root);
-            root.__VnbaTriggered[0] = 0;
-            if (reset_moved()) Vhaptic_core___024root___eval(&root);
-        }
+        core_.eval();
+        core_.clk_i = 0;
+        core_.eval();
     }
 #endif
+
+    // Ticks of a rest, in which nothing but counters moves, at once: they are owed, and need no clock yet. Else one.
+    void pass(uint64_t most) {
+        if (!rests()) {
+            clock();
+            record(++now_);
+            return;
+        }
+        most = std::min(most, rest_);
+        now_ += most;
+        owed_ += most;
+        rest_ -= most;
+    }
+
+    bool rests() {
+#if LEAPS
+        if (!rest_) {
+            settle();
+            rest_ = Vhaptic_core::rest();
+        }
+#endif
+        return rest_;
+    }
+
+    // Add what the clocks that were left out would have
+    void settle() {
+#if LEAPS
+        svSetScope(scope_);
+        if (owed_) Vhaptic_core::pass(uint32_t(owed_));
+        owed_ = 0;
+#endif
+    }
+
+    // A pin that clk samples: with another level a rest is over
+    void drive(CData &pin, CData level) {
+        if (pin == level) return;
+        settle();
+        rest_ = 0;
+        pin = level;
+    }
+
+    // An edge of SCK with the next clock. In a rest it comes alone, and behind that clock where it is a rise that clk sees.
+    void edge() {
+        const bool alone = rests();
+        if (alone && sck_ && sees_) {
+            ++owed_;
+            settle();
+            owed_ = -1;
+            rest_ = 1;
+        }
+        core_.spi_sck_i = sck_;
+        if (!alone) return;
+        core_.eval();
+        record(now_ + 1);
+    }
 
     uint8_t &level_of(Pin pin) {
         switch (pin) {
@@ -174,22 +217,22 @@ private:
 
     void apply() {
         for (auto input = inputs_.begin(); input != inputs_.end() && input->first <= now_; input = inputs_.erase(input))
-            level_of(input->second.pin) = input->second.level;
+            drive(level_of(input->second.pin), input->second.level);
         next_input_ = inputs_.empty() ? NEVER : inputs_.begin()->first;
     }
 
-    void record() {
+    void record(uint64_t tick) {
         if (core_.channel_o != word_ || core_.hv_enable_o != level_) {
-            ticks.push_back(now_);
+            ticks.push_back(tick);
             words.push_back(word_ = core_.channel_o);
             levels.push_back(level_ = core_.hv_enable_o);
         }
-        if (core_.focus_o && !focus_) focus_ticks.push_back(now_);
+        if (core_.focus_o && !focus_) focus_ticks.push_back(tick);
         focus_ = core_.focus_o;
         const uint32_t lines = core_.hv_alive_o | core_.waiting_o << 1 | core_.fault_o << 2 | core_.spi_miso_o << 3 | core_.uart_tx_o << 4;
         if (lines != lines_) {
             for (int line = 0; line < LINES; ++line)
-                if ((lines ^ lines_) >> line & 1) changes[line].push_back(now_);
+                if ((lines ^ lines_) >> line & 1) changes[line].push_back(tick);
             lines_ = lines;
         }
     }
@@ -199,6 +242,13 @@ private:
     uint64_t now_ = 0;
     std::multimap<uint64_t, Change> inputs_;  // not yet on the pins
     uint64_t next_input_ = NEVER;
+#if LEAPS
+    svScope scope_;
+#endif
+    CData sck_ = 0;                 // as it is from the next clock on
+    bool sees_ = true;              // of its rises, this one brings something to what clk clocks: the first and last bit of a byte
+    uint64_t rest_ = 0;             // ticks of a rest that are to come
+    int64_t owed_ = 0;              // ticks that have passed and that no counter has counted yet; -1: one is counted that is to come
     uint32_t word_ = 0, lines_ = 1 << 4;
     uint8_t level_ = 0, focus_ = 0;
 };

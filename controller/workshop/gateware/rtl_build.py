@@ -31,7 +31,8 @@ COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
 COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TIMING")]
 COMPILE_S = 1800.0  # that a compiler may take on a slow computer
 KILLED = "Killed"  # what g++ says of its compiler when the kernel ended it for want of memory
-RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called, and slow to optimise: compiled with -O0
+RUNTIME = ("verilated.cpp", "verilated_threads.cpp", "verilated_dpi.cpp")
+RUNTIME_OPTIMISE = "-O1"  # slow to optimise; some of it is called in every clock
 TRACE = "--trace-fst"  # option of Verilator, whose run time then needs more
 TRACE_HEADERS = ("lz4.h", "zlib.h")
 
@@ -46,17 +47,25 @@ class Design(NamedTuple):
     optimise: str = "-O2"  # of the C++ compiler
 
 
-def core_design() -> Design:
-    """The design that `RtlGateware` loads: `haptic_core` with its wrapper."""
+def clocked_design() -> Design:
+    """`haptic_core` with its wrapper: every clock is computed."""
     folder = data_folder("fpga_rtl")
     return Design("haptic_core", (folder / "haptic_core.v",), folder / "simulation" / "wrapper.cpp")
 
 
+def core_design() -> Design:
+    """The design that `RtlGateware` loads: the same, but clocks in which nothing but counters moves are leapt."""
+    return _with(clocked_design(), "leap.sv", "-Wno-BLKANDNBLK")  # it writes, between clocks, what clocks write
+
+
 def traced_design() -> Design:
     """The same with its signals written to an FST file, and frames decoded beside the pins: a build of its own, which is slower."""
-    design = core_design()
-    view = data_folder("fpga_rtl") / "simulation" / "frame_view.sv"
-    return design._replace(sources=(*design.sources, view), options=(TRACE,))
+    return _with(clocked_design(), "frame_view.sv", TRACE)
+
+
+def _with(design: Design, bound: str, *options: str) -> Design:
+    """A design with a file of fpga_rtl/simulation/ bound into it."""
+    return design._replace(sources=(*design.sources, design.wrapper.parent / bound), options=options)
 
 
 def verilator_root() -> Path | None:
@@ -138,7 +147,7 @@ def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path)
     kept = _kept_runtime(folder.parent, [*flags, *more])
     parts = [_object(all_of_it, design.optimise, [f"-I{folder}", *flags])]
     if not kept.exists():
-        parts.append(_object(runtime, "-O0", flags))
+        parts.append(_object(runtime, RUNTIME_OPTIMISE, flags))
     with ThreadPoolExecutor(2) as together:
         both = [together.submit(_run, part) for part in parts]
     for part, compiled in zip(parts, both, strict=True):
@@ -158,7 +167,7 @@ def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path)
 
 def _kept_runtime(folder: Path, made_with: Sequence[str]) -> Path:
     """Verilator's run time, compiled: the same for every library with these flags."""
-    settings = repr((importlib.metadata.version("verilator"), COMPILE, made_with))
+    settings = repr((importlib.metadata.version("verilator"), COMPILE, RUNTIME, RUNTIME_OPTIMISE, made_with))
     return folder / f"runtime-{hashlib.sha256(settings.encode()).hexdigest()[:16]}.o"
 
 

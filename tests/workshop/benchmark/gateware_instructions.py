@@ -1,9 +1,11 @@
-"""Host instructions that the compiled Verilog takes for a clock of the FPGA, counted by callgrind: the same on every machine.
+"""What a clock of the FPGA costs in the compiled Verilog: host instructions, the same on every machine, and processor time.
 
     python -m tests.workshop.benchmark.gateware_instructions [--functions N]
 
-The simulated panel is armed, rests for some clocks, and then plays one slot while a waveform of full length is uploaded into
-another at 25 MHz. Needs valgrind, and what `run --link rtl` needs. `--functions` lists where most instructions went.
+The simulated panel is armed, rests for some clocks, then plays one slot while a waveform of full length is uploaded into
+another at 25 MHz, and plays it again alone: with leaps over clocks in which only counters move, and with every clock computed.
+Needs valgrind, and what `run --link rtl` needs. `--functions` lists where most instructions went. Times are the least processor
+times of some rounds, in which the two take turns; callgrind counts.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import zlib
 from dataclasses import replace
 from pathlib import Path
@@ -29,13 +32,14 @@ from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.frames import Play
 from controller.device.fpga.registers import Control, Register, Start
 from controller.workshop.gateware.pin_timing import READY_TICKS
-from controller.workshop.gateware.rtl_build import build_library
+from controller.workshop.gateware.rtl_build import build_library, clocked_design, core_design
 
 RESTING_TICKS = 50_000
 FRAME_GAP_TICKS = 800
 WORDS = 1000
 KEPT = 0.75  # share of the bits that are as they were a word ago: 125,000 edges a second of each channel
-PHASES = ("armed, at rest", "playing, an upload on the wire")
+PHASES = ("armed, at rest", "playing, an upload on the wire", "playing")
+ROUNDS = 6
 Step = tuple[str, Any, Any, str]  # method, two ticks or pin and tick, bytes in hexadecimal
 
 
@@ -98,21 +102,25 @@ def session(parameters: BuildParameters) -> Session:
     run.mark()
     run.wait(RESTING_TICKS)
     run.mark()
-    ends = run.tick + WORDS * (parameters.bit_period_reset >> 16)
-    run.send(frames.pack_play, Play(0, length=0, emissions=1, start=Start.NOW))
-    run.upload(1, waveform(2))
-    run.wait(ends - run.tick)
-    run.mark()
+    for uploads in (1, 0):
+        ends = run.tick + WORDS * (parameters.bit_period_reset >> 16)
+        run.send(frames.pack_play, Play(0, length=0, emissions=1, start=Start.NOW))
+        for slot in range(1, 1 + uploads):
+            run.upload(slot, waveform(2))
+        run.wait(ends - run.tick)
+        run.mark()
     return run
 
 
-def perform(library: str, steps: list[Step]) -> None:
-    """Perform a session in this process, under callgrind: with as little around it as can be."""
+def perform(library: str, steps: list[Step]) -> list[float]:
+    """Perform a session in this process, with as little around it as can be; processor time before each step and at the end."""
     panel_library = ctypes.CDLL(library)
     panel_library.panel_open.restype = ctypes.c_void_p
     panel = ctypes.c_void_p(panel_library.panel_open())
     tick, size = ctypes.c_uint64, ctypes.c_size_t
+    times_s = []
     for method, first, second, data in steps:
+        times_s.append(time.process_time())
         if method == "set":
             panel_library.panel_set(panel, first, tick(second), int(data))
         elif method == "run":
@@ -121,6 +129,9 @@ def perform(library: str, steps: list[Step]) -> None:
             mosi = bytes.fromhex(data)
             miso = ctypes.create_string_buffer(len(mosi))
             panel_library.panel_exchange(panel, tick(first), tick(second), size(len(mosi)), mosi, miso)
+    times_s.append(time.process_time())
+    panel_library.panel_close(panel)
+    return times_s
 
 
 def instructions(library: Path, steps: list[Step], folder: Path) -> int:
@@ -143,16 +154,29 @@ def main() -> None:
         return
     built = BuildParameters.of(load_board(find_board("simulated")), build_hash(data_folder("fpga_rtl")))
     parameters = replace(built, hv_settle_ticks=100)
-    library = build_library(parameters.verilog())
+    libraries = {
+        name: build_library(parameters.verilog(), design=design)
+        for name, design in (("with leaps", core_design()), ("every clock", clocked_design()))
+    }
+    run = session(parameters)
+    spans = list(zip(PHASES, run.marks, run.marks[1:], strict=False))
+    least_s = {name: [float("inf")] * len(spans) for name in libraries}
+    for _ in range(ROUNDS):
+        for name, library in libraries.items():
+            times_s = perform(str(library), run.steps)
+            taken_s = [times_s[end] - times_s[begin] for _, (begin, _), (end, _) in spans]
+            least_s[name] = [min(pair) for pair in zip(least_s[name], taken_s, strict=True)]
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        run = session(parameters)
-        counted = [(instructions(library, run.steps[:steps], folder), tick) for steps, tick in run.marks]
-        for phase, (before, begin), (after, end) in zip(PHASES, counted, counted[1:], strict=False):
-            print(f"{phase}: {(after - before) / (end - begin):,.0f} instructions a clock")
-        if arguments.functions:
-            listed = subprocess.run(["callgrind_annotate", folder / "out"], check=True, capture_output=True, text=True).stdout
-            print("\n".join(listed.split("\n")[20 : 24 + arguments.functions]))
+        for name, library in libraries.items():
+            counted = [instructions(library, run.steps[:steps], folder) for steps, _ in run.marks]
+            for number, (phase, (_, begin), (_, end)) in enumerate(spans):
+                clocks = end - begin
+                per_clock, rate = (counted[number + 1] - counted[number]) / clocks, clocks / least_s[name][number]
+                print(f"{name}: {phase}: {per_clock:,.1f} instructions a clock, {rate / 1e6:,.1f} million clocks/s")
+            if arguments.functions:
+                listed = subprocess.run(["callgrind_annotate", folder / "out"], check=True, capture_output=True, text=True).stdout
+                print("\n".join(listed.split("\n")[20 : 24 + arguments.functions]))
 
 
 if __name__ == "__main__":
