@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any
 from controller.commands import bom
 from controller.commands.common.output import show
 from controller.console import is_unicode, say
-from controller.device.board.board import board_file, load_board
+from controller.device.board.board import Board, board_file, load_board
 from controller.device.board.lookup import find_board
 from controller.device.board.reference import reference, relations_reference, schema
 from controller.device.board.relations.checked import RELATIONS, judge
 from controller.device.board.touch_panels import touch_records
+from controller.device.fpga.play_messages import PlayMessages
+from controller.device.fpga.registers import TRIGGER_LATENCY_TICKS
 from controller.device.scene.effects import EffectTable
 from controller.device.scene.scene_file import find_scene, read_scene
 from controller.device.scene.scene_tables import SceneTable
@@ -98,6 +100,7 @@ def board_check(options: argparse.Namespace) -> int:
         "regions": len(scene.regions),
         "effects": sorted(scene.playable),
         "recording": recording.name if recording else None,
+        "first_word_ms": _first_word_ms(board),
         "warnings": list(judge(board).odd),
     }
     show(options, figures, _table)
@@ -128,6 +131,18 @@ def schema_text(*, scene: bool, ascii_only: bool = False) -> str:
     return json.dumps(found, indent=1, ensure_ascii=ascii_only) + "\n"
 
 
+def _first_word_ms(board: Board) -> dict[str, float]:
+    """Times from a touch to its first drive word, in ms, but for the host's: touch panel, wire (an upload or a play), trigger."""
+    upload_bytes, play_bytes = PlayMessages(memoryview(b""), board).sizes_bytes()
+    times_s = {
+        "panel": board.touch.lag_s,
+        "upload": board.link.wire_s(upload_bytes),
+        "play": board.link.wire_s(play_bytes),
+        "trigger": TRIGGER_LATENCY_TICKS / board.link.clock_hz,
+    }
+    return {part: time_s * 1e3 for part, time_s in times_s.items()}
+
+
 def _tag(table: Any) -> str:
     return str(table.__struct_config__.tag)
 
@@ -144,6 +159,11 @@ def _table(figures: dict[str, Any]) -> str:
     ]
     if figures["no_finger_mm"]:
         lines.append(f"no finger in {len(figures['no_finger_mm'])} rectangles (touch.no_finger_mm)")
+    panel, upload, play, trigger = figures["first_word_ms"].values()
+    lines.append(
+        f"touch to first drive word, but for the host: panel {panel:g} ms, wire {upload * 1e3:,.0f} µs"
+        f" ({play * 1e3:.0f} if resident), trigger {trigger * 1e3:.3g} µs"
+    )
     if figures["recording"]:
         lines.append(f"recording: {figures['recording']}")
     lines += [f"WARNING: {warning}" for warning in figures["warnings"]]

@@ -1,6 +1,7 @@
 """`haptic-panel board`: what is found in a board and its scene, or what is wrong with them."""
 
 import json
+import re
 import shutil
 
 import pytest
@@ -32,6 +33,11 @@ def test_every_shipped_board_is_valid(name, capsys):
     found = json.loads(capsys.readouterr().out)
     assert found["board"] == name
     assert 1 <= found["channels"] <= 32
+    ms = found["first_word_ms"]
+    table = (data_folder("boards") / "README.md").read_text().split("## From a touch")[1].split("##")[0]
+    (row,) = re.findall(rf"^\|[^|]*\b{name}\b.*", table, re.MULTILINE)
+    assert f"| {ms['panel']:g} ms" in row
+    assert f"| {ms['upload'] * 1e3:,.0f} / {ms['play'] * 1e3:.0f} µs | {ms['trigger'] * 1e3:.3g} µs |" in row
 
 
 @each_row(

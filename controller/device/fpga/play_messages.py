@@ -64,6 +64,10 @@ class PlayMessages:
             self._uploads_and_plays.append(_pattern(loads, [store, *waits, play, nop], 1 + len(waits)))
         self._upload = _pattern(loads, [store, *[nop] * (check_frames + 1)], None)
 
+    def sizes_bytes(self) -> tuple[int, int]:
+        """Bytes on the wire of an upload with its play, and of a play of what is resident."""
+        return sum(self._uploads_and_plays[0].lengths), sum(self._plays[0].lengths)
+
     def play(self, sequence: int, play: Play, *, stop: bool) -> tuple[int, ...]:
         """Pack the play of a resident waveform; returns the length of each frame in bytes.
 
