@@ -89,8 +89,9 @@ class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
         listed = [path for path in self.config["mypyc"] if not (_device_wing_only() and path.startswith(WORKSHOP))]
         with contextlib.chdir(self.root), contextlib.redirect_stdout(sys.stderr):
             modules = mypycify([f"--cache-dir={folder / 'types'}", *listed], target_dir=str(folder / "c"), group_name="controller")
-            for module in modules:  # which have no path of this computer in them: the same bytes for everybody
-                module.extra_compile_args.append(f"-ffile-prefix-map={Path(mypyc.__file__).parent}=mypyc")
+            for module in modules:  # without asserts, and no path of this computer in it: the same bytes for everybody
+                places = {Path(mypyc.__file__).parent: "mypyc", folder: "build"}
+                module.extra_compile_args += ["-DNDEBUG", *(f"-ffile-prefix-map={place}={name}" for place, name in places.items())]
                 module.extra_link_args.append("-Wl,--strip-all")
             command = Distribution({"ext_modules": modules}).get_command_obj("build_ext")
             command.build_lib, command.build_temp = str(folder / "modules"), str(folder / "objects")

@@ -38,7 +38,7 @@ P
   "$python" -m controller bank build --board "$board" --scene scene --out "$work/panel.bank" --json >/dev/null 2>&1
   wheels=()
   for number in 1 2; do
-    "$python" -m controller update make-release "$work/$number.0" --version $number.0 --counter $number --board "$board" --bank "$work/panel.bank" "${wheels[@]}" >&2
+    "$python" -m controller update make-release "$work/$number.0" --version $number.0 --counter $number --board "$board" --bank "$work/panel.bank" --no-mypyc "${wheels[@]}" >&2 # the compiled loop is that of a checkout, in container_commissioning.py
     OUT=$work/ready "$checkout/systemd/package/build.sh" "$work/$number.0" "$work/root.json" >&2
     wheels=(--wheels "$work/$number.0/wheels")
   done

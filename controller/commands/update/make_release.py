@@ -53,7 +53,12 @@ def add(step: argparse.ArgumentParser) -> None:
     step.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take wheels from here, without a network (default: fetch, build)"
     )
-    step.add_argument("--mypyc", action="store_true", help="compile the loop, for this version of Python alone")
+    step.add_argument(
+        "--mypyc",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="compile the event loop, which halves the host's work, or leave it interpreted (default: compile)",
+    )
     step.add_argument(
         "--minimum-counter",
         type=int,

@@ -37,7 +37,7 @@ def test_a_fresh_environment_is_installed_from_the_lock_files(tmp_path):
 
 
 def test_a_release_made_twice_is_the_same_to_the_byte(tmp_path):
-    """Everything is built again, in another folder, by another cache, umask and time zone."""
+    """Everything, the compiled loop too, is built again, in another folder, by another cache, umask and time zone."""
     program = [sys.executable, "-m", "controller", "update", "make-release"]
     about = ["--version", "1.0.0", "--counter", 1, "--board", "simulated"]
     pip_cache = run(sys.executable, "-m", "pip", "cache", "dir").strip()
