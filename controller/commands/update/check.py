@@ -60,6 +60,12 @@ def ends_within(limit_s: float, said: str) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
+def nothing_to_do(options: argparse.Namespace, why: UpdateError) -> int:
+    """Say why the release that is offered is not taken yet."""
+    show(options, {"version": None, "new": False, "waits": str(why)}, lambda said: f"{said['waits']}: nothing to do")
+    return 0
+
+
 def check(options: argparse.Namespace) -> int:
     """Print what is offered; 1 if it is refused."""
     from controller.device.update.download.fetch import check
@@ -76,6 +82,7 @@ def check(options: argparse.Namespace) -> int:
         "release_bytes": offer.manifest.total_bytes if offer.manifest else 0,
         "missing_bytes": missing_bytes,
         "refused": offer.refused,
+        "waits": offer.waits,
     }
     show(options, figures, _table)
     return 1 if offer.refused else 0
@@ -85,6 +92,8 @@ def _table(figures: dict[str, Any]) -> str:
     installed = figures["installed"] or "no release"
     if figures["refused"]:
         return f"REFUSED {figures['refused']}; {installed} stays"
+    if figures["waits"]:
+        return f"{figures['waits']}; {installed} stays: nothing to do"
     if not figures["new"]:
         return f"{installed} is what channel {figures['channel']} offers: nothing to do"
     return (

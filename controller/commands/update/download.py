@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from controller.commands.common.output import progress_bar, show
-from controller.commands.update.check import at_work, declare_source
+from controller.commands.update.check import at_work, declare_source, nothing_to_do
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -18,10 +18,14 @@ def add(step: argparse.ArgumentParser) -> None:
 def download(options: argparse.Namespace) -> int:
     """Fetch the release; raises if it is refused."""
     from controller.device.update.download.fetch import TransferStatistics, fetch
+    from controller.device.update.trust.offer import NotYetError
 
     figures = TransferStatistics()
     with at_work() as (layout, settings):
-        manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
+        try:
+            manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
+        except NotYetError as why:
+            return nothing_to_do(options, why)
     reported: dict[str, Any] = {
         "version": manifest.version,
         "counter": manifest.counter,

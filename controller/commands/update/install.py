@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from controller.commands.common.output import progress_bar, show
-from controller.commands.update.check import at_work, check, declare_source, ends_within
+from controller.commands.update.check import at_work, check, declare_source, ends_within, nothing_to_do
 from controller.commands.update.download import download
 from controller.errors import UpdateError
 from controller.log import Event, log
@@ -28,6 +28,7 @@ def install(options: argparse.Namespace) -> int:
     from controller.device.update.install import install, prune
     from controller.device.update.requests import ask
     from controller.device.update.trial import keep_before
+    from controller.device.update.trust.offer import NotYetError
 
     figures = TransferStatistics()
     with at_work() as (layout, settings):
@@ -42,7 +43,10 @@ def install(options: argparse.Namespace) -> int:
             return 0
         if trial:
             raise UpdateError(f"{layout.state / 'trial'}: release {trial} is on trial: wait until it is decided (update status)")
-        manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
+        try:
+            manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
+        except NotYetError as why:
+            return nothing_to_do(options, why)
     reported: dict[str, Any] = {"version": manifest.version, "new": True, "fetched_bytes": figures.fetched_bytes}
     reported["release_bytes"] = manifest.total_bytes
     if layout.current.is_symlink() and layout.current.readlink().name == manifest.version:

@@ -47,6 +47,12 @@ def add(step: argparse.ArgumentParser) -> None:
     release = action("add", add_releases, "draft the release of folders that make-release made into a channel")
     release.add_argument("release", nargs="+", type=Path, metavar="RELEASE", help="folder; one for each platform")
     release.add_argument("--channel", default="stable", metavar="C", help="default: stable")
+    declare_shares(release)
+    rollout = action("rollout", change_rollout, "draft other steps of a release that is published")
+    stop = action("stop", stop_release, "draft a timestamp by which no further device takes a release, for good")
+    for parser in (rollout, stop):
+        parser.add_argument("version", metavar="VERSION")
+    declare_shares(rollout, required=True)
     sign = action("sign", sign_draft, "show the draft, sign it, and publish it once all signatures are there")
     sign.add_argument("--key", type=Path, metavar="KEY", help="sign with this key")
     sign.add_argument(
@@ -71,7 +77,7 @@ def add(step: argparse.ArgumentParser) -> None:
     export = action("export", export_stick, "copy what the channels offer into a folder, such as on a stick, valid for a year")
     export.add_argument("folder", type=Path, metavar="FOLDER")
     export.add_argument("--key", required=True, type=Path, metavar="KEY", help="a key of the publisher")
-    for parser in (release, sign, rotate, renewal, export):
+    for parser in (release, rollout, stop, sign, rotate, renewal, export):
         parser.add_argument(
             "--date",
             type=_date,
@@ -82,6 +88,19 @@ def add(step: argparse.ArgumentParser) -> None:
         parser.add_argument(
             "--passphrase-file", type=Path, metavar="F", help=f"file with the passphrase (default: ${PASSPHRASE}, or asked)"
         )
+
+
+def declare_shares(parser: argparse.ArgumentParser, *, required: bool = False) -> None:
+    """Declare --share."""
+    parser.add_argument(
+        "--share",
+        dest="shares",
+        action="append",
+        default=[],
+        required=required,
+        metavar="PERCENT@TIME",
+        help="share of the devices that may take it from a time on, such as 1%%@2026-12-01T08:00Z; once for each step",
+    )
 
 
 def make_key(options: argparse.Namespace) -> int:
@@ -116,9 +135,33 @@ def add_releases(options: argparse.Namespace) -> int:
     """Draft releases into a channel."""
     from controller.workshop.publish.publications import draft_releases
     from controller.workshop.publish.publisher import Repository, now
+    from controller.workshop.publish.shares import rollout_of
 
     with Repository.opened(options.repository, dated=options.date) as repository:
-        draft_releases(repository, options.release, options.channel, now())
+        draft_releases(repository, options.release, options.channel, now(), rollout_of(options.shares))
+        return _tell(options, repository, published=False)
+
+
+def change_rollout(options: argparse.Namespace) -> int:
+    """Draft other steps."""
+    from controller.workshop.publish.publications import draft_rollout
+    from controller.workshop.publish.publisher import Repository, now
+    from controller.workshop.publish.shares import rollout_of
+
+    rollout = rollout_of(options.shares)
+    assert rollout is not None  # --share is required
+    with Repository.opened(options.repository, dated=options.date) as repository:
+        draft_rollout(repository, options.version, rollout, now())
+        return _tell(options, repository, published=False)
+
+
+def stop_release(options: argparse.Namespace) -> int:
+    """Draft a stop."""
+    from controller.workshop.publish.publications import draft_stop
+    from controller.workshop.publish.publisher import Repository, now
+
+    with Repository.opened(options.repository, dated=options.date) as repository:
+        draft_stop(repository, options.version, now())
         return _tell(options, repository, published=False)
 
 

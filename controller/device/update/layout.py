@@ -18,6 +18,7 @@ from controller.regular_file import read_regular
 ROOT = Path("/opt/haptic-panel")
 TRUSTED_ROOT = Path("/usr/share/haptic-panel/root.json")
 SETTINGS = Path("/etc/haptic-panel/update.toml")
+MACHINE_ID = Path("/etc/machine-id")
 RELEASE_NAME: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._+-]{0,63}")  # also what the fall-back script believes
 COMPLETE = ".complete"
 WORDS_BYTES_MAX: Final = 65_536  # of a file of the state; `failed` has 50 lines
@@ -34,6 +35,7 @@ class Layout:
 
     root: Path = ROOT
     trusted_root: Path = TRUSTED_ROOT  # first root.json of the repository's owner, by which all others are evaluated
+    machine_id: Path = MACHINE_ID  # what tells this device from others
 
     @classmethod
     def from_environment(cls) -> Layout:

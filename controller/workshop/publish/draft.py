@@ -11,6 +11,7 @@ from tuf.api.metadata import Root, TargetFile
 
 from controller.device.update.layout import MANIFEST
 from controller.device.update.trust.clock import TIMESTAMP_LIFE, as_text, issued
+from controller.device.update.trust.rollout import read_rollout, stopped_by
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
 from controller.workshop.publish.publisher import ROLES, Repository
@@ -30,8 +31,12 @@ def describe(repository: Repository) -> list[str]:
     for path in sorted(new):
         if path.startswith(("releases/", "channels/")):
             lines.append(f"{path}: sha256 {new[path].hashes['sha256']}, {new[path].length:,} bytes")
+            if rollout := read_rollout(new[path].custom, f"{repository.draft}: {path}"):
+                lines.append(f"{path}: {rollout}")
     if new:
         lines.append(f"{len(new)} new files, {sum(target.length for target in new.values()):,} bytes; {old} as before")
+    if (timestamp := repository.drafted("timestamp")) and (stopped := stopped_by(timestamp.signed, str(repository.draft))):
+        lines.append(f"stopped: {', '.join(stopped)}")
     for role in ROLES:
         if found := repository.drafted(role):
             made = issued(found.signed)

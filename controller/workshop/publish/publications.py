@@ -13,6 +13,7 @@ from tuf.api.metadata import Key, Metadata, MetaFile, Root, Snapshot, TargetFile
 
 from controller.device.update.layout import MANIFEST
 from controller.device.update.manifest import Channel, Manifest, read_manifest
+from controller.device.update.trust.rollout import STOPPED, Rollout, stopped_by
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
 from controller.workshop.publish.publisher import LIFE, LOCK, ROLES, Repository, issue
@@ -21,6 +22,7 @@ from controller.workshop.publish.repository_files import content_of, put
 
 THRESHOLD_ROLES: Final = ("root", "targets")  # a threshold of several people; the others say only what is the newest
 CHANNEL: Final = re.compile("[0-9a-z-]{1,32}")  # as in the settings of devices
+STOPPED_MAX: Final = 100  # versions: a timestamp has 16 kB at most
 LEFT_OVERS: Final = frozenset({"targets", ".draft.new", LOCK})  # of an `init` that was interrupted
 
 
@@ -50,11 +52,14 @@ def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], thres
     repository.begin({role: Metadata(signed) for role, signed in first.items()})
 
 
-def draft_releases(repository: Repository, folders: Sequence[Path], channel: str, now: datetime) -> list[Manifest]:
+def draft_releases(
+    repository: Repository, folders: Sequence[Path], channel: str, now: datetime, rollout: Rollout | None = None
+) -> list[Manifest]:
     """Put releases into a channel.
 
-    Folders are releases as `make-release` made them, such as one for each platform. Raises UpdateError if a release was altered,
-    its counter is not larger than that of the release it follows, or its version is taken.
+    Folders are releases as `make-release` made them, such as one for each platform. Without a rollout they keep the one that they
+    have in another channel, or all devices may take them. Raises UpdateError if a release was altered or stopped, its counter is
+    not larger than that of the release it follows, or its version is taken.
     """
     repository.must_have_no_draft()
     if not CHANNEL.fullmatch(channel):
@@ -65,19 +70,50 @@ def draft_releases(repository: Repository, folders: Sequence[Path], channel: str
     manifests = []
     for folder in folders:
         manifest = read_release(folder)
+        _must_not_be_stopped(repository, manifest.version)
         _check_follows(repository, known, offered, manifest, folder)
         for file in manifest.files:
             put(repository, known, folder / file.path, TargetFile(file.size_bytes, {"sha256": file.sha256}, file.target))
         for bank in banks(manifest):
             index = folder / bank.index_target
             put(repository, known, index, TargetFile.from_file(bank.index_target, str(index), ["sha256"]))
-        put(repository, known, folder / MANIFEST, TargetFile.from_file(manifest.target, str(folder / MANIFEST), ["sha256"]))
+        signed = known.get(manifest.target) or TargetFile.from_file(manifest.target, str(folder / MANIFEST), ["sha256"])
+        put(repository, known, folder / MANIFEST, _in_steps(signed, rollout) if rollout else signed)
         offered[manifest.platform] = manifest.target
         manifests.append(manifest)
     data = msgspec.json.format(msgspec.json.encode(Channel(releases=offered), order="sorted"), indent=1) + b"\n"
     put(repository, known, data, TargetFile.from_data(Channel.target(channel), data, ["sha256"]))
     repository.begin(targets)
     return manifests
+
+
+def draft_rollout(repository: Repository, version: str, rollout: Rollout, now: datetime) -> None:
+    """Draft other steps of a release, on all platforms; raises UpdateError if there is no such release, or it was stopped."""
+    repository.must_have_no_draft()
+    _must_not_be_stopped(repository, version)
+    targets = _changed(repository, now)
+    known: dict[str, TargetFile] = targets["targets"].signed.targets
+    for path in _manifests(repository, known, version):
+        known[path] = _in_steps(known[path], rollout)
+    repository.begin(targets)
+
+
+def draft_stop(repository: Repository, version: str, now: datetime) -> None:
+    """Draft a timestamp by which no further device takes a release; a stop is for good.
+
+    Raises UpdateError if there is no such release, or it is stopped already.
+    """
+    repository.must_have_no_draft()
+    _must_not_be_stopped(repository, version)
+    _manifests(repository, repository.changed("targets", now).signed.targets, version)
+    timestamp = repository.changed("timestamp", now)
+    stopped = [*stopped_by(timestamp.signed, str(repository.folder)), version]
+    if len(stopped) > STOPPED_MAX:
+        raise UpdateError(
+            f"{repository.folder}: {STOPPED_MAX} releases are stopped, which is the most: publish a later release instead"
+        )
+    timestamp.signed.unrecognized_fields[STOPPED] = stopped
+    repository.begin({"timestamp": timestamp})
 
 
 def draft_keys(
@@ -140,6 +176,25 @@ def _changed(repository: Repository, now: datetime, *, targets: bool = True) -> 
     timestamp = repository.changed("timestamp", now)
     timestamp.signed.snapshot_meta = MetaFile(snapshot.signed.version)
     return made | {"snapshot": snapshot, "timestamp": timestamp}
+
+
+def _in_steps(target: TargetFile, rollout: Rollout) -> TargetFile:
+    """A manifest's target with these steps in place of others."""
+    fields = target.unrecognized_fields | {"custom": (target.custom or {}) | {"rollout": msgspec.to_builtins(rollout)}}
+    return TargetFile(target.length, target.hashes, target.path, fields)
+
+
+def _manifests(repository: Repository, known: Mapping[str, TargetFile], version: str) -> list[str]:
+    """Paths of a release's manifests, one for each platform."""
+    if found := [path for path in known if path.rpartition("/")[0] == f"releases/{version}"]:
+        return found
+    raise UpdateError(f"{repository.folder}: has no release {version}: is its draft published?")
+
+
+def _must_not_be_stopped(repository: Repository, version: str) -> None:
+    timestamp = repository.published("timestamp")
+    if timestamp and version in stopped_by(timestamp.signed, str(repository.folder)):
+        raise UpdateError(f"{repository.folder}: release {version} is stopped, for good: publish a later one")
 
 
 def _channel(repository: Repository, known: Mapping[str, TargetFile], name: str) -> Channel:

@@ -19,7 +19,7 @@ from controller.device.update.installed import manifest_of
 from controller.device.update.layout import MANIFEST, Layout
 from controller.device.update.manifest import Manifest, ReleaseFile
 from controller.device.update.settings import UpdateSettings
-from controller.device.update.trust.offer import COUNTER, Offer, largest_counter, offered
+from controller.device.update.trust.offer import COUNTER, NotYetError, Offer, largest_counter, offered
 from controller.device.update.trust.trust import DeviceUpdater, trusted
 from controller.durable import sync_folder, write_durably
 from controller.errors import UpdateError
@@ -64,14 +64,16 @@ def fetch(
 
     If the release in use is offered, nothing is fetched.
 
-    Raises UpdateError if the release is refused, or cannot be fetched. What came of it is kept for the next time; the store has
-    whole files only.
+    Raises UpdateError if the release is refused, or cannot be fetched; NotYetError if it is not for this device yet. What came of
+    it is kept for the next time; the store has whole files only.
     """
     origin = source_of(source or settings.source, settings.total_s, settings.bytes_per_s)
     with trusted(layout, origin, _built_s(layout), now) as repository:
         offer = offered(repository, layout, settings.channel, origin.name)
         if offer.manifest is None or offer.refused:
             raise UpdateError(offer.refused)
+        if offer.waits:
+            raise NotYetError(offer.waits)
         if not offer.is_new:
             return offer.manifest
         fetching = _Fetching(layout, repository, offer.manifest, progress, figures or TransferStatistics())

@@ -17,12 +17,17 @@ from controller.device.update.manifest import (
     read_object,
     this_platform,
 )
+from controller.device.update.trust.rollout import place_of, read_rollout
 from controller.device.update.trust.trust import DeviceUpdater
 from controller.errors import ConfigError, UpdateError
 from controller.regular_file import read_regular
 
 CHANNEL_BYTES_MAX: Final = 64_000
 COUNTER: Final = "counter"  # file below `download`: counter of the newest release that was fetched
+
+
+class NotYetError(UpdateError):
+    """A release that is offered, and not for this device yet, or not any more: there is nothing to do."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +40,12 @@ class Offer:
     data: bytes  # the manifest as it was signed
     installed: Manifest | None  # the release in use
     refused: str  # why it is not taken; empty if it may be
+    waits: str = ""  # why it is not for this device yet, or was stopped; empty if it is, or is in use, or refused
 
     @property
     def is_new(self) -> bool:
         """Whether there is something to fetch and install."""
-        return not self.refused and self.manifest is not None and self.manifest != self.installed
+        return not (self.refused or self.waits) and self.manifest is not None and self.manifest != self.installed
 
 
 def offered(repository: DeviceUpdater, layout: Layout, channel: str, where: str) -> Offer:
@@ -59,7 +65,19 @@ def offered(repository: DeviceUpdater, layout: Layout, channel: str, where: str)
     manifest = read_manifest(data, f"{where}: {path}")
     if manifest.target != path:
         raise UpdateError(f"{where}: {path} is the manifest of {manifest.target}: refused; the repository has to be made again")
-    return Offer(channel, platform, manifest, data, installed, _reason(manifest, installed, layout, where))
+    refused = _reason(manifest, installed, layout, where)
+    waits = "" if refused or manifest == installed else _waits(repository, layout, manifest, where)
+    return Offer(channel, platform, manifest, data, installed, refused, waits)
+
+
+def _waits(repository: DeviceUpdater, layout: Layout, manifest: Manifest, where: str) -> str:
+    """Why a release is not for this device yet, or was stopped; empty if it is."""
+    release = f"{where}: release {manifest.version}"
+    if manifest.version in repository.stopped:
+        return f"{release} was stopped by its publisher: only devices that have it keep it"
+    rollout = read_rollout(repository.target(manifest.target).custom, f"{where}: {manifest.target}")
+    why = rollout.why_not_yet(place_of(layout, manifest.version), repository.now) if rollout else ""
+    return f"{release} {why}" if why else ""
 
 
 def _reason(manifest: Manifest, installed: Manifest | None, layout: Layout, where: str) -> str:

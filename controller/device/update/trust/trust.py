@@ -31,6 +31,7 @@ from controller.device.update.download.source import Source
 from controller.device.update.layout import Layout
 from controller.device.update.lock import alone
 from controller.device.update.trust import clock
+from controller.device.update.trust.rollout import stopped_by
 from controller.device.update.trust.validity import ROOT_BYTES_MAX
 from controller.durable import sync_folder
 from controller.errors import UpdateError
@@ -74,9 +75,16 @@ class DeviceUpdater(Updater):
             self._trusted_set.reference_time = self.now = max(self.now, self._kept.moment)
 
     def keep_time(self, file: Path) -> None:
-        """Keep the time of the verified timestamp."""
+        """Keep the time of the verified timestamp; from now on it is not earlier than that."""
         verified = self._trusted_set
         clock.keep(file, verified.root, verified.targets, verified.timestamp, self.now)
+        if (kept := clock.Kept.read(file)) and kept.counts_under(verified.root):
+            self.now = max(self.now, kept.moment)
+
+    @property
+    def stopped(self) -> list[str]:
+        """Versions that the publisher has stopped; raises UpdateError if the timestamp has no list of them."""
+        return stopped_by(self._trusted_set.timestamp, self._source.name)
 
     def target(self, path: str) -> TargetFile:
         """What is signed about a file of the repository; raises UpdateError if it has none of that name."""
