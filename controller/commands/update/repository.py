@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import seconds
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.errors import UpdateError, UsageError
@@ -32,6 +33,7 @@ def add(step: argparse.ArgumentParser) -> None:
         made = actions.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         if folder:
             made.add_argument("repository", type=Path, metavar="REPOSITORY", help="its folder")
+        made.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help="as of `update repository --json`")
         made.set_defaults(command=run)
         return made
 
@@ -53,6 +55,23 @@ def add(step: argparse.ArgumentParser) -> None:
     for parser in (rollout, stop):
         parser.add_argument("version", metavar="VERSION")
     declare_shares(rollout, required=True)
+    fleet = action("status", fleet_status, "count devices by release and health, and propose the next step of a rollout, or a stop")
+    fleet.add_argument(
+        "--from",
+        dest="reports",
+        required=True,
+        type=Path,
+        metavar="FOLDER",
+        help="a file NAME.json for each device, what `haptic-panel status --json` prints there; its date says when",
+    )
+    fleet.add_argument("--channel", default="stable", metavar="C", help="default: stable")
+    fleet.add_argument(
+        "--silent-s",
+        default=86_400.0,
+        type=seconds,
+        metavar="S",
+        help="age of a report from which its device is silent (default: 86400)",
+    )
     sign = action("sign", sign_draft, "show the draft, sign it, and publish it once all signatures are there")
     sign.add_argument("--key", type=Path, metavar="KEY", help="sign with this key")
     sign.add_argument(
@@ -180,6 +199,18 @@ def sign_draft(options: argparse.Namespace) -> int:
             must_be_of_today(repository, now())
             repository.sign(_signer(options, options.repository))
         return _tell(options, repository, published=repository.publish())
+
+
+def fleet_status(options: argparse.Namespace) -> int:
+    """Show how devices fare by release; 1 if a release should be stopped."""
+    from controller.workshop.publish.fleet import fleet_table, read_fleet, rollout_figures
+    from controller.workshop.publish.publisher import Repository, now
+
+    with Repository.opened(options.repository) as repository:
+        fleet = read_fleet(options.reports, now(), options.silent_s)
+        figures = rollout_figures(repository, options.channel, fleet, now())
+    show(options, figures, fleet_table)
+    return 1 if any(offer["propose"] == "stop" for offer in figures["offers"]) else 0
 
 
 def change_keys(options: argparse.Namespace) -> int:

@@ -138,6 +138,11 @@ def _trouble(last: PanelStatus | None, now: Evaluation, status: PanelStatus, rul
                 return f"{what}, {more} times"
     if status.outputs_on and status.written_s - now._beat_s >= BEATS_S:
         return "heartbeats stand still"
+    return too_slow(status, old)
+
+
+def too_slow(status: PanelStatus, old: PanelStatus | None = None) -> str:
+    """Which work of the host takes longer than it may, by the state of the release before too; empty if none does."""
     for what, latency, as_before in (
         ("an upload", status.upload, old.upload if old else LatencyStatus()),
         ("a resident play", status.resident, old.resident if old else LatencyStatus()),

@@ -66,7 +66,7 @@ def draft_releases(
         raise UpdateError(f"channel {channel!r}: is no name of a channel: lower-case letters, digits and -, at most 32")
     targets = _changed(repository, now)
     known: dict[str, TargetFile] = targets["targets"].signed.targets
-    offered = dict(_channel(repository, known, channel).releases)
+    offered = dict(channel_of(repository, known, channel).releases)
     manifests = []
     for folder in folders:
         manifest = read_release(folder)
@@ -158,6 +158,12 @@ def draft_renewal(repository: Repository, now: datetime) -> None:
     repository.begin(renewed)
 
 
+def channel_of(repository: Repository, known: Mapping[str, TargetFile], name: str) -> Channel:
+    """What a channel offers now; nothing if there is no such channel."""
+    target = known.get(Channel.target(name))
+    return msgspec.json.decode(content_of(repository, target), type=Channel) if target else Channel(releases={})
+
+
 def check_thresholds(root: Root) -> None:
     """Check that each role has keys enough; raises UpdateError if one has not."""
     for role, wanted in root.roles.items():
@@ -195,12 +201,6 @@ def _must_not_be_stopped(repository: Repository, version: str) -> None:
     timestamp = repository.published("timestamp")
     if timestamp and version in stopped_by(timestamp.signed, str(repository.folder)):
         raise UpdateError(f"{repository.folder}: release {version} is stopped, for good: publish a later one")
-
-
-def _channel(repository: Repository, known: Mapping[str, TargetFile], name: str) -> Channel:
-    """What a channel offers now."""
-    target = known.get(Channel.target(name))
-    return msgspec.json.decode(content_of(repository, target), type=Channel) if target else Channel(releases={})
 
 
 def _check_follows(

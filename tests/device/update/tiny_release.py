@@ -81,9 +81,9 @@ class TinyRepository:
                 repository.sign(self.signers[name])
             return repository.publish()
 
-    def publish(self, *folders, channel="stable"):
+    def publish(self, *folders, channel="stable", rollout=None):
         """Put releases, as folders, into a channel."""
         with Repository.opened(self.folder) as repository:
-            manifests = draft_releases(repository, folders, channel, self.now)
+            manifests = draft_releases(repository, folders, channel, self.now, rollout)
         assert self.sign()
         return manifests[-1]
