@@ -17,6 +17,7 @@ from controller.errors import UpdateError, UsageError
 from controller.workshop.publish.publications import draft_releases, draft_renewal, draft_rollout, draft_stop
 from controller.workshop.publish.publisher import Repository
 from controller.workshop.publish.shares import rollout_of
+from controller.workshop.publish.stick import export
 
 DAY = timedelta(days=1)
 IDENTITIES = [f"{number:032x}" for number in range(2000)]
@@ -119,6 +120,9 @@ def test_a_stop_is_signed_by_one_and_no_command_undoes_it(rolled, tmp_path):
     offer = rolled.offer(has_it, NOW + 9 * DAY)
     assert (offer.waits, offer.refused, offer.is_new) == ("", "", False)
     with Repository.opened(rolled.repository.folder) as opened:
+        export(opened, tmp_path / "stick", rolled.repository.signers["publisher"], NOW + DAY)
+        stick = check(has_not.layout, UpdateSettings(), str(tmp_path / "stick"), NOW + 9 * DAY)[0]
+        assert "was stopped by its publisher" in stick.waits
         for make in (
             lambda: draft_stop(opened, "1.0.0", NOW + DAY),
             lambda: draft_rollout(opened, "1.0.0", steps((100, 0)), NOW + DAY),
