@@ -17,6 +17,7 @@ from controller.device.board.panel_status import BYTES_MAX, PanelStatus
 from controller.device.board.validation import NO_JSON
 from controller.device.update.installed import UpdateState
 from controller.device.update.judge import WAITS, too_slow
+from controller.device.update.layout import RELEASE_NAME
 from controller.device.update.trust.clock import as_text
 from controller.device.update.trust.rollout import ALL_PPM, Rollout, percent, read_rollout, stopped_by
 from controller.errors import UpdateError
@@ -34,6 +35,16 @@ class DeviceReport(PanelStatus, frozen=True, kw_only=True):
 
     updates: UpdateState
     old: str = ""  # why it was not the panel's present state
+
+    def __post_init__(self) -> None:
+        for name in (self.version, *self.updates.failed):
+            if not RELEASE_NAME.fullmatch(name):
+                raise ValueError(f"{name!r} is no name of a release")
+
+    @property
+    def version(self) -> str:
+        """The release that it has."""
+        return self.updates.in_use or self.release
 
     @property
     def is_faulted(self) -> bool:
@@ -100,7 +111,7 @@ def tallied(reports: Iterable[tuple[DeviceReport, bool]], broken: Iterable[str] 
     fleet = Fleet(broken=list(broken))
     for report, silent in reports:
         fleet.devices += 1
-        tally = fleet.releases.setdefault(report.updates.in_use or report.release, Tally())
+        tally = fleet.releases.setdefault(report.version, Tally())
         if silent:
             tally.silent += 1
         elif report.is_faulted:
@@ -165,7 +176,11 @@ def rollout_figures(repository: Repository, channel: str, fleet: Fleet, now: dat
 def fleet_table(figures: dict[str, Any]) -> str:
     """The same figures as a table."""
     columns = ("healthy", "faulted", "silent", "rolled_back")
-    lines = [f"{figures['devices']} devices", f"{'release':<24}" + "".join(f"{name.replace('_', ' '):>13}" for name in columns)]
+    broken = f", {len(figures['broken'])} broken files" if figures["broken"] else ""
+    lines = [
+        f"{figures['devices']} devices{broken}",
+        f"{'release':<24}" + "".join(f"{name.replace('_', ' '):>13}" for name in columns),
+    ]
     lines += [f"{name:<24}" + "".join(f"{tally[key]:>13}" for key in columns) for name, tally in figures["releases"].items()]
     lines += [f"{offer['manifest']}: {offer['propose']}: {offer['why']}" for offer in figures["offers"]]
     lines += [f"BROKEN {file}" for file in figures["broken"]]

@@ -98,18 +98,27 @@ def test_the_command_counts_what_devices_report_and_names_what_is_broken(rolled,
     write(rolled, "empty.json", b"")
     write(rolled, "other.json", b'{"release": "1.0.0"}')
     write(rolled, "notes.txt", b"no report")
+    write(rolled, "state.json", msgspec.json.encode(report("0.9")).replace(b'"armed"', b'"\\u001b[2J"'))
+    write(rolled, "escape.json", msgspec.json.encode(report("0.9")).replace(b'"0.9"', b'"\\u001b[2J"'))
     (rolled / "reports/link.json").symlink_to(rolled / "reports/0.json")
     assert status(rolled) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0] == "11 devices"
+    assert lines[0] == "11 devices, 5 broken files"
     assert [line.split() for line in lines[2:4]] == [["0.9", "9", "0", "1", "0"], ["1.0.0", "1", "0", "0", "0"]]
     assert "go on: next: 100 % from 2026-11-24T12:00:00Z" in lines[4]
-    assert [line.partition(":")[0].rpartition("/")[2] for line in lines[5:]] == ["empty.json", "link.json", "other.json"]
+    assert [line.partition(":")[0].rpartition("/")[2] for line in lines[5:]] == [
+        "empty.json",
+        "escape.json",
+        "link.json",
+        "other.json",
+        "state.json",
+    ]
+    assert "\x1b" not in "".join(lines)
     write(rolled, "0.json", report("0.9", failed=["1.0.0"]))
     assert status(rolled, "--json") == 1
     figures = json.loads(capsys.readouterr().out)
     assert figures["releases"]["1.0.0"] == {"healthy": 0, "faulted": 0, "silent": 0, "rolled_back": 1}
-    assert (figures["offers"][0]["propose"], figures["offers"][0]["share"], len(figures["broken"])) == ("stop", 0.1, 3)
+    assert (figures["offers"][0]["propose"], figures["offers"][0]["share"], len(figures["broken"])) == ("stop", 0.1, 5)
     assert status(rolled, "--silent-s", "0") == 2
     assert status(rolled, "--channel", "beta") == 1
     assert "channel beta offers no release" in capsys.readouterr().err
