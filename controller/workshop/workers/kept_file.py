@@ -20,8 +20,8 @@ RECORD = struct.Struct("<QI")  # number of the item, bytes of its result; then t
 class KeptFile:
     """The file of results that are there, one record each, of which the last may be torn."""
 
-    def __init__(self, file: BinaryIO) -> None:
-        self._file = file
+    def __init__(self, file: BinaryIO, path: Path) -> None:
+        self._file, self._path = file, path
         self.results: dict[int, bytes] = {}
         whole = 0
         while len(head := file.read(RECORD.size)) == RECORD.size:
@@ -38,20 +38,33 @@ class KeptFile:
     @contextlib.contextmanager
     def open(cls, path: Path) -> Iterator[KeptFile]:
         """The file at a path, made if it is not there; raises WorkersError if it cannot be written, UsageError if it is in use."""
+        with _reported(path):
+            file = os.fdopen(open_private(path), "r+b")
         try:
-            with os.fdopen(open_private(path), "r+b") as file:
-                try:
-                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                except BlockingIOError:
-                    raise UsageError(f"{path}: another command is at work on the same: wait for it, or give another file") from None
-                yield cls(file)
-        except OSError as error:
-            raise WorkersError(f"{path}: cannot be written ({error.strerror})") from error
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise UsageError(f"{path}: another command is at work on the same: wait for it, or give another file") from None
+            yield cls(file, path)
+        finally:
+            with _reported(path):  # it flushes
+                file.close()
 
     def add(self, number: int, result: bytes) -> None:
-        """Append a result."""
-        self._file.write(sealed(RECORD.pack(number, len(result)) + result))
+        """Append a result; raises WorkersError if it cannot be written."""
+        with _reported(self._path):
+            self._file.write(sealed(RECORD.pack(number, len(result)) + result))
 
     def flush(self) -> None:
-        """Hand what was added to the system."""
-        self._file.flush()
+        """Hand what was added to the system; raises WorkersError if it cannot be written."""
+        with _reported(self._path):
+            self._file.flush()
+
+
+@contextlib.contextmanager
+def _reported(path: Path) -> Iterator[None]:
+    """Raise WorkersError for what the system says of the file."""
+    try:
+        yield
+    except OSError as error:
+        raise WorkersError(f"{path}: cannot be written ({error.strerror})") from error

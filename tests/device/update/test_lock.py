@@ -12,10 +12,10 @@ from tiny_release import NOW, TinyRepository
 
 from controller.device.update.lock import alone
 from controller.errors import UpdateError
-from controller.workshop.bank_builder.optimised import _Kept
 from controller.workshop.gateware.rtl_build import _one_at_a_time
 from controller.workshop.publish.publications import draft_renewal
 from controller.workshop.publish.publisher import Repository
+from controller.workshop.workers.kept_file import KeptFile
 
 NOBODY = 65534
 
@@ -65,7 +65,7 @@ def test_what_is_no_file_is_no_lock(tmp_path, kind):
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="opens files as another user")
 def test_no_other_user_can_open_a_lock(readable):
-    with alone(readable / "lock"), _one_at_a_time(readable / "x"), _Kept.open(readable / "kept", 8):
+    with alone(readable / "lock"), _one_at_a_time(readable / "x"), KeptFile.open(readable / "kept"):
         names = ["lock", ".x.lock", "kept"]
         assert sorted(path.name for path in readable.iterdir()) == sorted(names)
         for name in names:
