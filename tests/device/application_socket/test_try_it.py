@@ -46,7 +46,7 @@ def test_each_line_works_when_it_is_pasted(lines, tmp_path):
             assert '"kind":"touch"' in touches.stdout.readline()
             touches.terminate()
         done = shell(conformance)
-        assert (done.returncode, done.stderr) == (0, ""), done.stdout
+        assert (done.returncode, done.stderr) == (0, ""), done.stdout + done.stderr
         assert done.stdout.endswith(f"{len(steps_of(CONVERSATION))} steps, all as recorded\n")
         wrong = tmp_path / "wrong.json"
         wrong.write_text(json.dumps({"steps": [{"say": {"kind": "hello", "id": 1}, "answer": {"length_mm": 211.0}}]}))
