@@ -1,6 +1,7 @@
 """An FPGA with another gateware is loaded by a program beside the loop, before it is armed, or it is refused."""
 
 import os
+import re
 import signal
 import sys
 
@@ -92,7 +93,8 @@ class Bench:
 def test_it_is_loaded_and_used(tmp_path):
     bench = Bench(tmp_path)
     bench.bring_up()
-    assert "BUILD_HASH is 0x00000007, not 0x1234ABCD: its gateware is being loaded" in bench.said
+    assert "BUILD_HASH is 0x00000007, not 0x1234ABCD" in bench.said
+    assert re.search(r"its gateware is being loaded|it has just been loaded", bench.said), "a loader may end at once"
     bench.session.heartbeat()
     assert bench.session.arm() > 0
 
