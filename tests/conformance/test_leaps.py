@@ -18,9 +18,8 @@ WRONG = {  # what stands in leap.sv, and what is put in its place
     "the time": ("tick_counter.now_q = tick_counter.now_q + clocks", "tick_counter.now_q = tick_counter.now_q + clocks + 1"),
     "the bucket": ("`limits.level_q = `limits.level_q + clocks * inflow()", "`limits.level_q = `limits.level_q + inflow()"),
     "the turns' time": ("`limits.turn_q       = round_turn[4:0]", "`limits.turn_q       = round_turn[4:0] + 5'd1"),
-    "edges of a channel": ("`limits.accounts[turn] = made(turn);", ""),
+    "edges of a channel": ("edges > `limits.channel_edges_i) return clock;", "edges > `limits.channel_edges_i) return ALWAYS;"),
     "a byte of the UART": ("`receiver.timer_q = `receiver.timer_q - {clocks, 8'd0}", "`receiver.timer_q = `receiver.timer_q"),
-    "a byte of the SPI": ("most = 2;", "most = 60;"),
     "the trigger": ("trigger_input.trigger_q == {4{trigger_i}} &&", ""),
 }
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device import kernel
 from controller.device.kernel import bank_twin, compact_twin, null_twin, words_twin
@@ -156,7 +157,7 @@ def test_numbers_are_packed_and_unpacked():
 
 
 @pytest.mark.parametrize("one", [words_twin, pytest.param(compiled, marks=needs_compiled)], ids=["twin", "compiled"])
-@pytest.mark.parametrize("at", [0, 4, 8, 12, 16, 20, 40, 44, 48, 52, 56])
+@each_row("at", [0, 4, 8, 12, 16, 20, 40, 44, 48, 52, 56])
 def test_tables_that_cannot_be_are_refused(one, at):
     words, room, bank = buffers(1)
     wrong = bytearray(bank.tables)
