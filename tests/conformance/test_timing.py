@@ -88,32 +88,6 @@ def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):
     assert capture.focus_ticks.tolist()[0] == start + FIRST_TICKS + 3 * BIT_TICKS
 
 
-@each_row("ended_by", ["stop", "disarm", "fault"])
-def test_what_was_ended_takes_no_time_from_what_is_scheduled_next(back_end, ended_by):
-    run = Script()
-    run.settings()
-    run.arm()
-    run.upload(0, WORDS)
-    when = run.tick + 20_000
-    run.send(frames.pack_play, Play(0, start=Start.TIME, when_ticks=when))
-    if ended_by == "fault":
-        run.permit(False)
-        run.wait(20)
-        run.permit(True)
-        run.wait(20)
-        run.control(Control.CLEAR)
-    else:
-        run.control(Control.STOP if ended_by == "stop" else Control.DISARM)
-    if ended_by != "stop":
-        run.wait(2 * RAMP_TICKS)
-        run.arm()
-    assert run.tick < when - 100
-    run.send(frames.pack_play, Play(0, start=Start.TIME, when_ticks=when - 1))
-    run.wait(when - run.tick + 100)
-    _, capture = run.perform(back_end)
-    assert dict(zip(capture.ticks.tolist(), capture.words.tolist(), strict=True))[when - 1] == 0x11
-
-
 @each_row(
     ("method", "arguments"),
     [

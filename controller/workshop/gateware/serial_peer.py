@@ -30,10 +30,9 @@ from controller.workshop.gateware.model.model import GatewareModel
 class UartPanel:
     """The gateware model behind its UART: bytes in, bytes out.
 
-    The gateware was just reset; its permits are set here. A byte takes the time of ten bits. The line is never idle while bytes
-    wait: those that a busy terminal delivers late have come before, the last of them now at the latest. An answer that is there
-    thus reports no time to come, unless its host writes faster than the line sends. Tick 0 is the present value of `now_s`, which
-    the gateware's clock follows.
+    The gateware was just reset; its permits are set here. A byte takes the time of ten bits. Bytes that a busy terminal delivers
+    late are taken to have arrived one after the other until now. So an answer never reports a time in the future, unless its host
+    writes faster than the line sends. Tick 0 is the present value of `now_s`, which the gateware's clock follows.
     """
 
     def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:

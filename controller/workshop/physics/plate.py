@@ -14,9 +14,7 @@ from controller.workshop.physics.design.design import characteristic_time_s
 MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
 ENOUGH_HZ = 100e3  # bits of a low band still excite what lies far above it: their corners pass the driver up to here
 FEW_MODES = 2_200  # as many as can be computed whatever the edges
-STEEPER = (
-    1.25  # slope of the loss between cells over that of its first order in the pitch: by 24 places, of which 1.0 and 1.5 err more
-)
+STEEPER = 1.25  # loss between cells over its first order in the pitch: 1.0 and 1.5 err more at 24 places
 LEAST_TILT = 1.0  # of an equaliser
 
 

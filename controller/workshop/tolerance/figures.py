@@ -92,7 +92,7 @@ def _of_bank(figures: Floats, relative: Floats, least: float) -> dict[str, Any]:
 
 
 def spread(values: Floats, sign: int = 1) -> dict[str, float]:
-    """Quantiles of `values`, of which the lowest is the worst; with `sign` -1 they are the negative of what is told."""
+    """Quantiles of `values`, of which the lowest is the worst; with `sign` -1 they are the negatives of the figures."""
     p5, p50, p95 = np.quantile(values, (0.05, 0.5, 0.95)).tolist()
     return {"p5": sign * p5, "p50": sign * p50, "p95": sign * p95, "worst": sign * float(values.min())}
 

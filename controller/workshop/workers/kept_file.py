@@ -45,7 +45,9 @@ class KeptFile:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 raise UsageError(f"{path}: another command is at work on the same: wait for it, or give another file") from None
-            yield cls(file, path)
+            with _reported(path):
+                kept = cls(file, path)
+            yield kept
         finally:
             with _reported(path):  # it flushes
                 file.close()

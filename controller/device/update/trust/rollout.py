@@ -79,7 +79,7 @@ def percent(share_ppm: int) -> str:
 def place_ppm(machine_id: str, version: str) -> int:
     """Place of a device in the order of a release, 0 to 999,999: always the same for the same release, unrelated for another.
 
-    As machine-id(5) asks, the machine-id itself never leaves the device: it is hashed, and its place is told to nobody.
+    As machine-id(5) asks, the machine-id itself never leaves the device: it is hashed, and its place is reported to nobody.
     """
     digest = hashlib.sha256(f"haptic-panel rollout\n{machine_id}\n{version}".encode()).digest()
     return int.from_bytes(digest[:8], "big") * ALL_PPM >> 64
