@@ -4,7 +4,7 @@
 `haptic-panel serve`. A client's own tests hold the same file with the same panel: each step's `say` (or `line`, as it is) is sent,
 its answer has to have what is in `answer`, and before the next step a message comes that has what is in `await`. `…` is any value;
 `call` gives names to values of that message, for later steps. A play that is skipped where `played` is recorded is sent again, and
-so is one that is merged with what is left of one before: a simulated panel on a busy computer may be late.
+so is one that is merged with what is left of one before: a simulated panel on a busy computer may be late, or be arming again.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import socket
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
@@ -28,6 +29,7 @@ ANYTHING: Final = "…"
 TIMEOUT_S: Final = 30.0
 BYTES_MAX: Final = 1 << 20
 ATTEMPTS: Final = 20  # of a play that a panel on a busy computer does not play as it is
+ATTEMPT_PAUSE_S: Final = 0.05  # between them: together longer than outputs need to be on again
 NOT_AS_IT_IS: Final = ("skipped", "merged")
 
 
@@ -106,7 +108,9 @@ def _hold(panel: socket.socket, messages: Iterator[dict[str, Any]], step: Step, 
     request = None if step.say is None else named(step.say, names)
     line = step.line if request is None else json.dumps(request)
     wanted = None if request is None else request.get("id")
-    for _ in range(ATTEMPTS):
+    for attempt in range(ATTEMPTS):
+        if attempt:
+            time.sleep(ATTEMPT_PAUSE_S)
         panel.sendall(line.encode() + b"\n")
         answer = next((message for message in messages if answers(message, wanted)), None)
         if answer is None:

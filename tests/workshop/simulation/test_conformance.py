@@ -3,6 +3,7 @@
 import json
 import socket
 import threading
+import time
 
 from device.application_socket.test_protocol_schema import fits
 from hypothesis import given
@@ -10,7 +11,7 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device.application_socket.protocol.schema import protocol_schema
-from controller.workshop.simulation.conformance import ATTEMPTS, CONVERSATION, has, main, named, steps_of
+from controller.workshop.simulation.conformance import ATTEMPT_PAUSE_S, ATTEMPTS, CONVERSATION, has, main, named, steps_of
 
 JSON = st.recursive(
     st.none() | st.booleans() | st.integers(-9, 9) | st.text(max_size=3),
@@ -92,7 +93,9 @@ def test_what_answers_in_another_language_is_one_line(tmp_path, capsys):
 
 
 @each_row(("skipped", "code"), [(2, 0), (1000, 1)], ids=["later", "never"])
-def test_a_play_that_is_skipped_is_sent_again_and_not_for_ever(tmp_path, capsys, skipped, code):
+def test_a_play_that_is_skipped_is_sent_again_and_not_for_ever(tmp_path, capsys, monkeypatch, skipped, code):
+    pauses = []
+    monkeypatch.setattr(time, "sleep", pauses.append)
     step = {"say": {"kind": "play", "effect": "click", "id": 1}, "answer": {"outcome": "played"}}
     (tmp_path / "mine.json").write_text(json.dumps({"steps": [step]}))
     with socket.socket(socket.AF_UNIX) as listener:
@@ -117,4 +120,5 @@ def test_a_play_that_is_skipped_is_sent_again_and_not_for_ever(tmp_path, capsys,
         assert main(["--socket", str(tmp_path / "s"), "--conversation", str(tmp_path / "mine.json")]) == code
         thread.join()
     assert asked == [step["say"]] * min(skipped + 1, ATTEMPTS)
+    assert pauses == [ATTEMPT_PAUSE_S] * (len(asked) - 1)
     assert ("1 steps, all as recorded" in capsys.readouterr().out) == (code == 0)
