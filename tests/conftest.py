@@ -39,6 +39,7 @@ set_hypothesis_home_dir(Path(sys.prefix, "hypothesis"))  # not in the checkout
 
 # Files that take longest begin first, so that all processes end at about the same time.
 LONGEST = ["test_rtl.py", "test_readme_runs.py", "test_project.py", "test_cli.py", "test_build.py", "test_kernel_guest.py"]
+OWN_LINES = ("kernel", "gateware")  # in the README, beside that of all others
 HERE = Path(__file__).parent
 COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells of the coverage of the Verilog
 
@@ -46,7 +47,9 @@ COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells
 def pytest_xdist_auto_num_workers(config):
     """All tests run in three processes, which keep two cores busy: some wait; what is chosen on the command line, in this one."""
     marked = config.option.markexpr
-    everything = config.args_source is config.ArgsSource.TESTPATHS and ("not slow" in marked or marked in {"kernel", "quick"})
+    everything = config.args_source is config.ArgsSource.TESTPATHS and (
+        "not slow" in marked or marked in {"kernel", "quick", "gateware"}
+    )
     return 3 if everything and config.option.capture != "no" else 0
 
 
@@ -77,17 +80,19 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 def pytest_ignore_collect(collection_path, config):
-    """Leave out files without a test that is asked for by `-m quick` or `-m kernel`; None otherwise: as always."""
+    """Leave out files without a test that is asked for by `-m quick`, `-m kernel` or `-m gateware`; None otherwise: as always."""
     marked, is_file = config.option.markexpr, collection_path.suffix == ".py"
     if marked == "quick":
         return True if is_file and not is_quick(collection_path) else None
-    return True if marked == "kernel" and is_file and "mark.kernel" not in collection_path.read_text() else None
+    return True if marked in OWN_LINES and is_file and f"mark.{marked}" not in collection_path.read_text() else None
 
 
-def pytest_collection_modifyitems(items):
+def pytest_collection_modifyitems(items, config):
+    if config.option.markexpr in OWN_LINES:  # of which the slow form has the slow ones
+        items[:] = [item for item in items if not item.get_closest_marker("slow")]
     for item in items:
         slower = getattr(item, "originalname", "") in SECONDS or any(
-            item.get_closest_marker(name) for name in ("slow", "stress", "kernel")
+            item.get_closest_marker(name) for name in ("slow", "stress", *OWN_LINES)
         )
         if is_quick(item.path) and not slower:
             item.add_marker(pytest.mark.quick)

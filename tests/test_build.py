@@ -54,6 +54,7 @@ def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(wheel):
     assert f"{data}/boards/raspberry_pi.sh" in names
 
 
+@pytest.mark.kernel
 def test_a_wheel_is_the_same_to_the_byte_when_built_again(wheel, tmp_path):
     assert build(tmp_path)[1].read_bytes() == wheel.read_bytes()
 
@@ -109,7 +110,16 @@ def test_the_loop_compiled_by_mypyc_passes_its_tests(tmp_path):
     assert compiled.stdout.count(".so") == 2, compiled.stderr
     rooms = [f"tests/device/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank", "application_socket")]
     rooms += ["tests/workshop/simulation/test_same_bytes.py", "tests/test_metrics.py"]
-    tested = run_in(copy, "-m", "pytest", "-q", "-n0", "-m", "not slow and not stress and not kernel and not interpreted", *rooms)
+    tested = run_in(
+        copy,
+        "-m",
+        "pytest",
+        "-q",
+        "-n0",
+        "-m",
+        "not slow and not stress and not kernel and not gateware and not interpreted",
+        *rooms,
+    )
     assert tested.returncode == 0, tested.stdout[-8000:] + tested.stderr[-2000:]
 
 

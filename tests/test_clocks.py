@@ -57,5 +57,6 @@ def wrong_lines(tmp_path_factory):
     return {(*RIGHT, *WRONG)[number - 1] for number in numbers}
 
 
+@pytest.mark.kernel
 def test_host_time_and_fpga_time_that_are_mixed_are_type_errors(wrong_lines):
     assert wrong_lines == set(WRONG)

@@ -146,6 +146,7 @@ def test_every_public_name_says_what_it_is():
         assert len(docstring.split()) > 3, path
 
 
+@pytest.mark.kernel
 def test_every_command_of_every_readme_but_run_works(tmp_path, state_folder):
     assert "$ .venv/bin/haptic-panel bank build" in works(tmp_path, state_folder / "gateware", "sh", "others")
 
@@ -155,11 +156,12 @@ def test_every_slow_command_of_every_readme_works(tmp_path, state_folder):
     assert "$ .venv/bin/haptic-panel benchmark" in works(tmp_path, state_folder / "gateware", "sh slow")
 
 
-def test_the_three_lines_of_the_readme_are_short_and_whole():
+def test_the_four_lines_of_the_readme_are_short_and_whole():
     lines = [line for line in (ROOT / "README.md").read_text().splitlines() if "set_up.sh" in line and not line.startswith("`")]
     assert lines == [
         "sh controller/set_up.sh offline && .venv/bin/haptic-panel run",
         "sh controller/set_up.sh test && .venv/bin/pytest",
+        "sh controller/set_up.sh test && .venv/bin/pytest -m gateware",
         "sh controller/set_up.sh test && .venv/bin/pytest -m kernel",
     ]
 

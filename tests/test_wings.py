@@ -127,6 +127,7 @@ def status(folder):
     return folder / NAME
 
 
+@pytest.mark.kernel
 def test_a_devices_wheel_runs_every_command_of_a_device(device, serial_board, bank_file, tmp_path):
     panel = ("--board", serial_board)
     gateware = bitstream(load_board(serial_board), tmp_path / "panel.bit")
@@ -187,6 +188,7 @@ def test_what_needs_the_workshop_says_so_in_one_line(device, serial_board, tmp_p
         assert err.count("\n") == 1, (command, err)
 
 
+@pytest.mark.kernel
 def test_a_devices_wheel_plays_and_waits_for_what_is_not_connected(device, serial_board, bank_file, tmp_path):
     board = load_board(serial_board)
     model = GatewareModel(BuildParameters.of(board, gateware_hash()))
@@ -231,6 +233,7 @@ def without_room(folder, room):
     return Installation(sys.executable, folder)
 
 
+@pytest.mark.kernel
 @each_row("room", ["device/update", "device/application_socket", "workshop/benchmark", "workshop/calibration"])
 def test_without_a_room_a_panel_runs_and_shows_its_state(room, bank_file, tmp_path):
     (tmp_path / "checkout").mkdir()

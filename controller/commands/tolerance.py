@@ -41,7 +41,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--least", type=float, default=0.7, metavar="A", help="a plate is good if its weakest place has this share (default: 0.7)"
     )
-    command.add_argument("--places", type=natural, default=9, metavar="N", help="places at which a plate is judged (default: 9)")
+    command.add_argument("--places", type=natural, default=9, metavar="N", help="places at which a plate is evaluated (default: 9)")
     command.add_argument("--points", type=natural, default=250, metavar="N", help="points of a calibration (default: 250)")
     command.add_argument("--snr-db", type=float, default=40.0, metavar="DB", help="of its records (default: 40)")
     command.add_argument(
@@ -90,7 +90,7 @@ def tolerance(options: argparse.Namespace) -> int:
 def _table(figures: dict[str, Any]) -> str:
     nominal = figures["nominal"]
     lines = [
-        f"board {figures['board']}: {figures['plates']} plates of seed {figures['seed']}, judged at {figures['places']} places; "
+        f"board {figures['board']}: {figures['plates']} plates of seed {figures['seed']}, evaluated at {figures['places']} places; "
         f"the design has {nominal['amplitude_um']:.2f} µm, contrast {nominal['contrast']:.1f}, spot {nominal['spot_mm']:.2f} mm",
         "",
         f"{'':<46}{'p5':>8}{'p50':>8}{'p95':>8}{'worst':>8}",

@@ -36,6 +36,8 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "conformance"))
 
 from hard_limits import broken_limits
 
+pytestmark = pytest.mark.gateware
+
 ULX3S = files("ulx3s").board
 CLOCK_PS = PS / ULX3S.link.clock_hz
 WORDS = np.random.default_rng(5).integers(0, 1 << 32, ULX3S.waveform.samples, dtype=np.uint32).repeat(8)[: ULX3S.waveform.samples]

@@ -22,6 +22,8 @@ from controller.device.fpga.registers import Fault, Register, State
 from controller.device.fpga.session import Session
 from controller.errors import ControllerError
 
+pytestmark = pytest.mark.gateware
+
 ULX3S = files("ulx3s").board
 README = data_folder("fpga_rtl") / "README.md"
 CLOCK_PS = PS / ULX3S.link.clock_hz

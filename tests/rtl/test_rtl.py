@@ -1,5 +1,11 @@
 """Runs every bench of benches.py, then judges what they covered."""
 
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
 import numpy as np
 import pytest
 from benches import BENCHES, RUNS, SLOW_RUNS, make_variables
@@ -10,6 +16,7 @@ from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
 
 PITCH_M = 5e-3
+pytestmark = pytest.mark.gateware
 
 
 @pytest.fixture(scope="session")
@@ -22,29 +29,40 @@ def one_entry_bank(board, tmp_path_factory):
     return path
 
 
-@pytest.fixture
-def perform(simulator, one_entry_bank, tmp_path, monkeypatch):
-    """One bench; it must pass."""
+@pytest.fixture(scope="session")
+def performed(request, simulator, one_entry_bank, tmp_path_factory):
+    """The benches that are asked for, each in a process, as many at a time as there are cores: {bench: (folder, its future)}."""
+    asked_for = [item for item in request.session.items if getattr(item, "originalname", "") == "test_bench"]
+    folders = {run: tmp_path_factory.mktemp(run) for run in (item.callspec.params["run"] for item in asked_for)}
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        yield {run: (folder, pool.submit(perform, run, simulator, folder, one_entry_bank)) for run, folder in folders.items()}
+        pool.shutdown(cancel_futures=True)
 
-    def run_bench(run, **variables):
-        variables |= {"HAPTIC_PANEL_TEST_BANK": str(one_entry_bank), "MAKEFLAGS": make_variables(run)}
-        for name, value in variables.items():
-            monkeypatch.setenv(name, value)
-        (RUNS | SLOW_RUNS)[run](simulator=simulator, folder=tmp_path)
 
-    return run_bench
+def perform(run, simulator, folder, bank, **variables):
+    """One bench: its exit code and all that it said."""
+    variables |= {"HAPTIC_PANEL_TEST_BANK": str(bank), "MAKEFLAGS": make_variables(run)}
+    command = [sys.executable, Path(__file__).with_name("benches.py"), run, simulator, folder]
+    path = os.pathsep.join(sys.path)  # as pytest's: the benches import what stands beside them
+    environment = os.environ | variables | {"PYTHONPATH": path}
+    return subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+
+
+def passes(done):
+    assert done.returncode == 0, done.stdout
 
 
 @pytest.mark.slow
-def test_the_core_does_what_the_model_does_through_a_thousand_random_frames(perform):
-    perform("haptic_core", HAPTIC_PANEL_RANDOM_FRAMES="1000")
+def test_the_core_does_what_the_model_does_through_a_thousand_random_frames(simulator, one_entry_bank, tmp_path):
+    passes(perform("haptic_core", simulator, tmp_path, one_entry_bank, HAPTIC_PANEL_RANDOM_FRAMES="1000"))
 
 
 @pytest.mark.parametrize("run", [*RUNS, *(pytest.param(run, marks=pytest.mark.slow) for run in SLOW_RUNS)])
-def test_bench(run, perform, simulator, verilog_coverage, tmp_path):
-    perform(run)
+def test_bench(run, performed, simulator, verilog_coverage):
+    folder, future = performed[run]
+    passes(future.result())
     if simulator == "verilator" and run in BENCHES:
-        verilog_coverage[run] = read(tmp_path / "coverage.dat")
+        verilog_coverage[run] = read(folder / "coverage.dat")
 
 
 @pytest.fixture

@@ -206,9 +206,9 @@ def _transfers(
 
     results: dict[int, Transfers] = {}
     again = 0
-    for point, (found, anew) in zip(there, on_all_cores(learned, there), strict=True):
+    for point, (found, relearned) in zip(there, on_all_cores(learned, there), strict=True):
         results[point] = found
-        again += anew
+        again += relearned
         progress(len(results), len(there))
     kept.forget_others()
     return results, hashes, again

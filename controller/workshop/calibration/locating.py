@@ -100,7 +100,7 @@ def _as_stated(many: _Records, frame: MeasuringFrame, factor: float, free: NDArr
 
 
 def enough(board: Board, points: int) -> bool:
-    """Whether so many points can tell the frame."""
+    """Whether this number of points can tell the frame."""
     return points >= LEAST_POINTS and points * len(board.actuators) >= LEAST_RECORDS
 
 

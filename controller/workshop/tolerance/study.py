@@ -54,7 +54,7 @@ class Study:
     board: Board
     tolerances: Tolerances
     seed: int = 1
-    places: int = 9  # at which a plate is judged, drawn from the seed
+    places: int = 9  # at which a plate is evaluated, drawn from the seed
     points: int = 250  # that a calibration measures
     snr_db: float = 40.0  # of its records
 

@@ -99,8 +99,12 @@ def test_a_scene_that_takes_too_long_is_refused_and_the_next_one_is_prepared(boa
     changer.begin("slow", 6)
     assert prepared(changer).reason == "preparing the scene took longer than 0.3 s"
     helper = changer.helper.process.pid
-    changer.begin("nowhere", 7)
-    assert "'nowhere' not found" in prepared(changer).reason
+    while True:  # on a busy computer the next one, too, may take longer
+        changer.begin("nowhere", 7)
+        reason = prepared(changer).reason
+        if "took longer" not in reason:
+            break
+    assert "'nowhere' not found" in reason
     assert changer.helper.process.pid == helper
     changer.close()
 

@@ -45,6 +45,7 @@ def told(mouse, *, seed=0, quickest_s=QUICKEST_S, stamped=lambda ms: ms):
     return found
 
 
+@pytest.mark.slow
 @each_row("seed", range(6))
 def test_the_lag_is_found_within_what_is_said_and_an_error_of_a_hundredth_of_the_range_is_not(seed):
     finger, mouse = strokes(seed=seed)

@@ -126,6 +126,7 @@ print(json.dumps(dataclasses.asdict(build_bank(BankRequest(load_board(find_board
 """
 
 
+@pytest.mark.slow
 def test_the_whole_plate_at_5_mm_is_built_in_600_mb(tmp_path):
     done = subprocess.run([sys.executable, "-c", BUILD, tmp_path / "bank"], capture_output=True, check=True)
     assert done.stderr == b""  # no progress bar unless asked for

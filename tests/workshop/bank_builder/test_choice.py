@@ -61,6 +61,7 @@ def chosen(board, name):
     return choose(board, load_scene(file, board), file, MARGIN_M)
 
 
+@pytest.mark.slow
 def test_shipped_scenes_get_different_banks_for_a_reason(board):
     everything, keyboard, emitters = (chosen(board, name) for name in ("scene", "keyboard", "spots"))
     assert (everything["compact"], everything["composes"]) == (True, True), (

@@ -72,6 +72,7 @@ def kept(composer, model, points_m):
     return np.array(found)
 
 
+@pytest.mark.slow
 def test_under_a_finger_all_points_yield_alike(board, tmp_path):
     """With the receptance of each point 0.83 would be kept at the median, 0.64 at least: it has parts shorter than waves."""
     under = msgspec.structs.replace(board, finger=AssumedFinger())

@@ -98,6 +98,7 @@ def test_pulse_is_as_long_as_a_series_of_eighths_of_bits_shows(emission):
     assert found == pytest.approx(lasted, abs=period_s)
 
 
+@pytest.mark.slow
 def test_the_papers_plate_has_the_energy_pulse_and_heat_that_other_simulations_gave(board):
     """Of its energy 16 % kinetic, some 8 W in the resistors (shared facts); the pulse is longer than eq. (4), a gate's."""
     emission = emission_at(board, [(0.1, 0.07)])

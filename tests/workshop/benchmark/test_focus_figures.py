@@ -16,6 +16,7 @@ def measured(request):
     return figures(BOARD, seed=1, points=request.param)
 
 
+@pytest.mark.slow
 @each_row(
     ("figure", "least", "most"),
     [("contrast", 25, 43), ("contrast_all", 18, 27), ("spot_mm", 4.8, 6.3), ("peak_offset_us", -1, 1), ("amplitude_um", 7, 9)],

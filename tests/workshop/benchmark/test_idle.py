@@ -40,6 +40,7 @@ def test_contrast_with_and_without_idle_word_is_that_of_the_other_figures(measur
     assert measured["contrast"]["all_low"]["max"] < 0.7 * measured["contrast"]["idle_word"]["min"]
 
 
+@pytest.mark.slow
 def test_levels_are_those_of_other_plates_and_discs(measured):
     """Facts: -7 dB at once, -9.7 dB first order in 50 ms, -20 dB second order in 5 to 10 ms; their discs lay elsewhere."""
     arming = measured["arming_db"]

@@ -76,6 +76,7 @@ def found():
     return figures
 
 
+@pytest.mark.slow
 def test_every_row_is_reported_with_its_reason_and_nothing_is_tuned_but_the_piezo(found):
     assert json.loads(json.dumps(found, allow_nan=False)) == found
     keys = [row["key"] for row in found["rows"]]

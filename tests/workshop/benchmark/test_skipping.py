@@ -99,6 +99,7 @@ def test_outputs_that_stay_armed_need_heartbeats(board, bank_file):
     assert np.array_equal(done["words"], without["words"])
 
 
+@pytest.mark.slow
 def test_the_command_prints_every_case_and_fails_if_bits_differ_that_must_not(capsys, bank_file, monkeypatch):
     monkeypatch.setattr(skipping, "build_bank", lambda request: shutil.copy(bank_file, request.path))
     on_a_cell = SkipCase("one tap", "plate", (PlayedContact(0.0, 0.1, lambda _: (100.0, 74.0)),), True)

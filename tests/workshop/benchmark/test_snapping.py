@@ -42,6 +42,7 @@ def lost(board, bank, snap_mm, places_m):
     return np.array(shares)
 
 
+@pytest.mark.slow
 def test_a_cell_that_is_played_for_a_finger_within_the_lattice_loses_nothing_and_one_at_1_mm_does(board, tmp_path):
     pitch_m = board.bank.pitch_mm * 1e-3
     grid = Grid.of(board.plate, pitch_m)

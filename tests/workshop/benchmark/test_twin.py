@@ -10,6 +10,7 @@ from tests.workshop.benchmark.twin import PLAIN, VECTORS_128
 EMISSIONS = 700
 
 
+@pytest.mark.slow
 def test_the_twin_gives_the_bytes_that_the_loop_sends(board, bank_file, tmp_path):
     with Bank.open(bank_file, board) as bank:
         counters, twin = play(board, bank, EMISSIONS, tmp_path)

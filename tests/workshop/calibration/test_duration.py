@@ -43,6 +43,7 @@ def banked(points_m, monkeypatch, number):
     return source.entry_responses(np.array([[0.02, 0.02], [0.04, 0.03]])).tobytes(), len(solved)
 
 
+@pytest.mark.slow
 def test_it_counts_the_work_that_is_done_and_any_number_of_cores_does_the_same(tmp_path, monkeypatch):
     """By a clock that shows 1 s more at each look all takes a second. Wavelengths are fitted again if places were."""
     points_m = scattered_points(BOARD, 90, 2e-3)

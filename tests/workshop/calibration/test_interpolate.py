@@ -49,6 +49,7 @@ def test_a_grid_of_cells_keeps_next_to_all(plate, gridded):
     assert "cosines between 204 cells" in gridded[0].provenance.model
 
 
+@pytest.mark.slow
 def test_scattered_points_keep_nearly_as_much(plate, scattered):
     inside, near_edges = evaluated(plate, scattered[0], "scattered")
     assert inside > 0.9945

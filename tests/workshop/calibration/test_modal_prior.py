@@ -37,6 +37,7 @@ OTHERS = [(2.0, -1.0, 2), (2.0, -1.0, 3), (-1.5, 0.0, 4), (0.0, 0.0, 5)]
 SIZES = [(2.0, -1.0, 1), *(pytest.param(*one, marks=pytest.mark.slow) for one in OTHERS)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("longer_mm", "wider_mm", "seed"), SIZES)
 def test_glass_of_another_size_is_found_within_two_stated_errors(longer_mm, wider_mm, seed):
     """On a plate with free edges; nothing is said of glass that is as stated."""

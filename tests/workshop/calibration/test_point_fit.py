@@ -35,6 +35,7 @@ def stated(learned, gain=None):
     return LearnedResponses(**{**vars(learned), "points_m": STATED_M, "responses": responses})
 
 
+@pytest.mark.slow
 def test_places_gains_and_drift_are_found_together(plate):
     """0.4 mm in each axis, 20 %, 0.5 % from the first point to the last."""
     random = np.random.default_rng(4)

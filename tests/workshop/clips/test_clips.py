@@ -215,6 +215,7 @@ def test_what_cannot_be_meant_is_refused_in_one_line(name, content, said, tmp_pa
     assert err.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_a_hundred_thousand_events_and_controls_take_seconds(tmp_path):
     file = tmp_path / "many.ahap"
     tap = [{"Event": {"EventType": "HapticTransient", "Time": 0.01 * k}} for k in range(50_000)]

@@ -165,6 +165,7 @@ def traced(state_folder, script_file, monkeypatch):
     return trace
 
 
+@pytest.mark.gateware
 def test_the_file_shows_what_the_model_does_and_each_frame_by_its_name(traced, capsys):
     signals = traced()
     report = json.loads(capsys.readouterr().out)

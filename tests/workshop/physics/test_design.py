@@ -219,6 +219,7 @@ def test_a_search_finds_the_fewest_channels_that_reach_it(searched, felt_um):
             assert found["felt_um"] < felt_um
 
 
+@pytest.mark.slow
 def test_with_prices_the_cheapest_come_first_and_a_disc_without_a_price_is_left_out():
     """Five of the smaller discs are dearer than four of the larger; at three times their price they are not."""
     prices = {"channel": 4.0, "7BB-20-6": 0.8, "7BB-27-4": 1.1}

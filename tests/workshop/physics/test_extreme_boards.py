@@ -53,6 +53,7 @@ def weyl(plate, highest_hz):
     return length * width * k**2 / (4 * np.pi) - 2 * (length + width) * k / (4 * np.pi) + 0.25
 
 
+@pytest.mark.slow
 @each_row(
     ("called", "plate", "waveform", "more"),
     [

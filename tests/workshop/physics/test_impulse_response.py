@@ -178,6 +178,7 @@ def test_refuses_an_array_that_does_not_fit(model, out):
 GRID = np.array([(x, y) for y in np.linspace(0.02, 0.13, 5) for x in np.linspace(0.01, 0.2, 11)])
 
 
+@pytest.mark.slow
 @each_row("dtype", [np.float32, np.float64])
 @each_row("order", ["rows", "shuffled", "ragged"])
 def test_points_in_rows_have_the_responses_they_have_anywhere(model, dtype, order):

@@ -218,6 +218,7 @@ def test_half_width_of_a_bell_is_its_own(width_mm):
     assert half_width(bell) != pytest.approx(width_mm * 1.01e-3, rel=1e-3)
 
 
+@pytest.mark.slow
 @each_row(
     ("words", "before"),
     [(random_words(8, 5), IDLE), (ramp_words(BOARD, ramp_bits(40, up=True)), 0), (random_words(8, 5)[:0], 0)],

@@ -162,6 +162,7 @@ def test_ten_microphones_hear_what_sixty_do():
     assert np.linalg.norm(around(0.1, 0.05) - [0.1, 0.05, 0], axis=1) == pytest.approx([0.3] * 10)
 
 
+@pytest.mark.slow
 @each_row("keys", [{}, {"plate__thickness_mm": 1.0}, {"waveform__band_low_hz": 10e3, "waveform__band_high_hz": 35e3}])
 def test_the_design_foresees_the_sound_of_a_focus_some_decibels_too_low(keys):
     board = changed(BOARD, **keys)

@@ -106,6 +106,7 @@ def test_what_cannot_be_there_is_refused(bench, text, said):
     assert "actual.toml" in str(refused.value)
 
 
+@pytest.mark.slow
 def test_wires_and_a_dead_interrupt_line_are_named_by_the_survey_of_channels(bench, capsys):
     """By the device's own driver of the touch panel, whose far end is simulated."""
     (bench.folder / bench.board.bitstream).write_bytes(header_alone(bench.board))

@@ -137,8 +137,8 @@ def _serve(open_reader: Callable[[], EventReader], loop: socket.socket, shared: 
         events = reader.read(time.monotonic())
         if reader.present and reader.description is not description:
             description = reader.description
-            told = description if shared is None else shared.follow(description)
-            loop.send(bytes([DESCRIPTION]) + msgspec.json.encode(told))
+            reported = description if shared is None else shared.follow(description)
+            loop.send(bytes([DESCRIPTION]) + msgspec.json.encode(reported))
         if events:
             loop.send(events_message(events))
         if reader.present is not present:
