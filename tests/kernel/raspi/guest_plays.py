@@ -62,7 +62,7 @@ def finish(session, emissions):
 
 def play_loop(board, clock, session, bank):
     """Recordings round and round on a scene of many emissions. Prints what it counted, and the times of its stages."""
-    recordings = sorted((TESTS / "touch/recordings").glob("*.ev*"))
+    recordings = sorted((TESTS / "device/touch/recordings").glob("*.ev*"))
     panel = LoopedPanel([find_board("simulated") / "demo.evemu", *recordings], clock.now_s() + 0.1)
 
     def progress(_):
@@ -71,7 +71,10 @@ def play_loop(board, clock, session, bank):
 
     source = tracked(LiveSource(panel, board), board)
     assembly = assemble(
-        LoopContext(board, clock, session, source), load_scene(TESTS / "benchmark/scene.toml", board), bank, watch=Watch(progress)
+        LoopContext(board, clock, session, source),
+        load_scene(TESTS / "workshop/benchmark/scene.toml", board),
+        bank,
+        watch=Watch(progress),
     )
     counters = assembly.counters
     assembly.selection.prepare()

@@ -66,9 +66,7 @@ class DescentAim:
     steps: int  # of the relaxation
     passes: int = 1  # of the descent
     share: float = 1.0  # of the plain amplitude, that the relaxation aims at
-    felt_turns: int = (
-        0  # of relaxation, rounding and descent for the felt amplitude, its derivative computed again before each
-    )
+    felt_turns: int = 0  # of relaxation, rounding and descent for the felt amplitude, its derivative computed again before each
 
 
 AIMS = {
