@@ -52,8 +52,10 @@ def add(step: argparse.ArgumentParser) -> None:
     declare_shares(release)
     rollout = action("rollout", change_rollout, "draft other steps of a release that is published")
     stop = action("stop", stop_release, "draft a timestamp by which no further device takes a release, for good")
-    for parser in (rollout, stop):
+    opening = action("open", open_step, "draft a timestamp that opens the next step of a release: it comes at its time")
+    for parser in (rollout, opening, stop):
         parser.add_argument("version", metavar="VERSION")
+    opening.add_argument("--all", dest="everything", action="store_true", help="all its steps: nobody needs to look before each")
     declare_shares(rollout, required=True)
     fleet = action("status", fleet_status, "count devices by release and health, and propose the next step of a rollout, or a stop")
     fleet.add_argument(
@@ -62,7 +64,8 @@ def add(step: argparse.ArgumentParser) -> None:
         required=True,
         type=Path,
         metavar="FOLDER",
-        help="a file NAME.json for each device, what `haptic-panel status --json` prints there; its date says when",
+        help="a file NAME.json for each device, what `haptic-panel status --json` prints there, or NAME.prom, what `haptic-panel "
+        "metrics` or Prometheus gives; its date says when",
     )
     fleet.add_argument("--channel", default="stable", metavar="C", help="default: stable")
     fleet.add_argument(
@@ -96,7 +99,7 @@ def add(step: argparse.ArgumentParser) -> None:
     export = action("export", export_stick, "copy what the channels offer into a folder, such as on a stick, valid for a year")
     export.add_argument("folder", type=Path, metavar="FOLDER")
     export.add_argument("--key", required=True, type=Path, metavar="KEY", help="a key of the publisher")
-    for parser in (release, rollout, stop, sign, rotate, renewal, export):
+    for parser in (release, rollout, opening, stop, sign, rotate, renewal, export):
         parser.add_argument(
             "--date",
             type=_date,
@@ -118,7 +121,8 @@ def declare_shares(parser: argparse.ArgumentParser, *, required: bool = False) -
         default=[],
         required=required,
         metavar="PERCENT@TIME",
-        help="share of the devices that may take it from a time on, such as 1%%@2026-12-01T08:00Z; once for each step",
+        help="share of the devices that may take it from a time on, such as 1%%@2026-12-01T08:00Z; once for each step: a later "
+        "one waits for `open` too",
     )
 
 
@@ -174,6 +178,16 @@ def change_rollout(options: argparse.Namespace) -> int:
         return _tell(options, repository, published=False)
 
 
+def open_step(options: argparse.Namespace) -> int:
+    """Draft the next step's opening."""
+    from controller.workshop.publish.publications import draft_open
+    from controller.workshop.publish.publisher import Repository, now
+
+    with Repository.opened(options.repository, dated=options.date) as repository:
+        draft_open(repository, options.version, now(), everything=options.everything)
+        return _tell(options, repository, published=False)
+
+
 def stop_release(options: argparse.Namespace) -> int:
     """Draft a stop."""
     from controller.workshop.publish.publications import draft_stop
@@ -202,7 +216,7 @@ def sign_draft(options: argparse.Namespace) -> int:
 
 
 def fleet_status(options: argparse.Namespace) -> int:
-    """Show how devices fare by release; 1 if a release should be stopped."""
+    """Show how many devices each release serves; 1 if one should be stopped or held."""
     from controller.workshop.publish.fleet import fleet_table, read_fleet, rollout_figures
     from controller.workshop.publish.publisher import Repository, now
 
@@ -210,7 +224,7 @@ def fleet_status(options: argparse.Namespace) -> int:
         fleet = read_fleet(options.reports, now(), options.silent_s)
         figures = rollout_figures(repository, options.channel, fleet, now())
     show(options, figures, fleet_table)
-    return 1 if any(offer["propose"] == "stop" for offer in figures["offers"]) else 0
+    return 1 if any(offer["propose"] in ("stop", "hold") for offer in figures["offers"]) else 0
 
 
 def change_keys(options: argparse.Namespace) -> int:

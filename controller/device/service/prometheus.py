@@ -115,6 +115,12 @@ def update_metrics(state: UpdateState) -> Iterator[Metric]:
     yield GaugeMetricFamily("haptic_panel_update_trial", "Whether a release is on trial.", float(bool(state.trial)))
     yield GaugeMetricFamily("haptic_panel_update_tries", "Starts of the trial so far.", state.tries)
     yield GaugeMetricFamily("haptic_panel_update_failed_releases", "Releases that were tried and did not serve.", len(state.failed))
+    failed = GaugeMetricFamily(
+        "haptic_panel_update_failed", "1 for each release that was tried and did not serve.", labels=["version"]
+    )
+    for version in state.failed:
+        failed.add_metric([version], 1.0)
+    yield failed
     yield GaugeMetricFamily("haptic_panel_update_requests", "Requests not done yet.", len(state.requested))
     yield GaugeMetricFamily("haptic_panel_update_problems", "What is damaged of releases and state.", len(state.problems))
 

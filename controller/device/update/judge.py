@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Final
+from typing import Final, Protocol
 
 from controller.device.board.panel_state import PanelState
 from controller.device.board.panel_status import LatencyStatus, PanelStatus
@@ -141,7 +141,19 @@ def _trouble(last: PanelStatus | None, now: Evaluation, status: PanelStatus, rul
     return too_slow(status, old)
 
 
-def too_slow(status: PanelStatus, old: PanelStatus | None = None) -> str:
+class HasLatencies(Protocol):
+    """The host's own work for emissions, such as a status has."""
+
+    @property
+    def upload(self) -> LatencyStatus:
+        """With an upload."""
+
+    @property
+    def resident(self) -> LatencyStatus:
+        """Whose waveform was resident."""
+
+
+def too_slow(status: HasLatencies, old: HasLatencies | None = None) -> str:
     """Which work of the host takes longer than it may, by the state of the release before too; empty if none does."""
     for what, latency, as_before in (
         ("an upload", status.upload, old.upload if old else LatencyStatus()),

@@ -11,7 +11,7 @@ from tuf.api.metadata import Root, TargetFile
 
 from controller.device.update.layout import MANIFEST
 from controller.device.update.trust.clock import TIMESTAMP_LIFE, as_text, issued
-from controller.device.update.trust.rollout import read_rollout, stopped_by
+from controller.device.update.trust.rollout import opened_by, percent, read_rollout, stopped_by
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
 from controller.workshop.publish.publisher import ROLES, Repository
@@ -35,8 +35,11 @@ def describe(repository: Repository) -> list[str]:
                 lines.append(f"{path}: {rollout}")
     if new:
         lines.append(f"{len(new)} new files, {sum(target.length for target in new.values()):,} bytes; {old} as before")
-    if (timestamp := repository.drafted("timestamp")) and (stopped := stopped_by(timestamp.signed, str(repository.draft))):
-        lines.append(f"stopped: {', '.join(stopped)}")
+    if timestamp := repository.drafted("timestamp"):
+        opened = opened_by(timestamp.signed, str(repository.draft))
+        lines += [f"opened: steps of {version} up to {percent(share_ppm)}" for version, share_ppm in sorted(opened.items())]
+        if stopped := stopped_by(timestamp.signed, str(repository.draft)):
+            lines.append(f"stopped: {', '.join(stopped)}")
     for role in ROLES:
         if found := repository.drafted(role):
             made = issued(found.signed)

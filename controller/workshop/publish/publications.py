@@ -13,7 +13,7 @@ from tuf.api.metadata import Key, Metadata, MetaFile, Root, Snapshot, TargetFile
 
 from controller.device.update.layout import MANIFEST
 from controller.device.update.manifest import Channel, Manifest, read_manifest
-from controller.device.update.trust.rollout import STOPPED, Rollout, stopped_by
+from controller.device.update.trust.rollout import OPENED, STOPPED, Rollout, opened_by, read_rollout, stopped_by
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
 from controller.workshop.publish.publisher import LIFE, LOCK, ROLES, Repository, issue
@@ -113,6 +113,28 @@ def draft_stop(repository: Repository, version: str, now: datetime) -> None:
             f"{repository.folder}: {STOPPED_MAX} releases are stopped, which is the most: publish a later release instead"
         )
     timestamp.signed.unrecognized_fields[STOPPED] = stopped
+    repository.begin({"timestamp": timestamp})
+
+
+def draft_open(repository: Repository, version: str, now: datetime, *, everything: bool = False) -> None:
+    """Draft a timestamp that opens the next step of a release, or all of them: each comes at its time.
+
+    Raises UpdateError if there is no such release, it was stopped, or no step is left.
+    """
+    repository.must_have_no_draft()
+    _must_not_be_stopped(repository, version)
+    timestamp = repository.changed("timestamp", now)
+    known: dict[str, TargetFile] = repository.changed("targets", now).signed.targets
+    rollouts = [read_rollout(known[path].custom, path) for path in _manifests(repository, known, version)]
+    opened = opened_by(timestamp.signed, str(repository.folder))
+    before = opened.get(version, 0)
+    closed = [step.share_ppm for rollout in rollouts if rollout for step in rollout.steps[1:] if step.share_ppm > before]
+    if not closed:
+        raise UpdateError(f"{repository.folder}: release {version} has no step that is not open yet")
+    channels = [path.split("/")[1].removesuffix(".json") for path in known if path.startswith("channels/")]
+    offered = {path.split("/")[1] for name in channels for path in channel_of(repository, known, name).releases.values()}
+    kept = {name: share for name, share in opened.items() if name in offered}  # a timestamp has 16 kB at most
+    timestamp.signed.unrecognized_fields[OPENED] = kept | {version: max(closed) if everything else min(closed)}
     repository.begin({"timestamp": timestamp})
 
 

@@ -2,6 +2,7 @@
 
 import json
 from datetime import timedelta
+from functools import partial
 
 import pytest
 from repository_fixture import NOW, Device
@@ -14,7 +15,7 @@ from controller.device.update.settings import UpdateSettings
 from controller.device.update.trust.offer import NotYetError
 from controller.device.update.trust.rollout import ALL_PPM, place_of, place_ppm, read_rollout
 from controller.errors import UpdateError, UsageError
-from controller.workshop.publish.publications import draft_releases, draft_renewal, draft_rollout, draft_stop
+from controller.workshop.publish.publications import draft_open, draft_releases, draft_renewal, draft_rollout, draft_stop
 from controller.workshop.publish.publisher import Repository
 from controller.workshop.publish.shares import rollout_of
 from controller.workshop.publish.stick import export
@@ -39,10 +40,17 @@ class Rolled:
         release_folder(folder / "1", "1.0.0", 1)
         self.draft(draft_releases, [folder / "1"], "stable", NOW, steps((1, 1), (100, 3)))
 
+    def open(self, **what):
+        self.draft(partial(draft_open, **what), "1.0.0", NOW, who=("publisher",))
+
     def draft(self, make, *arguments, who=()):
         with Repository.opened(self.repository.folder) as opened:
             make(opened, *arguments)
         assert self.repository.sign(*who)
+
+    @property
+    def opened(self):
+        return Repository(self.repository.folder).published("timestamp").signed.unrecognized_fields["x-opened"]
 
     def device(self, identity):
         place = self.folder / identity
@@ -84,9 +92,12 @@ def test_a_share_comes_with_its_time(rolled):
     assert rolled.offer(first, NOW + DAY - timedelta(seconds=1)).waits
     assert rolled.offer(first, NOW + DAY).is_new
     before = last.kept()
-    with pytest.raises(NotYetError, match=r"is for 1 % of the devices .* and for this one from 2026-11-25T12:00:00Z on"):
-        rolled.fetch(last, NOW + DAY)
+    with pytest.raises(NotYetError, match=r"is for 1 % of the devices .* and for this one from 2026-11-25T12:00:00Z on, once its"):
+        rolled.fetch(last, NOW + 9 * DAY)
     assert last.kept() == before
+    rolled.open()
+    assert "for this one from 2026-11-25T12:00:00Z on" in rolled.offer(last, NOW + 2 * DAY).waits
+    assert "once" not in rolled.offer(last, NOW + 2 * DAY).waits
     assert rolled.fetch(last, NOW + 3 * DAY).version == "1.0.0"
 
 
@@ -108,7 +119,25 @@ def test_a_device_without_an_identity_is_the_last(rolled):
         assert place_of(device.layout, "1.0.0") == ALL_PPM - 1
     device.layout.machine_id.unlink()
     assert "from 2026-11-25" in rolled.offer(device, NOW + DAY).waits
+    rolled.open()
     assert rolled.offer(device, NOW + 3 * DAY).is_new
+
+
+def test_steps_are_opened_one_after_the_other_or_all(rolled):
+    """By the office alone; the share stays open when a later release's step is, and goes with the last channel that offers it."""
+    rolled.draft(draft_rollout, "1.0.0", steps((1, 0), (2, 1), (10, 2), (99, 3)), NOW)
+    for what, opened in (({}, 20_000), ({}, 100_000), ({"everything": True}, 990_000)):
+        rolled.open(**what)
+        assert rolled.opened == {"1.0.0": opened}
+    with (
+        Repository.opened(rolled.repository.folder) as opened,
+        pytest.raises(UpdateError, match=r"1\.0\.0 has no step that is not open"),
+    ):
+        draft_open(opened, "1.0.0", NOW)
+    release_folder(rolled.folder / "2", "1.0.1", 2)
+    rolled.draft(draft_releases, [rolled.folder / "2"], "stable", NOW, steps((1, 0), (10, 1)))
+    rolled.draft(draft_open, "1.0.1", NOW, who=("publisher",))
+    assert rolled.opened == {"1.0.1": 100_000}
 
 
 def test_a_stop_is_signed_by_one_and_no_command_undoes_it(rolled, tmp_path):
@@ -145,6 +174,7 @@ def test_other_steps_need_two_people(rolled):
     assert not rolled.repository.sign("alice", "publisher")
     assert rolled.repository.sign("bob")
     assert "from 2026-11-24" in rolled.offer(last, NOW).waits
+    rolled.open()
     assert rolled.offer(last, NOW + 2 * DAY).is_new
 
 
@@ -207,13 +237,24 @@ def test_signed_nonsense_hands_out_nothing(custom):
         read_rollout(custom, "here")
 
 
-def test_a_timestamp_with_a_damaged_list_of_stops_is_refused(rolled):
+@each_row(
+    ("field", "value"),
+    [
+        ("x-stopped", "1.0.0"),
+        ("x-opened", []),
+        ("x-opened", {"1.0.0": 1_000_001}),
+        ("x-opened", {"1.0.0": True}),
+        ("x-opened", {"1.0.0": "1"}),
+    ],
+)
+def test_a_timestamp_with_damaged_stops_or_openings_is_refused(tmp_path, field, value):
+    rolled = Rolled(tmp_path)
     with Repository.opened(rolled.repository.folder) as opened:
         timestamp = opened.changed("timestamp", NOW)
-        timestamp.signed.unrecognized_fields["x-stopped"] = "1.0.0"
+        timestamp.signed.unrecognized_fields[field] = value
         opened.begin({"timestamp": timestamp})
     assert rolled.repository.sign("publisher")
-    with pytest.raises(UpdateError, match="x-stopped of its timestamp is no list"):
+    with pytest.raises(UpdateError, match=f"{field} of its timestamp is no (list|share)"):
         rolled.offer(rolled.device(FIRST), NOW + DAY)
 
 
@@ -243,6 +284,10 @@ def test_the_commands_say_it_in_one_line(tmp_path, monkeypatch, capsys):
         assert "is for 0 % of the devices" in said
         assert said.endswith("nothing to do\n")
     publisher("rollout", folder, "1.0.0", "--share", "100%@2026-01-01T00:00Z")
+    assert main(["update", "check", "--json", "--from", folder]) == 0
+    assert json.loads(capsys.readouterr().out)["new"]
+    publisher("rollout", folder, "1.0.0", "--share", "1%@2026-01-01T00:00Z", "--share", "100%@2026-01-02T00:00Z")
+    assert "opened: steps of 1.0.0 up to 100 %" in publisher("open", folder, "1.0.0", who=("publisher",)).err
     assert main(["update", "check", "--json", "--from", folder]) == 0
     assert json.loads(capsys.readouterr().out)["new"]
     assert "stopped: 1.0.0" in publisher("stop", folder, "1.0.0", who=("publisher",)).err

@@ -76,7 +76,10 @@ def _waits(repository: DeviceUpdater, layout: Layout, manifest: Manifest, where:
     if manifest.version in repository.stopped:
         return f"{release} was stopped by its publisher: only devices that have it keep it"
     rollout = read_rollout(repository.target(manifest.target).custom, f"{where}: {manifest.target}")
-    why = rollout.why_not_yet(place_of(layout, manifest.version), repository.now) if rollout else ""
+    if rollout is None:
+        return ""
+    opened_ppm = repository.opened.get(manifest.version, 0)
+    why = rollout.why_not_yet(place_of(layout, manifest.version), repository.now, opened_ppm)
     return f"{release} {why}" if why else ""
 
 

@@ -1,8 +1,9 @@
 """Which devices may take a release yet: shares with times, signed by those who sign releases, and releases that were stopped.
 
 Shares are the field `custom.rollout` of a manifest in the targets metadata. Each device has a place in the order of each release, a
-hash of its machine-id and the version, and takes the release once the share exceeds its place. The publisher's timestamp names the
-versions that were stopped (`x-stopped`): its key alone can withhold a release, and can never hand it out sooner.
+hash of its machine-id and the version, and takes the release once the share exceeds its place. A step after the first also waits
+until the publisher's timestamp opens it (`x-opened`), so that nothing grows unless somebody has looked; the timestamp names the
+versions that were stopped too (`x-stopped`). Its key alone can withhold a release, and can never hand it out sooner.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from controller.errors import ConfigError, UpdateError
 from controller.regular_file import read_regular
 
 STOPPED: Final = "x-stopped"  # field of the timestamp: versions that no further device takes
+OPENED: Final = "x-opened"  # field of the timestamp: by version the share up to which its steps are open
 ALL_PPM: Final = 1_000_000  # in parts per million: signed metadata has no fractions
 STEPS_MAX: Final = 32
 FROM, UNTIL = datetime(2020, 1, 1, tzinfo=UTC), datetime(2200, 1, 1, tzinfo=UTC)
@@ -44,7 +46,10 @@ class Step(Record, frozen=True):
 
 
 class Rollout(Record, frozen=True):
-    """Steps of a release; before the first no device takes it, after the last its share stays."""
+    """Steps of a release; before the first no device takes it, after the last its share stays.
+
+    The first step comes at its time, others not before they are opened too: `opened_ppm` is the share up to which they are.
+    """
 
     steps: Annotated[list[Step], Meta(min_length=1, max_length=STEPS_MAX)]
 
@@ -53,18 +58,24 @@ class Rollout(Record, frozen=True):
             if other.share_ppm <= one.share_ppm or other.at <= one.at:
                 raise ValueError(f"steps: {other} does not follow {one}: shares and times both increase")
 
-    def share_ppm(self, now: datetime) -> int:
-        """Share of the devices that may take the release now."""
-        return max((step.share_ppm for step in self.steps if step.at <= now), default=0)
+    def open_steps(self, opened_ppm: int) -> list[Step]:
+        """Steps that come at their time: the first, and those that were opened."""
+        return [step for step in self.steps if step is self.steps[0] or step.share_ppm <= opened_ppm]
 
-    def why_not_yet(self, place_ppm: int, now: datetime) -> str:
+    def share_ppm(self, now: datetime, opened_ppm: int) -> int:
+        """Share of the devices that may take the release now."""
+        return max((step.share_ppm for step in self.open_steps(opened_ppm) if step.at <= now), default=0)
+
+    def why_not_yet(self, place_ppm: int, now: datetime, opened_ppm: int) -> str:
         """Why a device at this place does not take the release now; empty if it may."""
-        share_ppm = self.share_ppm(now)
+        share_ppm = self.share_ppm(now, opened_ppm)
         if place_ppm < share_ppm:
             return ""
-        when = next(
-            (f"from {as_text(step.at)} on" for step in self.steps if place_ppm < step.share_ppm), "at no time that is set yet"
-        )
+        due = next((step for step in self.steps if place_ppm < step.share_ppm), None)
+        when = "at no time that is set yet"
+        if due:
+            is_open = due in self.open_steps(opened_ppm)
+            when = f"from {as_text(due.at)} on" + ("" if is_open else ", once its publisher has opened that step")
         return f"is for {percent(share_ppm)} of the devices at {as_text(now)}, and for this one {when}"
 
     def __str__(self) -> str:
@@ -117,6 +128,14 @@ def stopped_by(timestamp: Signed, origin: str) -> list[str]:
     if not isinstance(versions, list) or not all(isinstance(version, str) for version in versions):
         raise UpdateError(f"{origin}: {STOPPED} of its timestamp is no list of versions: refused; it has to be signed again")
     return versions
+
+
+def opened_by(timestamp: Signed, origin: str) -> dict[str, int]:
+    """Shares in ppm up to which a timestamp opens the steps of versions; raises UpdateError if they are no such shares."""
+    shares = timestamp.unrecognized_fields.get(OPENED, {})
+    if not isinstance(shares, dict) or not all(type(share) is int and 0 < share <= ALL_PPM for share in shares.values()):
+        raise UpdateError(f"{origin}: {OPENED} of its timestamp is no share by version: refused; it has to be signed again")
+    return shares
 
 
 class _Custom(Record, frozen=True):

@@ -31,7 +31,7 @@ from controller.device.update.download.source import Source
 from controller.device.update.layout import Layout
 from controller.device.update.lock import alone
 from controller.device.update.trust import clock
-from controller.device.update.trust.rollout import stopped_by
+from controller.device.update.trust.rollout import opened_by, stopped_by
 from controller.device.update.trust.validity import ROOT_BYTES_MAX
 from controller.durable import sync_folder
 from controller.errors import UpdateError
@@ -85,6 +85,11 @@ class DeviceUpdater(Updater):
     def stopped(self) -> list[str]:
         """Versions that the publisher has stopped; raises UpdateError if the timestamp has no list of them."""
         return stopped_by(self._trusted_set.timestamp, self._source.name)
+
+    @property
+    def opened(self) -> dict[str, int]:
+        """By version the share in ppm up to which its steps are open; raises UpdateError as `opened_by`."""
+        return opened_by(self._trusted_set.timestamp, self._source.name)
 
     def target(self, path: str) -> TargetFile:
         """What is signed about a file of the repository; raises UpdateError if it has none of that name."""
