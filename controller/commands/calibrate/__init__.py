@@ -16,6 +16,7 @@ STEPS = {  # in the order of --help, which prints these texts; each is a module 
     "wiring": "which patch each channel drives: swapped, inverted and dead channels, from a few points",
     "check": "read and deconvolve measurements, and name what is wrong with them",
     "bank": "build the bank of a plate from its measurements",
+    "fleet": "build the banks of many panels from a folder of their measurements",
     "simulate": "write the measurements of a simulated plate that differs from the board's",
 }
 

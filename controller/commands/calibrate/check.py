@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 from pathlib import Path
 from typing import Any
 
 from controller.commands.common.output import picture_path, progress_bar, show
-from controller.device.board.board import Board, load_board
+from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.paths import state_folder
-from controller.errors import ConfigError
 
 ACCEPTED = ("dead", "swapped", "inverted", "clipped", "unit", "mass", "strength")
 
@@ -42,6 +39,7 @@ def check(options: argparse.Namespace) -> int:
 
     from controller.workshop.calibration.checking.check_figures import check_figures
     from controller.workshop.calibration.learning import learn
+    from controller.workshop.calibration.point_cache import calibration_cache
 
     picture = picture_path(options)
     board = load_board(find_board(options.board))
@@ -55,15 +53,6 @@ def check(options: argparse.Namespace) -> int:
     show(options, check_figures(board, learned), _table)
     learned.require(options.accept)
     return 0
-
-
-def calibration_cache(board: Board, folder: Path) -> Path:
-    """Folder for results of a measurement's points."""
-    try:
-        name = hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:16]
-    except (OSError, RuntimeError) as error:
-        raise ConfigError(f"{folder}: {error}") from error
-    return state_folder(board) / "calibration" / name
 
 
 def _table(figures: dict[str, Any]) -> str:

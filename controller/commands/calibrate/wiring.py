@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from controller.commands.calibrate.check import calibration_cache
 from controller.commands.common.output import progress_bar, show
 from controller.console import tell
-from controller.device.board.board import Board, load_board
+from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 
 if TYPE_CHECKING:
+    from controller.device.board.board import Board
     from controller.workshop.calibration.learning import Learned
 
 WRONG, UNDECIDED = 1, 75  # exit codes; 75: EX_TEMPFAIL, try again
@@ -34,6 +34,7 @@ def wiring(options: argparse.Namespace) -> int:
 
     from controller.workshop.calibration.checking.wiring import FIRST_POINTS
     from controller.workshop.calibration.learning import learn
+    from controller.workshop.calibration.point_cache import calibration_cache
     from controller.workshop.calibration.records.measurement_file import NAME
 
     board, folder = load_board(find_board(options.board)), Path(options.folder)

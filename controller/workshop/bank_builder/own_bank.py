@@ -63,7 +63,7 @@ class Order:
         """Cells of the grid that the scene can reach; None: all."""
         return None if self.scene is None or self.compact else reached(self.board, self.scene, self.pitch_m)
 
-    def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
+    def build(self, path: Path, cells: NDArray[np.bool_] | None = None, *, progress: bool = True, **how: Any) -> BuildReport:
         """Build it, its file beside or in place of another.
 
         `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`. Raises
@@ -78,7 +78,7 @@ class Order:
                 self.cells if cells is None else cells,
                 emitters=self.scene.emitters if self.scene else (),
                 scene=self.scene_file.name if self.scene_file else None,
-                progress=True,
+                progress=progress,
                 overwrite=path == self.own_path,
                 choice=self.choice,
                 compact=self.compact,

@@ -9,9 +9,21 @@ from pathlib import Path
 
 import numpy as np
 
+from controller.device.board.board import Board
+from controller.device.board.paths import state_folder
+from controller.errors import ConfigError
 from controller.workshop.calibration.transfers import Transfers
 
 FORMAT = "1"  # of the files, and of the method
+
+
+def calibration_cache(board: Board, folder: Path) -> Path:
+    """Folder for results of a measurement's points."""
+    try:
+        name = hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:16]
+    except (OSError, RuntimeError) as error:
+        raise ConfigError(f"{folder}: {error}") from error
+    return state_folder(board) / "calibration" / name
 
 
 class PointCache:

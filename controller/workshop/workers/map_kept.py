@@ -84,6 +84,7 @@ def map_kept(
     at_once: int = 1,
     what: str = "",
     unit: str = "item",
+    still_holds: Callable[[bytes], bool] = lambda _: True,  # whether a result that was kept counts, or is computed again
 ) -> Mapped:
     """Results of `function`, bytes for each of at most `at_once` items, for all `items` by number: the same whoever computes.
 
@@ -95,7 +96,7 @@ def map_kept(
     kept; UsageError if another process has the file.
     """
     with KeptFile.open(kept) as done:
-        results = {number: done.results[number] for number in items if number in done.results}
+        results = {number: done.results[number] for number in items if number in done.results and still_holds(done.results[number])}
         missing = [number for number in items if number not in results]
         mapped = Mapped(results, len(results))
         size = at_once if workers.strangers else max(1, min(at_once, -(-len(missing) // (TASKS_PER_WORKER * workers.processes))))

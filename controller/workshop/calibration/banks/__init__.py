@@ -1,0 +1,1 @@
+"""Banks of measured plates: of one, and of a whole fleet."""

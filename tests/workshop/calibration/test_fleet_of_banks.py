@@ -1,0 +1,133 @@
+"""Banks of a fleet: of 50 measurements one is broken, a clear line; resumed after kill -9, the same bytes however many compute."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import msgspec
+import pytest
+from patience import wait_for
+from small_plate import small_board
+from tables import each_row
+
+from controller.cli import main
+from controller.device.bank.reader import Bank
+from controller.workshop.calibration.banks.fleet import KEPT, REPORT, calibrate_fleet
+from controller.workshop.calibration.banks.plate_bank import PlateBank
+from controller.workshop.calibration.point_plan import scattered_points
+from controller.workshop.calibration.recording.simulated_measurement import Flaws, RecordingSettings, simulate_measurement
+
+POINTS = 60
+
+
+def measure(folder, seed):
+    """A small plate of the fleet: free edges, each a little thicker than the one before."""
+    board = small_board()
+    plate = msgspec.structs.replace(board.plate, edges="free", thickness_mm=board.plate.thickness_mm * (1 + 0.004 * seed))
+    recording = RecordingSettings(record_s=4e-3, repetitions=1, seed=seed)
+    names, points_m = tuple(map(str, range(POINTS))), scattered_points(board, POINTS, 0.0, seed=seed)
+    simulate_measurement(
+        folder, board, msgspec.structs.replace(board, plate=plate), names, points_m, recording, Flaws(snr_db=50), lambda *_: None
+    )
+
+
+def wanted(folder):
+    return PlateBank(small_board(), folder, pitch_mm=4.0)
+
+
+def test_a_good_panel_has_its_bank_and_what_is_wrong_with_others_is_a_line(tmp_path):
+    fleet, banks = tmp_path / "fleet", tmp_path / "banks"
+    measure(fleet / "good", 1)
+    (fleet / "torn").mkdir()
+    (fleet / "torn/measurement.toml").write_text("[records\n")
+    (fleet / "empty").mkdir()
+    (fleet / "notes").mkdir()
+    shutil.copytree(fleet / "good", fleet / "without-records")
+    for file in (fleet / "without-records").rglob("*.npy"):
+        file.unlink()
+    found = calibrate_fleet(fleet, banks, wanted(fleet))
+    assert list(found["panels"]) == ["good"]
+    assert found["panels"]["good"]["points"] == POINTS
+    assert found["panels"]["good"]["frequency_scale"][0] == pytest.approx(0.994, abs=5e-3)  # shear slows Mindlin's plate by 1 %
+    assert list(found["broken"]) == ["torn", "without-records"]
+    assert all(str(fleet / name) in line and "\n" not in line for name, line in found["broken"].items())
+    with Bank.open(banks / "good.bank", small_board()) as bank:
+        assert bank.header.provenance.kind == "measured"
+    assert json.loads((banks / REPORT).read_text())["panels"] == found["panels"]
+    again = calibrate_fleet(fleet, banks, wanted(fleet))
+    assert again["workers"]["kept"] == 1
+    assert again["panels"] == found["panels"]
+    shutil.rmtree(fleet / "without-records")
+    (fleet / "good/measurement.toml").write_text("")
+    (banks / "good.bank").unlink()
+    assert list(calibrate_fleet(fleet, banks, wanted(fleet))["broken"]) == ["good", "torn"]
+
+
+KILLED = """
+import sys
+from pathlib import Path
+from workshop.calibration.test_fleet_of_banks import calibrate_fleet, wanted
+from controller.workshop.workers.workers import Workers
+if __name__ == "__main__":
+    folder = Path(sys.argv[1])
+    print(calibrate_fleet(folder, Path(sys.argv[2]), wanted(folder), Workers(int(sys.argv[3]))))
+"""
+
+
+@pytest.mark.slow
+def test_a_fleet_of_fifty_of_which_one_is_broken_killed_and_resumed(tmp_path):
+    """Ten plates, five times each. Everything is killed once some banks are there; two processes, and one alone, go on."""
+    fleet, banks, script = tmp_path / "fleet", tmp_path / "banks", tmp_path / "killed.py"
+    script.write_text(KILLED)
+    for number in range(50):
+        if number < 10:
+            measure(fleet / f"panel-{number:02}", number)
+        else:
+            shutil.copytree(fleet / f"panel-{number % 10:02}", fleet / f"panel-{number:02}")
+    record = sorted((fleet / "panel-17").rglob("*.npy"))[-1]
+    record.write_bytes(record.read_bytes()[:-100])
+
+    def started(out, workers):
+        environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+        command = [sys.executable, str(script), str(fleet), str(out), str(workers)]
+        return subprocess.Popen(command, env=environment, start_new_session=True, stdout=subprocess.PIPE, text=True)
+
+    killed = started(banks, 2)
+    assert wait_for("some banks", lambda: (banks / KEPT).exists() and (banks / KEPT).stat().st_size > 5000, seconds=500)
+    os.killpg(killed.pid, signal.SIGKILL)
+    killed.communicate()
+    some = sorted(path.stem for path in banks.glob("panel-*.bank"))
+    assert 0 < len(some) < 49
+    with started(banks, 2) as going_on:
+        assert "panel-17" in going_on.communicate()[0]
+    report = json.loads((banks / REPORT).read_text())
+    assert len(report["panels"]) == 49
+    (line,) = report["broken"].values()
+    assert str(record) in line
+    alone = tmp_path / "alone"
+    for number in range(3, 50):
+        shutil.rmtree(fleet / f"panel-{number:02}")
+    calibrate_fleet(fleet, alone, wanted(fleet))
+    for number in range(50):
+        if number != 17 and number % 10 < 3:
+            one, other = alone / f"panel-{number % 10:02}.bank", banks / f"panel-{number:02}.bank"
+            assert one.read_bytes() == other.read_bytes()
+
+
+@each_row(
+    ("options", "code", "said"),
+    [
+        (["{}/absent", "--out", "{}/banks"], 2, "absent: No such file or directory: give a folder of measurement folders"),
+        (["{}", "--out", "{}/banks"], 2, "no folder in it has a measurement.toml"),
+        (["{}", "--out", "{}/banks", "--pitch-mm", "9"], 78, "pitch_mm = 9 is above"),
+        (["{}", "--out", "{}/banks", "--workers", "0"], 2, "--workers: 1 or more"),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_one_line(tmp_path, capsys, options, code, said):
+    assert main(["calibrate", "fleet", *(option.format(tmp_path) for option in options)]) == code
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
