@@ -15,6 +15,7 @@ STEPS = {  # in the order of --help, which prints these texts; each is a module 
     "measure": "measure the plate in place: play through the panel's FPGA, and record a sensor point by point",
     "wiring": "which patch each channel drives: swapped, inverted and dead channels, from a few points",
     "check": "read and deconvolve measurements, and name what is wrong with them",
+    "clock": "how fast the plate is, from a few points: what makes a bank of the model suit it",
     "bank": "build the bank of a plate from its measurements",
     "fleet": "build the banks of many panels from a folder of their measurements",
     "simulate": "write the measurements of a simulated plate that differs from the board's",

@@ -81,7 +81,7 @@ complete haptic-panel \
         'n/bank/(build choices info verify)/' \
         'n/effect/(import export)/' \
         'n/benchmark/(skipping paper)/' \
-        'n/calibrate/(channels plan measure wiring check bank fleet simulate)/' \
+        'n/calibrate/(channels plan measure wiring check clock bank fleet simulate)/' \
         'n/update/(check download install status rollback judge make-release repository)/' \
         'n/trace/f/' \
         'n/completion/(bash zsh tcsh)/' \

@@ -7,6 +7,7 @@ found to a hundredth of a percent and better, as responses ring for a hundred pe
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,7 @@ SAME_PLACE_M = 0.3e-3
 RECORDS = 96  # at most
 GROUPS = 8  # whose scatter says how sure the ratio is
 WIDEST = 0.02
-COARSE: Floats = np.linspace(-WIDEST, WIDEST, 81)
+COARSE = 0.0005  # step
 FINE: Floats = np.linspace(-0.0005, 0.0005, 11)
 UNSTRETCHED = 0.01  # of the drift: the drivers' part of the responses keeps its time
 LEAST_ALIKE = 0.5  # correlation of the two at best
@@ -65,39 +66,55 @@ def fit_drift(board: Board, earlier: LearnedResponses, later: LearnedResponses) 
     chosen = [pairs[index] for index in random.permutation(len(pairs))[:RECORDS]]
     samples = min(earlier.responses.shape[1], later.responses.shape[1])
     before, after = (
-        _band_limited(board, np.stack([responses[pair[which], :samples, pair[2]] for pair in chosen]))
+        np.stack([responses[pair[which], :samples, pair[2]] for pair in chosen])
         for which, responses in ((0, earlier.responses), (1, later.responses))
     )
-    time = np.arange(1.0, samples + 1)  # sample j is j + 1 bit periods after the start
-    spline = CubicSpline(time, before, axis=1)
-    until = int(samples / (1 + WIDEST)) - 1
-
-    after = after[:, :until]
-    scale = np.sqrt((after**2).sum())
-
-    def alike(ratios: Floats, some: NDArray[np.intp]) -> Floats:
-        """Correlation of some records at each ratio: (ratio,)."""
-        stretched = [spline(time[:until] * ratio)[some] for ratio in ratios.tolist()]
-        return np.array([(one * after[some]).sum() / np.sqrt((one**2).sum()) / scale for one in stretched])
-
-    every = np.arange(len(chosen))
-    coarse = 1 + COARSE
-    fine = float(coarse[alike(coarse, every).argmax()]) + FINE
-    found = alike(fine, every)
-    ratio, best = _highest(fine, found), float(found.max())
-    if best < LEAST_ALIKE:
+    found = stretch(board, before, after, WIDEST)
+    if found.alike < LEAST_ALIKE:
         raise CalibrationError(
-            f"the two measurements do not agree when time is stretched by up to {WIDEST:.0%} ({best:.2f} alike at best):"
+            f"the two measurements do not agree when time is stretched by up to {WIDEST:.0%} ({found.alike:.2f} alike at best):"
             " not one plate, or other positions or channels"
         )
-    groups = [_highest(fine, alike(fine, part)) for part in np.array_split(random.permutation(every), GROUPS)]
     warmer = (
         None
         if earlier.provenance.temperature_c is None or later.provenance.temperature_c is None
         else later.provenance.temperature_c - earlier.provenance.temperature_c
     )
-    scatter = float(np.std(groups, ddof=1) / np.sqrt(GROUPS))
-    return FittedDrift(ratio, float(np.hypot(scatter, UNSTRETCHED * (ratio - 1))), best, warmer)
+    return FittedDrift(found.ratio, found.error, found.alike, warmer)
+
+
+class Stretch(NamedTuple):
+    """By what time is stretched from some responses to others."""
+
+    ratio: float  # frequencies of the others over those of the first
+    error: float  # standard deviation
+    alike: float  # correlation when time is stretched by it
+    alike_before: float  # correlation when it is not
+
+
+def stretch(board: Board, before: NDArray[np.floating], after: NDArray[np.floating], widest: float) -> Stretch:
+    """The stretch of time, by up to `widest` either way, that makes responses (record, sample) of two states most alike."""
+    samples = before.shape[1]
+    time = np.arange(1.0, samples + 1)  # sample j is j + 1 bit periods after the start
+    spline = CubicSpline(time, _band_limited(board, before), axis=1)
+    until = int(samples / (1 + widest)) - 1
+    measured = _band_limited(board, after)[:, :until]
+    scale = np.sqrt((measured**2).sum())
+
+    def alike(ratios: Floats, some: NDArray[np.intp]) -> Floats:
+        """Correlation of some records at each ratio: (ratio,)."""
+        stretched = [spline(time[:until] * ratio)[some] for ratio in ratios.tolist()]
+        return np.array([(one * measured[some]).sum() / np.sqrt((one**2).sum()) / scale for one in stretched])
+
+    every = np.arange(len(before))
+    coarse: Floats = np.linspace(1 - widest, 1 + widest, 2 * round(widest / COARSE) + 1)
+    fine: Floats = float(coarse[alike(coarse, every).argmax()]) + FINE
+    found = alike(fine, every)
+    ratio = _highest(fine, found)
+    parts = np.array_split(np.random.default_rng(1).permutation(every), GROUPS)
+    scatter = float(np.std([_highest(fine, alike(fine, part)) for part in parts], ddof=1) / np.sqrt(GROUPS))
+    error = float(np.hypot(scatter, UNSTRETCHED * (ratio - 1)))
+    return Stretch(ratio, error, float(found.max()), float(alike(np.ones(1), every)[0]))
 
 
 def _band_limited(board: Board, records: NDArray[np.floating]) -> Floats:

@@ -1,15 +1,23 @@
 """Constants of a plate from its measurements: decay and drift, against those it was made with."""
 
+import json
+
 import msgspec
 import numpy as np
 import pytest
-from small_plate import small_board
-from workshop.calibration.true_plate import TruePlate
+from small_plate import WHOLE, small_board
+from tables import each_row
+from workshop.calibration.true_plate import TruePlate, random_places
 
+from controller.cli import main
+from controller.device.board.records import load_toml
 from controller.errors import CalibrationError
+from controller.workshop.calibration.clock_fit import fit_clock
 from controller.workshop.calibration.decay_fit import fit_decays
 from controller.workshop.calibration.drift_fit import fit_drift
 from controller.workshop.calibration.point_plan import scattered_points
+from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances, draw
 
 BOARD = small_board()
 POINTS_M = scattered_points(BOARD, 20, 3e-3)
@@ -57,3 +65,72 @@ def test_two_measurements_that_do_not_belong_together_are_refused():
     with pytest.raises(CalibrationError, match="not one plate"):
         fit_drift(BOARD, here, other)
     assert fit_drift(BOARD, here, here).coefficient_per_k is None
+
+
+@each_row(
+    ("plate", "ratio"),
+    [
+        ({"thickness_mm": 1.015 * BOARD.plate.thickness_mm, "young_modulus_pa": 0.992 * BOARD.plate.young_modulus_pa}, 1.01093),
+        ({"density_kg_m3": 1.05 * BOARD.plate.density_kg_m3, "length_mm": BOARD.plate.length_mm + 0.2}, 0.9731),
+        ({}, 1.0),
+    ],
+)
+def test_ten_points_tell_the_bit_clock_that_suits_a_plate(plate, ratio):
+    """To the thousandth that costs 5 % of the amplitude; a modulus set by it keeps what the model had lost."""
+    true, places = TruePlate(BOARD, 1.6, **plate), random_places(BOARD, 20, 5e-3)
+    found = fit_clock(BOARD, true.learned(POINTS_M[:10], noise=0.03))
+    set_right = msgspec.structs.replace(BOARD.plate, young_modulus_pa=found.young_modulus_pa)
+    models = [ResponseModel(msgspec.structs.replace(BOARD, plate=one)) for one in (BOARD.plate, set_right)]
+    before, after = (float(np.median(true.kept(model, places))) for model in models)
+    print(f"{ratio}: {found.figures()}, kept {before:.3f}, then {after:.3f}")
+    assert found.ratio == pytest.approx(ratio, abs=1e-3)
+    assert found.error < 1e-3
+    assert found.bit_clock_hz == pytest.approx(found.ratio * BOARD.waveform.bit_clock_hz)
+    assert after > 0.9
+    assert plate == {} or before < 0.6
+
+
+def test_a_plate_that_no_bit_clock_makes_the_model_is_refused():
+    with pytest.raises(CalibrationError, match=r"no bit clock within 5% makes the board's model alike to the plate"):
+        fit_clock(BOARD, TruePlate(BOARD, 1.6, edges="free").learned(POINTS_M[:10]))
+    learned = TruePlate(BOARD, 1.6).learned(POINTS_M[:1], missing=1.0)
+    with pytest.raises(CalibrationError, match="0 responses are known of 1 points"):
+        fit_clock(BOARD, learned)
+
+
+@pytest.mark.slow
+def test_the_command_finds_it_on_the_papers_plate(tmp_path, capsys):
+    """1 % too thick, through records of 40 dB."""
+    folder = str(tmp_path / "measured")
+    thick = f"thickness_mm={1.01 * WHOLE.plate.thickness_mm}"
+    assert main(["calibrate", "simulate", "--plate", thick, "--scattered", "10", folder]) == 0
+    capsys.readouterr()
+    assert main(["calibrate", "clock", folder, "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    print(figures)
+    assert figures["frequency_ratio"][0] == pytest.approx(1.01, abs=5e-4)
+    assert figures["alike"] > 0.9
+    assert figures["alike_before"] < 0.6
+
+
+@pytest.mark.slow
+def test_plates_of_a_production_are_set_right_by_ten_points(capfd):
+    """Tolerances as shipped but for capacitance; 30 dB. What words of the model keep on each, at the weakest of 20 places."""
+    tolerances, places = load_toml(SHIPPED, Tolerances), random_places(WHOLE, 20, 2e-2)
+    weakest = []
+    for number in range(10):
+        drawn = draw(WHOLE, tolerances, 1, number)
+        true = TruePlate(drawn.board, 2.0)
+        learned = true.learned(scattered_points(WHOLE, 10, 2e-2, seed=number), noise=0.03, seed=number)
+        learned.responses[:] *= drawn.gain
+        found = fit_clock(WHOLE, learned)
+        plate = msgspec.structs.replace(WHOLE.plate, young_modulus_pa=found.young_modulus_pa)
+        there = true.model.responses(places, band_limited=True) * drawn.gain
+        for board in (WHOLE, msgspec.structs.replace(WHOLE, plate=plate)):
+            signs = np.sign(ResponseModel(board).responses(places, band_limited=True))
+            weakest.append(((signs * there).sum(axis=(1, 2)) / np.abs(there).sum(axis=(1, 2))).min())
+    before, after = np.array(weakest).reshape(-1, 2).T
+    with capfd.disabled():
+        print(f"\nbefore {np.median(before):.2f} (least {before.min():.2f}), then {np.median(after):.3f} (least {after.min():.3f})")
+    assert after.min() > 0.94
+    assert np.median(before) < 0.6
