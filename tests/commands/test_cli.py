@@ -231,6 +231,8 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
         (("run", "--link", "rtl", "--speed", "1"), 78, "slower than real time, and the FPGA would call the host silent"),
         (("bank", "build", "--pitch-mm", "0.01"), 78, "pitch_mm = 0.01"),
         (("bank", "build", "--out", "/dev/null"), 78, "not a regular file"),
+        (("bank", "build", "--out", "s3://banks/plate.bank"), 2, "--out: 's3://banks/plate.bank' is a URL: files are synced"),
+        (("calibrate", "fleet", ".", "--out", "gs://banks"), 2, "so mount it as a folder"),
         (("run", "--replay", "/dev/zero"), 69, "not a regular file"),
         (("focus",), 78, "--at X_MM Y_MM"),
         (("focus", "--at", "300", "20"), 78, "--at 300"),

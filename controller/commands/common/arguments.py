@@ -11,6 +11,10 @@ from typing import Any, Final, NoReturn
 from controller.errors import UsageError
 
 DECIMAL_COMMA: Final = re.compile(r"([+-]?\d*),(\d+)")
+URL: Final = re.compile("[a-zA-Z][a-zA-Z0-9+.-]*://")
+MOUNT_IT: Final = (
+    "files are synced, renamed and mapped into memory, so mount it as a folder, or write to a disk and copy what is done"
+)
 MAX_MATCHED: Final = 60  # characters: difflib takes time that grows with their square
 
 
@@ -55,6 +59,8 @@ class Parser(argparse.ArgumentParser):
     def _get_values(self, action: argparse.Action, arg_strings: list[str]) -> Any:
         if "" in arg_strings and action.nargs != argparse.PARSER:  # that of a subcommand is its own parser's to report
             raise argparse.ArgumentError(action, "the value is empty")
+        if action.dest == "out" and (urls := [text for text in arg_strings if URL.match(text)]):
+            raise argparse.ArgumentError(action, f"{urls[0]!r} is a URL: {MOUNT_IT}")
         return super()._get_values(action, arg_strings)
 
 
