@@ -81,19 +81,22 @@ def proposal(version: str, rollout: Rollout | None, opened_ppm: int, fleet: Flee
     """What to do about a release, `stop`, `hold`, `wait`, `open` or `go on`, and why.
 
     Stop: two devices or more, above 2 % of those heard of, are faulted or rolled back, and more than twice the share of the other
-    releases' devices that are faulted. Hold: one is already more than chance gives with the share of the others (5 %). Wait: less
-    than 80 % of the devices that are due were heard of, less what chance leaves out, or the next step's time has not come. Else it
-    may be opened.
+    releases' devices that are faulted. Hold: so many are faulted, rolled back, or were heard of with this release and fell silent
+    that chance gives as many in less than 5 % of cases, by the shares of the others. Wait: less than 80 % of the devices that are
+    due were heard of, less what chance leaves out, or the next step's time has not come. Else it may be opened.
     """
     tally = fleet.releases.get(version, Tally())
     others = [other for name, other in fleet.releases.items() if name != version]
-    served = sum(other.healthy + other.faulted for other in others)
+    served, silent = sum(other.healthy + other.faulted for other in others), sum(other.silent for other in others)
     elsewhere = sum(other.faulted for other in others) / served if served else 0.0
+    known, quiet = tally.heard + tally.silent, silent / (served + silent) if served + silent else 0.0
     most, found = max(BAD_MAX, WORSE * elsewhere), f"{tally.bad} of {tally.heard} devices are faulted or rolled back"
     if tally.bad > 1 and tally.bad > most * tally.heard:
         return "stop", f"{found}, more than {most:.1%}"
     if at_least(tally.bad, elsewhere * tally.heard) < CHANCE_MAX:
         return "hold", f"{found}, {elsewhere:.1%} with other releases: look at them before a further step is opened"
+    if served and at_least(tally.silent, quiet * known) < CHANCE_MAX:
+        return "hold", f"{tally.silent} of {known} devices fell silent with it, {quiet:.1%} with other releases: look at them"
     share_ppm = rollout.share_ppm(now, opened_ppm) if rollout else ALL_PPM
     due = fleet.devices * share_ppm / ALL_PPM
     by_chance = 2 * math.sqrt(due * (1 - share_ppm / ALL_PPM))  # two standard deviations: each device's place is drawn

@@ -1,4 +1,4 @@
-"""How a rollout fares by the reports of its devices: counts, files that are broken, and what is proposed."""
+"""How a rollout goes by the reports of its devices: counts, files that are broken, and what is proposed."""
 
 import json
 import os
@@ -64,8 +64,11 @@ def test_a_device_counts_by_its_release_and_health():
         (Tally(healthy=48, rolled_back=1), Tally(healthy=445, faulted=5), 2, ("open", "next: 100 %")),
         (Tally(healthy=47, faulted=2), Tally(healthy=445, faulted=5), 2, ("stop", "more than 2.2%")),
         (Tally(healthy=48, faulted=2), Tally(healthy=440, faulted=10), 2, ("open", "next: 100 %")),
-        (Tally(healthy=26, silent=24), Tally(healthy=450), 2, ("wait", "26 of about 50")),
-        (Tally(healthy=27, silent=23), Tally(healthy=450), 2, ("open", "next")),
+        (Tally(healthy=26), Tally(healthy=450), 2, ("wait", "26 of about 50")),
+        (Tally(healthy=27), Tally(healthy=450), 2, ("open", "next")),
+        (Tally(healthy=4, silent=1), Tally(healthy=495), 1, ("hold", "1 of 5 devices fell silent with it, 0.0% with")),
+        (Tally(healthy=45, silent=5), Tally(healthy=440, silent=10), 2, ("hold", "5 of 50 devices fell silent")),
+        (Tally(healthy=45, silent=5), Tally(healthy=405, silent=45), 2, ("open", "next")),
         (Tally(), Tally(healthy=500), 1, ("wait", "0 of about 5")),
         (Tally(healthy=399, silent=101), Tally(), 3, ("wait", "399 of about 500")),
         (Tally(healthy=497, faulted=3), Tally(), 3, ("hold", "3 of 500")),
