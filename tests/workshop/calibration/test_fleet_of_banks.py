@@ -107,7 +107,7 @@ def test_a_fleet_of_fifty_of_which_one_is_broken_killed_and_resumed(tmp_path):
         said = going_on.communicate()[0]
     assert int(re.search(r"'kept': (\d+)", said)[1]) >= len(some) - 2  # two may have been under way
     report = json.loads((banks / REPORT).read_text())
-    assert len(report["panels"]) == 49
+    assert len(report["panels"]) == 49, report["broken"]
     (line,) = report["broken"].values()
     assert str(record) in line
     alone = tmp_path / "alone"

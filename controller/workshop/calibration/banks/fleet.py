@@ -46,8 +46,8 @@ def calibrate_fleet(folder: Path, out: Path, common: PlateBank, workers: Workers
     items = {_number(panel): panel for panel in panels}
     found = map_kept(calibrate_panels, items, out / KEPT, workers, what=folder.name, unit="panel", still_holds=_still_holds)
     results = {panel.name: json.loads(found.results[number]) for number, panel in items.items()}
-    for panel in panels:  # of a worker on another computer
-        if "broken" not in (result := results[panel.name]) and not _is_there(result):
+    for panel in panels:  # of a worker on another computer; one that was thought lost may have written the same once more since
+        if "broken" not in (result := results[panel.name]) and not Path(result["path"]).is_file():
             results[panel.name] = {"broken": f"{result['path']}: is not on this computer: let all workers mount the folder"}
     done = {name: result for name, result in results.items() if "broken" not in result}
     report = {
