@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.commands.common.arguments import natural
+from controller.commands.common.expected import expected_of
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.worker_options import add_worker_options, asked_for, workers_of
 from controller.console import tell
-from controller.device.bank.inspection import bank_info, measured_at, verify_bank
+from controller.device.bank.expectation import in_words
+from controller.device.bank.inspection import bank_info, header_of, measured_at, verify_bank
 from controller.device.bank.lookup import FoundBank, bank_as_it_is, find_bank
 from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
@@ -173,11 +175,21 @@ def bank_describe(options: argparse.Namespace) -> int:
     def table(figures: dict[str, Any]) -> str:
         """Without the parts of what the line `responses` says."""
         parameters = {name: value for name, value in figures["parameters"].items() if name != "responses"}
-        return plain_table(figures | {"parameters": parameters})
+        return plain_table(figures | {"parameters": parameters, "expected": figures["expected"]["said"]})
 
     found = _bank_file(options)
-    show(options, bank_info(found.path) | {"chosen": found.why}, table)
+    show(options, bank_info(found.path) | {"chosen": found.why, "expected": _expected(options, found.path)}, table)
     return 0
+
+
+def _expected(options: argparse.Namespace, path: Path) -> dict[str, Any]:
+    """What a bank is expected to do on this panel; of a bank of another board only that it is one."""
+    board, header = load_board(find_board(options.board)), header_of(path)
+    if header.board_digest != board.digest():
+        return {"said": f"nothing: the bank is not of board {board.name!r} (--board says which it is)"}
+    expected = expected_of(header, board)
+    figures = None if expected is None else expected.figures()
+    return {"said": in_words(figures)} | (figures or {})
 
 
 def bank_verify(options: argparse.Namespace) -> int:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from controller.commands.bank import open_bank
+from controller.commands.common.expected import expected_of
 from controller.commands.common.fpga_link import open_fpga_of
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, progress_bar, show
@@ -124,8 +125,15 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
             tell(f"{scene_file}: {warning}", Priority.WARNING)
-        ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board))
-        figures = {"bank": str(bank.path), "memory": memory_fit(board).in_words()} | ran
+        expected = expected_of(bank.header, board)
+        if expected is not None and expected.cause:
+            tell(f"{bank.path}: what it will do on this panel nobody knows: {expected.cause}", Priority.WARNING)
+        ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board), expected)
+        figures = {
+            "bank": str(bank.path),
+            "memory": memory_fit(board).in_words(),
+            "expected": expected and expected.figures(),
+        } | ran
     show(options, figures, service_table if options.verbose else served)
     return 0
 
@@ -185,10 +193,12 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
             ready=ready,
             hardware=simulated_run.Hardware(gateware, plate, drift),
         )
+        expected = expected_of(bank.header, board, plate)
         evaluated = focus_evaluation.judge(done, progress_bar("plate"))
     if evaluated.left_out:
         tell(f"interrupted: {evaluated.left_out} emissions are not in the figures of the foci")
     asked = {"link": options.link or "model", "bank": str(bank.path), "memory": memory_fit(board).in_words()}
+    asked |= {"expected": None if expected is None else expected.figures(done.bit_clock.temperature_c if done.bit_clock else None)}
     figures = asked | run_figures.report(done, evaluated.foci)
     for warning in figures["warnings"]:
         tell(warning)

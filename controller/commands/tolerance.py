@@ -11,10 +11,13 @@ from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.worker_options import add_worker_options, workers_of
 from controller.console import tell
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
 from controller.errors import UsageError
 
 if TYPE_CHECKING:
     from controller.commands.common.output import Declare
+    from controller.workshop.tolerance.tolerances import Tolerances
 
 ROWS = {
     "relative": "amplitude, over the design's",
@@ -48,6 +51,13 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         "--alone", type=natural, default=6, metavar="N", help="plates on which each tolerance varies alone; 0: none (default: 6)"
     )
     command.add_argument("--plot", metavar="FILE", help="draw it (.png, .svg, .pdf)")
+    command.add_argument(
+        "--intervals",
+        type=natural,
+        metavar="N",
+        help="instead: measure and play N plates of a corner of the simulated board, with other edges and Mindlin's theory, and"
+        " count how often the truth lies within the interval that the bank states",
+    )
     add_worker_options(command)
     command.set_defaults(command=tolerance)
 
@@ -65,10 +75,13 @@ def tolerance(options: argparse.Namespace) -> int:
             raise UsageError(f"--{name.replace('_', '-')} {getattr(options, name):g}: must be {low} to {high:,}")
     if options.alone > options.plates:
         raise UsageError(f"--alone {options.alone}: at most as many as --plates {options.plates}")
+    tolerances = load_toml(options.tolerances or SHIPPED, Tolerances)
+    if options.intervals is not None:
+        return _intervals(options, tolerances)
     picture = picture_path(options)
     study = Study(
         named_board(options.board),
-        load_toml(options.tolerances or SHIPPED, Tolerances),
+        tolerances,
         options.seed,
         options.places,
         options.points,
@@ -85,6 +98,28 @@ def tolerance(options: argparse.Namespace) -> int:
         plot_tolerance(picture, figures)
     show(options, figures, _table)
     return 0
+
+
+def _intervals(options: argparse.Namespace, tolerances: Tolerances) -> int:
+    """Print how often intervals hold the truth."""
+    from controller.workshop.tolerance.coverage import interval_figures
+    from controller.workshop.tolerance.figures import PLATES_MAX
+
+    if not 1 <= options.intervals <= PLATES_MAX:
+        raise UsageError(f"--intervals {options.intervals}: must be 1 to {PLATES_MAX:,}")
+    board = load_board(find_board("simulated"))
+    show(options, interval_figures(board, tolerances, options.intervals, workers_of(options)), _interval_table)
+    return 0
+
+
+def _interval_table(figures: dict[str, Any]) -> str:
+    lines = [f"{figures['plates']} plates of seed {figures['seed']}: how often the truth lies within what the bank states, in %"]
+    for name, kinds in figures["intervals"].items():
+        for kind, found in kinds.items():
+            within = f"{100 * found['within']:6.1f}  (95 %: {100 * found['within_from']:.1f} to {100 * found['within_to']:.1f})"
+            wide = f"most over least {found['width']:.2f}" if found["width"] else "no least"
+            lines.append(f"{name if kind == 'all' else '':<36}{kind:<18}{within}  {wide}")
+    return "\n".join(lines)
 
 
 def _table(figures: dict[str, Any]) -> str:

@@ -46,7 +46,13 @@ def test_a_bank_of_measurements_plays_on_the_plate_that_was_measured_and_the_mod
     board = ["--board", folder]
     reported(capsys, "calibrate", "simulate", folder / "m", *board, *points, *REAL)
     reported(capsys, "calibrate", "bank", folder / "m", *board, "--out", folder / "m.bank")
-    measured = reported(capsys, "run", *board, "--speed", "max", "--bank", folder / "m.bank", *REAL)["focus"]
+    whole = reported(capsys, "run", *board, "--speed", "max", "--bank", folder / "m.bank", *REAL)
+    measured, expected = whole["focus"], whole["expected"]
+    assert expected["cause"] == ""
+    assert expected["finger_um"][0] < measured["felt_light_touch_um"] < expected["finger_um"][2]
+    elsewhere = reported(capsys, "bank", "info", folder / "m.bank", *board)["expected"]  # not the plate that was measured
+    assert "measured on another panel" in elsewhere["cause"]
+    assert elsewhere["finger_um"][:2] == [0, None]
     modelled = reported(capsys, "run", *board, "--speed", "max", *REAL)["focus"]
     same = reported(capsys, "run", *board, "--speed", "max")["focus"]
     for name, of in (("measured", measured), ("the model's, on the real plate", modelled), ("the model's, on its own", same)):

@@ -12,6 +12,7 @@ from controller.commands.common.output import show
 from controller.commands.common.tables import plain_table
 from controller.console import tell
 from controller.device.board.board import Board, load_board
+from controller.device.board.identity import panel_identity, simulated_identity
 from controller.device.board.lookup import find_board
 from controller.device.service.drivers import open_link, open_session
 from controller.errors import CalibrationError, LinkError, UsageError
@@ -133,11 +134,8 @@ def measure(options: argparse.Namespace) -> int:
 def _simulated_sensor(options: argparse.Namespace, board: Board, link: SimulatedLink, clock: Clock, sync: int) -> SimulatedRecorder:
     """A sensor on the simulated plate that is asked for."""
     from controller.workshop.calibration.recording.simulated_recorder import SimulatedRecorder
-    from controller.workshop.gateware.actual_panel import actual_panel
-    from controller.workshop.simulation.other_plate import on_other_plate
 
-    real = on_other_plate(actual_panel(board).of(board), options.plate)
-    return SimulatedRecorder(real, link, clock.now_s, options.rate_khz * 1e3, "m/s", sync, options.noise)
+    return SimulatedRecorder(_real(options, board), link, clock.now_s, options.rate_khz * 1e3, "m/s", sync, options.noise)
 
 
 def _measured(played: InPlace, name: str) -> Any:
@@ -164,6 +162,7 @@ def _settings(options: argparse.Namespace, board: Board, recorder: Recorder, fir
         sample_rate_hz=recorder.rate_hz,
         temperature_c=options.temperature_c,
         board_sha256=board.digest().hex(),
+        panel=simulated_identity(_real(options, board)) if board.link.kind == "simulated" else panel_identity(),
         points="points.csv",
         records=RecordsTable(
             files="records/{point}.npy",
@@ -180,6 +179,14 @@ def _settings(options: argparse.Namespace, board: Board, recorder: Recorder, fir
             idle_word=board.idle_word,
         ),
     )
+
+
+def _real(options: argparse.Namespace, board: Board) -> Board:
+    """What is there of a simulated panel."""
+    from controller.workshop.gateware.actual_panel import actual_panel
+    from controller.workshop.simulation.other_plate import on_other_plate
+
+    return on_other_plate(actual_panel(board).of(board), options.plate)
 
 
 def _recorder(options: argparse.Namespace) -> Recorder | None:

@@ -107,7 +107,7 @@ class CommandSocket:
                 if client.described:
                     self._questions.describe_to(client, control)
                     clients.send(client)
-        self._emissions.serve(now_s, control)
+        self._emissions.serve(now_s, control, self._notifications.condition.temperature_c)
         self._notifications.lines()
         while clients.gone:
             control.drop_layer(clients.gone.pop(), now_s)

@@ -9,9 +9,11 @@ from typing import Final
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import MessageTooLong
 from controller.device.application_socket.messages import Emissions, PlayedFocus
+from controller.device.bank.expectation import Expectation
 from controller.device.loop.control import PanelControl
 from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.playing.records import ENDLESS, Plan
+from controller.device.waveforms.composition import Point
 from controller.metrics import NOT_PLAYED
 
 PERIOD_S: Final = 1 / 30
@@ -47,8 +49,8 @@ class EmissionNotices:
             ring.wanted, self._ring = True, ring
             self._sent, self._skipped = ring.count, self._causes(control)
 
-    def serve(self, now_s: float, control: PanelControl) -> None:
-        """Send what has happened since, if it is time."""
+    def serve(self, now_s: float, control: PanelControl, plate_c: float | None) -> None:
+        """Send what has happened since, if it is time; `plate_c` is the plate's temperature, None if it is not known."""
         if now_s < self.next_s() or not self._ring.wanted:
             return
         subscribers = [client for client in self._clients if client.shown_emissions]
@@ -59,7 +61,9 @@ class EmissionNotices:
         if not subscribers:
             self._ring.wanted = False
         elif starts or more:
-            notice = Emissions(foci=tuple([focus for start in starts for focus in _foci(*start)]), skipped=more, lost=lost)
+            saying = _Saying(self._ring.expected, plate_c, control.fingers_down())
+            foci = tuple([focus for start in starts for focus in _foci(*start, saying)])
+            notice = Emissions(foci=foci, skipped=more, lost=lost)
             for client in subscribers:
                 try:
                     client.put(notice)
@@ -72,7 +76,26 @@ class EmissionNotices:
         return tuple([getattr(skipped, cause) for cause in NOT_PLAYED])
 
 
-def _foci(start_s: float, plan: Plan) -> Iterator[PlayedFocus]:
+class _Saying:
+    """What amplitudes are to be expected now."""
+
+    def __init__(self, expected: Expectation | None, plate_c: float | None, fingers: int) -> None:
+        self._expected, self._plate_c, self._fingers = expected, plate_c, fingers
+
+    def of(self, point: Point, foci: int, *, finger: bool) -> tuple[float, float | None, float] | None:
+        """Least, expected and most in um of one of several foci, under a finger or not."""
+        x_m, y_m, amplitude = point
+        if self._expected is None or not self._expected.says(x_m, y_m):
+            return None
+        if finger:
+            whole = self._expected.felt(self._plate_c, foci, max(self._fingers, foci) - 1)
+        else:
+            whole = self._expected.free(self._plate_c, foci)
+        low_um, middle_um, high_um = whole.times(amplitude)
+        return round(low_um, 3), None if middle_um is None else round(middle_um, 3), round(high_um, 3)
+
+
+def _foci(start_s: float, plan: Plan, saying: _Saying) -> Iterator[PlayedFocus]:
     batch = plan.batch
     period_ms = round(batch.period_s * 1e3, 3) if batch.repetitions == ENDLESS else None
     for emission, (x_m, y_m, amplitude) in zip(batch.emissions, plan.points, strict=True):
@@ -84,4 +107,5 @@ def _foci(start_s: float, plan: Plan) -> Iterator[PlayedFocus]:
             of=emission.region,
             finger=emission.finger,
             period_ms=period_ms,
+            expected_um=saying.of((x_m, y_m, amplitude), len(plan.points), finger=emission.finger is not None),
         )

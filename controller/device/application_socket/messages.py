@@ -239,6 +239,8 @@ class PlayedFocus(Struct, frozen=True, kw_only=True, omit_defaults=True, gc=Fals
     """One focus of an emission that started at `time_s` (CLOCK_MONOTONIC): where it is, how strong, of which region or effect.
 
     `period_ms` of a fixed emitter: the FPGA repeats it until another emission starts, another scene is in force, or outputs go off.
+    `expected_um`: least, expected and most that the finger feels, or without one that the plate moves at T; the truth lies between
+    least and most with 95 %. Expected is null where nobody knows whether the bank is of this plate; all are left out near an edge.
     """
 
     time_s: float
@@ -248,6 +250,7 @@ class PlayedFocus(Struct, frozen=True, kw_only=True, omit_defaults=True, gc=Fals
     of: str
     finger: int | None = None
     period_ms: float | None = None
+    expected_um: tuple[float, float | None, float] | None = None
 
 
 class Emissions(Struct, frozen=True, kw_only=True, tag_field="kind", tag="emissions", gc=False):

@@ -12,6 +12,8 @@ import struct
 from dataclasses import dataclass, field
 from typing import Any
 
+import msgspec
+
 from controller import __version__
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
@@ -27,6 +29,7 @@ PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean
 LEAST_WAVE_SCALE = 1e-3  # 10 um
+LARGEST_UM = 1e4
 SAMPLES_MAX = 1000  # what LOAD frames can carry
 MAX_HEADER = 1 << 20
 MAX_COMPACT = 1 << 28  # bytes of a row, and of the tables
@@ -120,6 +123,15 @@ class Header:
         """What gives back to a response between cells what interpolation takes from it (`kernel.bank_twin`); 0, if not given."""
         reported: object = self.parameters.get("equaliser")
         return float(reported) if isinstance(reported, int | float) and 0 <= reported <= LARGEST_EQUALISER else 0.0
+
+    @property
+    def amplitude_um(self) -> tuple[float, float, float] | None:
+        """Amplitudes that the bank foresees over its places (`workshop/bank_builder/said_amplitude.py`); None if it says none."""
+        try:
+            low, middle, high = msgspec.convert(self.parameters.get("amplitude_um"), tuple[float, float, float])
+        except msgspec.ValidationError:
+            return None
+        return (low, middle, high) if 0 < low <= middle <= high < LARGEST_UM else None
 
     @property
     def provenance(self) -> Provenance | None:

@@ -37,6 +37,9 @@ class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
     # Expected share of the amplitude that drive words from these responses keep on the plate they come from: (median, least)
     # over points left out. Absent for models, which say nothing about a plate
     kept: tuple[float, float] | None = None
+    # Logarithm of the amplitude at points left out over that which the others foresee there: (mean, standard deviation)
+    foreseen: tuple[float, float] | None = None
+    panel: str | None = None  # `panel_identity` of the panel that was measured; None: it is not known which one
 
     @property
     def from_measurements(self) -> bool:

@@ -9,11 +9,13 @@ from collections.abc import Callable
 
 import msgspec
 
+from controller.device.bank.expectation import why_unknown
 from controller.device.bank.inspection import wrong_pitch
 from controller.device.bank.lookup import find_bank
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.devices import LinkSettings
+from controller.device.board.identity import panel_identity
 from controller.device.board.panel_status import FOLDER, NAME, read_now
 from controller.device.board.paths import SERVICE, service_user
 from controller.device.board.relations.checked import judge
@@ -239,7 +241,9 @@ def _responses(board: Board) -> str | Finding:
     with Bank.open(find_bank(board).path) as bank:
         provenance = bank.header.provenance
     if provenance and provenance.from_measurements:
-        return f"the bank's responses are {provenance.in_words()}"
+        said = f"the bank's responses are {provenance.in_words()}"
+        unknown = why_unknown(provenance, panel_identity())
+        return Finding("responses", True, f"{said}; {unknown}", warns=True) if unknown else said
     said = "the bank was computed from a model of the plate: it moves the panel, but a real one is not focused by it (README.md)"
     return Finding("responses", True, said, warns=True)
 

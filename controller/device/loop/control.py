@@ -39,7 +39,7 @@ class PanelControl:
         self.skipped = context.counters.skipped  # what was due and is not played
         self._change = change
         self._timing = timing
-        self.fingers_in, self.switch = scheduler.fingers_in, outputs.switch
+        self.fingers_in, self.fingers_down, self.switch = scheduler.fingers_in, scheduler.fingers_down, outputs.switch
         self.put_layer, self.move_layer, self.drop_layer = layers.put, layers.move, layers.drop
 
     def play(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from controller.device.bank.expectation import Expectation
 from controller.device.loop.playing.records import Plan
 
 SLOTS: Final = 64  # a thirtieth of a second has at most 33 emissions of 1 ms
@@ -15,6 +16,7 @@ class EmissionRing:
     def __init__(self) -> None:
         self.wanted = False  # whether anybody reads; otherwise nothing is noted
         self.count = 0  # starts noted so far
+        self.expected: Expectation | None = None  # of the bank that is played; None: it does not say what it will do
         self._starts: list[tuple[float, Plan] | None] = [None] * SLOTS
 
     def started(self, start_s: float, plan: Plan) -> None:

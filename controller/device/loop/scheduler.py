@@ -70,6 +70,10 @@ class Scheduler:
         self.due: dict[Owner, Emission] = {}
         self.spaced: int | None = None  # the finger that was touched last, if what it feels depends on the way that it goes
 
+    def fingers_down(self) -> int:
+        """Fingers on the plate."""
+        return len([owner for owner in self._active if isinstance(owner, int)])
+
     def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
         """Take a touch sample of a finger that is put down, moves, or is lifted; `sample.time_s` is `time_s` in host time."""
         finger, x_m, y_m, _, contact, _ = sample

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from controller.clocks import MonotonicClock
+from controller.device.bank.expectation import Expectation
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.panel_state import Condition
@@ -62,6 +63,7 @@ def serve(
     replay: Recording | None = None,  # touches from a recording instead of the board's panel; the service ends with it
     open_fpga: OpenLink = open_link,  # opens the link to the FPGA, if that is a simulated one
     open_commands: Callable[[], CommandSocket] | None = None,  # opens what others command the panel by
+    expected: Expectation | None = None,  # what the bank will do, for those who watch emissions
 ) -> dict[str, Any]:
     """Run a panel.
 
@@ -82,6 +84,7 @@ def serve(
         check_responses_beside(bank, cells)
         layers = stack.enter_context(closing(LayerPreparer(board, bank, cells))) if open_commands else None
         panel = _connect(stack, board, replay, open_fpga, layers)
+        panel.context.emissions.expected = expected
         commands = open_commands() if open_commands else None
         if commands is not None:
             stack.callback(commands.close)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from controller.device.board.identity import MACHINE_ID
 from controller.device.board.lookup import MANIFEST as MANIFEST  # noqa: PLC0414 - part of the layout, which boards need too
 from controller.device.board.lookup import running_release as running_release  # noqa: PLC0414
 from controller.regular_file import read_regular
@@ -18,7 +19,6 @@ from controller.regular_file import read_regular
 ROOT = Path("/opt/haptic-panel")
 TRUSTED_ROOT = Path("/usr/share/haptic-panel/root.json")
 SETTINGS = Path("/etc/haptic-panel/update.toml")
-MACHINE_ID = Path("/etc/machine-id")
 RELEASE_NAME: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._+-]{0,63}")  # also what the fall-back script believes
 COMPLETE = ".complete"
 WORDS_BYTES_MAX: Final = 65_536  # of a file of the state; `failed` has 50 lines

@@ -28,6 +28,7 @@ from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.bank_builder.optimised import Optimise, Words, kept_path, optimised_words, remove_kept
 from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.bank_builder.said_amplitude import said_amplitude
 from controller.workshop.bank_builder.writer import BankWriter
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.workers.map_kept import Mapped
@@ -81,6 +82,7 @@ def build_bank(request: BankRequest) -> BuildReport:
         if optimised is not None:
             results["amplitude_of_plain"] = _amplitude_of_plain(plan.board, source, plan.points_m, optimised)
         results["interpolation_error"] = error
+        results["amplitude_um"] = said_amplitude(plan.board, source, plan.points_m, results["amplitude_of_plain"])
     remove_kept(path)
     return BuildReport(
         path=str(path),

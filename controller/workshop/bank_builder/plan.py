@@ -126,6 +126,7 @@ def _parameters(request: BankRequest, grid: Grid, wanted: NDArray[np.bool_], sou
         "all_edges": 0,
         "amplitude_of_plain": aim and {"cells": 10**3, "least": 0.001, "median": 0.001, "most": 0.001},
         "interpolation_error": {},
+        "amplitude_um": [0.0001111] * 3,  # of most digits
     }
 
 

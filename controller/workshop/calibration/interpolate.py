@@ -46,6 +46,8 @@ def interpolate(
     dead: Collection[int] = (),  # channels that are known to do nothing: their responses are zero
     # Of a board's plate, which says what lies between scattered points if it foresees those left out better than waves do
     model: Callable[[Board], Modes] | None = None,
+    *,
+    exact: bool = False,  # points are where they are said to be: no errors of theirs are looked for
 ) -> tuple[InterpolatedResponses, WaveFit]:
     """Interpolate between measured points: by cosines on a grid of cells, by wavenumber otherwise.
 
@@ -67,7 +69,7 @@ def interpolate(
         prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
         found = _between_cells(board, lattice, (points_m, spectra, known, bins), prior, progress)
     else:
-        if errors_looked_for(board, len(points_m)):
+        if not exact and errors_looked_for(board, len(points_m)):
             responses = learned.responses[used]
             errors = fit_points(board, points_m, responses, known, bins, waves, lambda *done: progress("errors of points", *done))
         if errors is not None and errors.corrected:
@@ -84,7 +86,12 @@ def interpolate(
             " their records are noise"
         )
     provenance = msgspec.structs.replace(
-        learned.provenance, kind=found.kind, model=found.words, points=len(points_m), kept=(median, least)
+        learned.provenance,
+        kind=found.kind,
+        model=found.words,
+        points=len(points_m),
+        kept=(median, least),
+        foreseen=found.leave_out.foreseen(),
     )
     reach = None if found.reach is None else (found.reach, points_m)
     source = InterpolatedResponses(board, bins, found.field, provenance, found.leave_out, reach, errors, found.size)
@@ -218,13 +225,18 @@ def _evaluated(
 ) -> LeaveOut:
     """Leave-out error, points in blocks; those beyond the cells of a bank are not evaluated: nobody plays there."""
     known = known & ~np.isnan(foreseen[0])
-    agreed, magnitude = np.zeros((2, len(points_m)))
+    agreed, magnitude, expected = np.zeros((3, len(points_m)))
     for first in range(0, len(points_m), 64):
         some = slice(first, first + 64)
         measured = bins.band_limited(spectra[:, some]) * known[some, None]
-        agreed[some] = (np.sign(bins.band_limited(np.where(known[some], foreseen[:, some], 0))) * measured).sum(axis=(1, 2))
+        estimate = bins.band_limited(np.where(known[some], foreseen[:, some], 0))
+        agreed[some] = (np.sign(estimate) * measured).sum(axis=(1, 2))
+        expected[some] = np.abs(estimate).sum(axis=(1, 2))
         magnitude[some] = np.abs(measured).sum(axis=(1, 2))
     moves = magnitude / np.maximum(known.sum(axis=1), 1)
     from_edge_m = np.minimum(points_m, (board.plate.length_m, board.plate.width_m) - points_m).min(axis=1)
     evaluated = (magnitude > 0) & (moves > STILL * np.median(moves)) & (from_edge_m >= board.bank.pitch_mm * 1e-3)
-    return LeaveOut(points_m, np.divide(agreed, magnitude, out=np.full(len(points_m), np.nan), where=evaluated))
+    kept, over_foreseen = (
+        np.divide(agreed, of, out=np.full(len(points_m), np.nan), where=evaluated & (of > 0)) for of in (magnitude, expected)
+    )
+    return LeaveOut(points_m, kept, over_foreseen)

@@ -22,6 +22,7 @@ Floats = NDArray[np.float64]
 LEAST_SHARE = 0.8  # foreseen from the places of the points; farther from them nothing is estimated, and no scene may ask for it
 POINTS_AT_ONCE = 128  # transforms of 128 points take some 140 MB
 BINS_ASKED = 8
+QUARTILES = 1.349  # between the quartiles of a normal distribution, in standard deviations
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,14 @@ class LeaveOut:
     # (point,): sum of the measured responses with the signs of those foreseen, over the sum of their magnitudes: the share of
     # the amplitude that drive words from the others keep at that point. NaN where it was not evaluated
     kept: Floats
+    # (point,): the former sum over the sum of the magnitudes foreseen: the amplitude that these words have there, over that which
+    # the others foresee. NaN as `kept`
+    over_foreseen: Floats
+
+    def foreseen(self) -> tuple[float, float]:
+        """Mean and standard deviation of the logarithm of the amplitude over that foreseen, by median and quartiles."""
+        quartiles = np.nanquantile(np.log(np.maximum(self.over_foreseen, 1e-3)), (0.25, 0.5, 0.75))
+        return round(float(quartiles[1]), 4), round(float(quartiles[2] - quartiles[0]) / QUARTILES, 4)
 
     def summary(self) -> tuple[float, float]:
         """Median and least."""

@@ -60,6 +60,7 @@ def responses_in_time(
         date=settings.date,
         temperature_c=settings.temperature_c,
         points=len(results),
+        panel=settings.panel,
     )
     found_all = LearnedResponses(measurement.points_m, responses, known, coherence, noise, board.waveform.bit_clock_hz, provenance)
     return found_all, float(np.median(ringing))

@@ -8,6 +8,8 @@ that many emissions at the same places cost a matrix product.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy import fft
 from numpy.typing import ArrayLike, NDArray
@@ -26,14 +28,14 @@ HIGHEST = 1.25  # frequency, over that of the highest mode
 
 
 class PadMotion:
-    """Motion of some pads in emissions of some length, with the same finger on each, from rest at the idle word."""
+    """Motion of some pads in emissions of some length, with a finger on each, from rest at the idle word."""
 
     def __init__(
         self,
         board: Board,
         modes: Modes,  # of its plate
         fingers_m: ArrayLike,  # (finger, 2): x and y in m
-        finger: Finger,
+        finger: Finger | Sequence[Finger],  # the same on all, or one for each
         pad_m: float,  # diameter
         samples: int,  # of an emission
         after_s: float,  # last time after T that is asked for
@@ -55,7 +57,9 @@ class PadMotion:
             both += np.concatenate([gives.real, gives.imag]) @ driven.transpose(1, 0, 2).reshape(gives.shape[1], -1)
         to_pads = (both[:count] + 1j * both[count:]).reshape(count, pads, -1)
         of_steps = (DriverResponse.of(board.driver).transfer(s) / s)[:, None, None]
-        loop = np.eye(pads) + to_pads[..., forces.shape[1] :] * finger.dynamic_stiffness(s)[:, None, None]
+        fingers = [finger] * pads if isinstance(finger, Finger) else finger
+        stiffness = np.stack([one.dynamic_stiffness(s) for one in fingers], axis=1)
+        loop = np.eye(pads) + to_pads[..., forces.shape[1] :] * stiffness[:, None]
         self._map = np.linalg.solve(loop, to_pads[..., : forces.shape[1]] * of_steps)
 
     def history(self, volts: Floats) -> Floats:

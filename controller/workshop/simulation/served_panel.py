@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from datetime import UTC, datetime
 from typing import NamedTuple
 
 from controller.clocks import MonotonicClock
 from controller.device.application_socket.command_socket import CommandSocket
+from controller.device.bank.expectation import Expectation
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket
+from controller.device.board.identity import simulated_identity
 from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.wiring import assemble
 from controller.device.scene.scene import load_scene
@@ -86,6 +89,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touche
     trace = TraceFile.from_environment(board.name, board.waveform.duration_s)
     housekeeping = Housekeeping(board, session, notifier, Watchdog(notifier, math.inf), None)
     context = LoopContext(board, clock, session, source, layers=layers)
+    context.emissions.expected = Expectation.of(bank.header, board, simulated_identity(board), datetime.now(tz=UTC).date())
     trace.watch(context.trace)
     try:
         assembly = assemble(

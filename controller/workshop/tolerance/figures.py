@@ -34,7 +34,7 @@ def study_figures(study: Study, plates: int, alone: int, least: float, workers: 
     for place, name in enumerate(study.tolerances.__struct_fields__, 1):
         if name in names:
             items |= {place * PLATES_MAX + number: (number, name) for number in range(alone)}
-    mapped = map_kept(study, items, _kept(study), workers, at_once=AT_ONCE, what="plates", unit="plate")
+    mapped = map_kept(study, items, kept_file(study.name()), workers, at_once=AT_ONCE, what="plates", unit="plate")
     shape = (len(BANKS), study.places, len(FIGURES))
     found = {item: np.frombuffer(mapped.results[key]).reshape(shape) for key, item in items.items()}
     with threadpool_limits(1, "blas"):  # the same bits as in a worker
@@ -63,11 +63,11 @@ def study_figures(study: Study, plates: int, alone: int, least: float, workers: 
     }
 
 
-def _kept(study: Study) -> Path:
-    """File of a study's results; the oldest files of others are removed."""
+def kept_file(name: str) -> Path:
+    """File of a study's results, by its name; the oldest files of others are removed."""
     folder = state_folder() / "tolerance"
     make_folder(folder)
-    path = folder / f"{study.name()}.plates"
+    path = folder / f"{name}.plates"
     by_age = sorted(folder.glob("*.plates"), key=lambda old: old.stat().st_mtime, reverse=True)
     for old in [other for other in by_age if other != path][KEPT_FILES - 1 :]:
         old.unlink(missing_ok=True)

@@ -55,6 +55,9 @@ class WritesDown:
             raise ConfigError(f"no region {region!r}: neither of this client nor of the scene")
         return self.fingers[region]
 
+    def fingers_down(self):
+        return 1
+
     def switch(self, *, on, by):
         self.switched.append(on)
         self.switched_by = by

@@ -5,6 +5,7 @@ import math
 import pytest
 from device.application_socket.test_readme import README
 from device.application_socket.test_with_the_loop import serve  # noqa: F401
+from device.bank.test_expectation import expected
 
 from controller.device.application_socket.emission_notices import PERIOD_S
 from controller.device.application_socket.messages import Emissions, message_decoder
@@ -96,6 +97,25 @@ def test_what_is_not_played_is_said_with_its_cause_also_where_nothing_is(panel):
     assert told == {"kind": "emissions", "foci": [], "skipped": {"merged": 2, "outputs_off": 1}, "lost": 0}
     panel.socket.touches([])
     assert panel.ask(client) == []
+
+
+def test_what_is_to_be_expected_is_said_beside_it(panel):
+    client, ring = panel.connect(), panel.control.emissions
+    panel.ask(client, SUBSCRIBE)
+    ring.expected = expected()
+    ring.started(1.0, plan((0.03, 0.02, 0.5), (0.04, 0.03, 1.0), (0.001, 0.02, 1.0)))
+    (told,) = panel.ask(client)
+    half, whole, rim = told["foci"]
+    assert "expected_um" not in rim
+    assert whole["expected_um"] == pytest.approx(expected().felt(None, 3, 2), abs=1e-3)
+    assert half["expected_um"] == pytest.approx(expected().felt(None, 3, 2).times(0.5), abs=1e-3)
+    ring.expected = expected(panel="fedcba9876543210")
+    emissions = [Emission(0.0, 0.03, 0.02, None, "pad")]
+    ring.started(2.0, Plan(Batch(emissions), [(0.03, 0.02, 1.0)], 0, None, 0.0, None))
+    (told,) = panel.ask(client)
+    low_um, middle_um, high_um = told["foci"][0]["expected_um"]
+    assert (low_um, middle_um) == (0, None)
+    assert high_um > expected().free(None).high_um
 
 
 def test_a_repetition_has_its_period(panel):

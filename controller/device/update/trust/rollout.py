@@ -9,7 +9,6 @@ versions that were stopped too (`x-stopped`). Its key alone can withhold a relea
 from __future__ import annotations
 
 import hashlib
-import re
 from datetime import UTC, datetime
 from itertools import pairwise
 from typing import Annotated, Any, Final
@@ -17,18 +16,17 @@ from typing import Annotated, Any, Final
 from msgspec import Meta
 from tuf.api.metadata import Signed
 
+from controller.device.board.identity import machine_id
 from controller.device.board.records import Record, as_record
 from controller.device.update.layout import Layout
 from controller.device.update.trust.clock import as_text
 from controller.errors import ConfigError, UpdateError
-from controller.regular_file import read_regular
 
 STOPPED: Final = "x-stopped"  # field of the timestamp: versions that no further device takes
 OPENED: Final = "x-opened"  # field of the timestamp: by version the share up to which its steps are open
 ALL_PPM: Final = 1_000_000  # in parts per million: signed metadata has no fractions
 STEPS_MAX: Final = 32
 FROM, UNTIL = datetime(2020, 1, 1, tzinfo=UTC), datetime(2200, 1, 1, tzinfo=UTC)
-_MACHINE_ID: Final = re.compile("[0-9a-f]{32}")  # machine-id(5); `uninitialized` is none
 
 
 class Step(Record, frozen=True):
@@ -98,11 +96,8 @@ def place_ppm(machine_id: str, version: str) -> int:
 
 def place_of(layout: Layout, version: str) -> int:
     """Place of this device; the last of all if it has no machine-id."""
-    try:
-        machine_id = read_regular(layout.machine_id, 64, links=True).decode("ascii").strip()
-    except (OSError, UnicodeDecodeError):
-        machine_id = ""
-    return place_ppm(machine_id, version) if _MACHINE_ID.fullmatch(machine_id) else ALL_PPM - 1
+    found = machine_id(layout.machine_id)
+    return ALL_PPM - 1 if found is None else place_ppm(found, version)
 
 
 def read_rollout(custom: Any, origin: str) -> Rollout | None:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
+from controller.device.board.identity import simulated_identity
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
 from controller.workshop.calibration.frame import MeasuringFrame, middle_m
@@ -89,7 +90,7 @@ def simulate_measurement(
     Returns figures, ready for JSON. Raises CalibrationError if the folder holds something else, or cannot be written.
     """
     words = drive_words(board, recording.kind, recording.seed)
-    settings = _settings(board, recording, faults)
+    settings = _settings(board, real, recording, faults)
     _claim(folder, {"board": board.digest().hex(), "plate": real.digest().hex(), **asdict(recording), **asdict(faults)}, points_m)
     write_measurement(folder, settings, names, points_m, words)
     places_m = _places(board, points_m, faults, recording.seed)
@@ -150,7 +151,7 @@ class _Sensor(NamedTuple):
         return np.asarray(np.clip(heard, -self.full_scale, self.full_scale), np.float32)
 
 
-def _settings(board: Board, recording: RecordingSettings, faults: Flaws) -> MeasurementFile:
+def _settings(board: Board, real: Board, recording: RecordingSettings, faults: Flaws) -> MeasurementFile:
     """What the folder's file says of the records."""
     records = RecordsTable(
         files="records/{point}.npy",
@@ -168,6 +169,7 @@ def _settings(board: Board, recording: RecordingSettings, faults: Flaws) -> Meas
         date=DATE,
         sample_rate_hz=recording.rate_hz,
         board_sha256=board.digest().hex(),
+        panel=simulated_identity(real),
         points="points.csv",
         records=records,
         drive=drive,
