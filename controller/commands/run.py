@@ -17,6 +17,7 @@ from controller.commands.common.fpga_link import open_fpga_of
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.console import tell
+from controller.device.bank.inspection import measured_at
 from controller.device.bank.memory import memory_fit
 from controller.device.board.board import Board, simulated
 from controller.device.board.panel_status import FOLDER as RUNTIME_FOLDER
@@ -126,7 +127,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
             tell(f"{scene_file}: {warning}", Priority.WARNING)
         expected = expected_of(bank.header, board)
-        if expected is not None and expected.cause:
+        if expected is not None and expected.cause and measured_at(bank.path):
             tell(f"{bank.path}: what it will do on this panel nobody knows: {expected.cause}", Priority.WARNING)
         ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board), expected)
         figures = {

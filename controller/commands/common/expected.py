@@ -8,6 +8,7 @@ from controller.device.bank.expectation import Expectation
 from controller.device.bank.file_format import Header
 from controller.device.board.board import Board
 from controller.device.board.identity import panel_identity, simulated_identity
+from controller.device.service.installation import is_installed
 
 
 def expected_of(header: Header, board: Board, plate: Board | None = None) -> Expectation | None:
@@ -17,7 +18,7 @@ def expected_of(header: Header, board: Board, plate: Board | None = None) -> Exp
 
 def _identity(board: Board, plate: Board | None) -> str | None:
     if plate is None:
-        if board.link.kind != "simulated":
+        if board.link.kind != "simulated" or not is_installed("workshop.gateware"):
             return panel_identity()
         from controller.workshop.gateware.actual_panel import actual_panel
 

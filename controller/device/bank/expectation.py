@@ -260,7 +260,7 @@ def why_unknown(provenance: Provenance | None, panel: str | None) -> str:
 def in_words(figures: dict[str, Any] | None) -> str:
     """`Expectation.figures` in a line; None: of a bank that says no amplitude."""
     if figures is None:
-        return "nothing is known: the bank is from before banks said what amplitudes they foresee; built again it does"
+        return "nothing is known: the bank does not say what amplitudes it foresees (built again it does, but not for [finger])"
     finger, bare = (Interval(*figures[name]).in_words() for name in ("finger_um", "bare_um"))
     felt = f"a finger of 30 to 150 mg feels {finger} of a pulse"
     if figures["cause"]:

@@ -242,7 +242,7 @@ def _responses(board: Board) -> str | Finding:
         provenance = bank.header.provenance
     if provenance and provenance.from_measurements:
         said = f"the bank's responses are {provenance.in_words()}"
-        unknown = why_unknown(provenance, panel_identity())
+        unknown = "" if board.link.kind == "simulated" else why_unknown(provenance, panel_identity())
         return Finding("responses", True, f"{said}; {unknown}", warns=True) if unknown else said
     said = "the bank was computed from a model of the plate: it moves the panel, but a real one is not focused by it (README.md)"
     return Finding("responses", True, said, warns=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection
 from datetime import date, timedelta
 from typing import Any, Final
 
@@ -57,7 +57,7 @@ def record_of(values: NDArray[np.floating[Any]]) -> Record:
     return Record._make(values.tolist())
 
 
-def coverage(board: Board, records: Sequence[Record]) -> dict[str, dict[str, dict[str, Any]]]:
+def coverage(board: Board, records: Collection[Record]) -> dict[str, dict[str, dict[str, Any]]]:
     """By what is stated and by kind of plate: how often it holds the truth, with `wilson`, and how wide it is."""
     every = {"all": list(records)} | {
         kind: [record for record in records if record.kind == number] for number, kind in enumerate(KINDS)
