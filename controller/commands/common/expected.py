@@ -18,7 +18,7 @@ def expected_of(header: Header, board: Board, plate: Board | None = None) -> Exp
 
 def _identity(board: Board, plate: Board | None) -> str | None:
     if plate is None:
-        if board.link.kind != "simulated" or not is_installed("workshop.gateware"):
+        if board.link.kind != "simulated" or not is_installed("workshop"):
             return panel_identity()
         from controller.workshop.gateware.actual_panel import actual_panel
 
