@@ -40,7 +40,7 @@ complete haptic-panel \
         'c/--passphrase-file=/f/' \
         'c/--role=/(root targets snapshot timestamp)/' \
         'c/--settings=/f/' \
-        'c/--/(accept add alone alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s compact counter csv dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms emission felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from from-ms full-scale gain-percent gateware ghosts glass grid held help high-hz host idle-figures inductance-h inside intervals inverted json key lag least length-mm link listen low-hz margin-mm markdown memory-mb methods minimum-counter mirror missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc netlist no-chirps no-mypyc no-pictures no-skip no-timing noise offset-mm once optimise out passphrase-file pause-s period-ms pid pitch-mm places plate plates platform plot points poisson-ratio port position-mm power price publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root rotation-deg same-as scale scattered scene scheduler-file screen-length-mm screen-width-mm script seconds sectors seed seeds sensor sensor-mass-mg serial settings settle-ms share silent-s size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold to-ms tolerances top touch touch-key touched-s unproven v-per-m v-per-m-s v-per-m-s2 verbose version waveform wheels when width-mm work worker-memory-mb workers write wrong www yes young-modulus-pa)/' \
+        'c/--/(accept add all alone alsa also amplitude amplitude-figures amplitude-um at automatic avoid-actuators background band-high-hz band-low-hz bank baud bit-clock-hz bits board build capacitance-f channel channels clip clock-ppm commands-per-s compact counter csv dask date dead decay-time-ms delay-us demo density-kg-m3 device disc discs drift drift-percent drive drop duration-ms emission felt-um field-out figures file find finger finger-load finger-mg fingers flash follow fpga from from-ms full-scale gain-percent gateware ghosts glass grid held help high-hz host idle-figures inductance-h inside intervals inverted json key lag least length-mm link listen low-hz margin-mm markdown memory-mb methods minimum-counter mirror missing model moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms mypyc netlist no-chirps no-mypyc no-pictures no-skip no-timing noise offset-mm once optimise out passphrase-file pause-s period-ms pid pitch-mm places plate plates platform plot points poisson-ratio port position-mm power price publisher quantity quick rate-khz ready-fd record-ms reference region repeats repetitions replay resistance-ohm resistor-w rim-mm role root rotation-deg same-as scale scattered scene scheduler-file screen-length-mm screen-width-mm script seconds sectors seed seeds sensor sensor-mass-mg serial settings settle-ms share silent-s size-mm snr-db socket speed speed-mm-s supply-v swapped sweep sync table targets temperature-c textfile thickness-mm threshold to-ms tolerances top touch touch-key touched-s unproven v-per-m v-per-m-s v-per-m-s2 verbose version waveform wheels when width-mm work worker-memory-mb workers write wrong www yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -81,7 +81,7 @@ complete haptic-panel \
         'n/bank/(build choices info verify)/' \
         'n/effect/(import export)/' \
         'n/benchmark/(skipping paper)/' \
-        'n/calibrate/(channels plan measure wiring check bank simulate)/' \
+        'n/calibrate/(channels plan measure wiring check clock bank fleet simulate)/' \
         'n/update/(check download install status rollback judge make-release repository)/' \
         'n/trace/f/' \
         'n/completion/(bash zsh tcsh)/' \
@@ -89,5 +89,5 @@ complete haptic-panel \
         'n/load/f/' \
         'n/verify/f/' \
         'n/import/f/' \
-        'n/repository/(key init add rollout stop status sign rotate renew export)/' \
+        'n/repository/(key init add rollout stop open status sign rotate renew export)/' \
         'p/*/()/'
