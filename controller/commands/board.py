@@ -70,7 +70,7 @@ def board_check(options: argparse.Namespace) -> int:
     Raises ConfigError or TouchError if board, scene or recording is invalid, or the board is refused as a whole.
     """
     folder = find_board(options.name or options.board)
-    board = load_board(folder)
+    board = load_board(folder, several=True)
     if is_installed("workshop"):  # where bitstreams are built
         from controller.workshop.gateware.fpga_part import FILE, check_top, find_part
 
@@ -134,6 +134,8 @@ def schema_text(*, scene: bool, ascii_only: bool = False) -> str:
 def _first_word_ms(board: Board) -> dict[str, float]:
     """Times from a touch to its first drive word, in ms, but for the host's: touch panel, wire (an upload or a play), trigger."""
     upload_bytes, play_bytes = PlayMessages(memoryview(b""), board).sizes_bytes()
+    further = max(len(board.link.fpga) - 1, 0)  # FPGAs, each of which has an upload and a play of its own
+    upload_bytes, play_bytes = upload_bytes + further * (upload_bytes + play_bytes), play_bytes * (1 + further)
     times_s = {
         "panel": board.touch.lag_s,
         "upload": board.link.wire_s(upload_bytes),

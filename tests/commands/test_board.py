@@ -32,7 +32,7 @@ def test_every_shipped_board_is_valid(name, capsys):
     assert main(["board", "check", name, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["board"] == name
-    assert 1 <= found["channels"] <= 32
+    assert 1 <= found["channels"] <= (64 if name == "simulated_64" else 32)
     ms = found["first_word_ms"]
     table = (data_folder("boards") / "README.md").read_text().split("## From a touch")[1].split("##")[0]
     (row,) = re.findall(rf"^\|[^|]*\b{name}\b.*", table, re.MULTILINE)

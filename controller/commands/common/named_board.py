@@ -9,12 +9,12 @@ from controller.device.board.relations.checked import judge
 from controller.log import Priority
 
 
-def named_board(name: str) -> Board:
-    """Read and check a board, and say on stderr what of it is odd.
+def named_board(name: str, *, several: bool = False) -> Board:
+    """Read and check a board, and say on stderr what of it is odd; `several` FPGAs as in `load_board`.
 
     Raises ConfigError if there is no such board, or it is refused.
     """
-    board = load_board(find_board(name))
+    board = load_board(find_board(name), several=several)
     for odd in judge(board).odd:
         tell(f"{board.folder / 'board.toml'}: {odd}", Priority.WARNING)
     return board

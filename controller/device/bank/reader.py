@@ -18,7 +18,7 @@ from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.response_entries import ResponseEntries
 from controller.device.bank.tables import read_tables
 from controller.device.board.board import Board
-from controller.device.board.paths import build_line
+from controller.device.board.paths import bank_files, build_line
 from controller.errors import BankError
 from controller.regular_file import open_regular
 
@@ -39,16 +39,18 @@ class Bank:
         self.composes = file.header.composes
         self.counters = file.counters
         self.rebuild = file.rebuild
-        self.close = file.close
+        self.others: tuple[Bank, ...] = ()  # of the further FPGAs of a board that has several
         self.drive = DriveEntries(file)  # its waveforms
         self.responses = ResponseEntries(file)  # what others are composed from
 
     @classmethod
     def open(cls, path: Path, board: Board | None = None) -> Bank:
-        """Open a bank and check its header and tables.
+        """Open a bank and check its header and tables; of a board of several FPGAs those of all of them, one file each.
 
         A bank that was not built for `board` is refused. Raises BankError with the reason and how to rebuild.
         """
+        if board and board.link.fpga:
+            return cls._of_several(path, board)
         rebuild = build_line(path, board)
         try:
             fd = open_regular(path, links=True)
@@ -77,6 +79,30 @@ class Bank:
             advised = start is not None and begins_as_bank(start)
             raise BankError(f"{path}: {reason}" + (f"; rebuild it: {rebuild}" if advised else "")) from error
         return cls(BankFile(path, fd, header, sections, tables, rebuild))
+
+    @classmethod
+    def _of_several(cls, path: Path, board: Board) -> Bank:
+        """The banks of several FPGAs, as the first one's, with the others behind it; all have the same cells."""
+        opened: list[Bank] = []
+        try:
+            for one, file in zip(board.fpga_boards, bank_files(path, len(board.link.fpga)), strict=True):
+                opened.append(cls.open(file, one))
+                if (opened[-1].grid, opened[-1].samples) != (opened[0].grid, opened[0].samples) or (
+                    opened[-1].file.tables.entries != opened[0].file.tables.entries
+                ):
+                    raise BankError(f"{file}: its cells are not those of {path}; rebuild both: {build_line(path, board)}")
+        except BankError:
+            for bank in opened:
+                bank.close()
+            raise
+        opened[0].others = tuple(opened[1:])
+        return opened[0]
+
+    def close(self) -> None:
+        """Close the file, or those of all FPGAs."""
+        for bank in self.others:
+            bank.close()
+        self.file.close()
 
     def __enter__(self) -> Bank:
         return self
@@ -109,11 +135,13 @@ class Bank:
 
     @property
     def worst_edges(self) -> tuple[int, int]:
-        """Most edges in an entry, with those from and to the idle word: of one channel, and of all channels together.
+        """Most edges in an entry, with those from and to the idle word: of one channel, and of all channels of an FPGA together.
 
         For a bank whose parameters do not say, the most that an emission can have.
         """
         reported = self.header.parameters.get("channel_edges"), self.header.parameters.get("all_edges")
         most = self.samples + 1
         channel, together = (edges if type(edges) is int and edges >= 0 else None for edges in reported)
-        return most if channel is None else channel, CHANNELS * most if together is None else together
+        own = most if channel is None else channel, CHANNELS * most if together is None else together
+        of_each = [own, *(bank.worst_edges for bank in self.others)]
+        return max(channel for channel, _ in of_each), max(together for _, together in of_each)

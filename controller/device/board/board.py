@@ -20,7 +20,7 @@ from msgspec import Meta
 
 from controller.device.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
 from controller.device.board.lookup import board_places, in_system_folder
-from controller.device.board.panel import Actuator, AssumedFinger, BankSettings, Compose, Driver, Limits, Plate, Waveform
+from controller.device.board.panel import CHANNELS, Actuator, AssumedFinger, BankSettings, Compose, Driver, Limits, Plate, Waveform
 from controller.device.board.parts import Parts, followed
 from controller.device.board.patches import Patches
 from controller.device.board.records import Record, as_record, read_tables
@@ -118,6 +118,19 @@ class Board(Record, frozen=True):
         return next((other for other in elsewhere if other.exists()), file)
 
     @property
+    def fpga_boards(self) -> tuple[Board, ...]:
+        """The board as each of its FPGAs drives it: its own patches, their channels counted from 0 on; of one FPGA, the board."""
+        return tuple(self._driven_by(number) for number in range(len(self.link.fpga))) or (self,)
+
+    def _driven_by(self, number: int) -> Board:
+        first = CHANNELS * number
+        own = tuple(
+            msgspec.structs.replace(a, channel=a.channel - first) for a in self.actuators if first <= a.channel < first + CHANNELS
+        )
+        device = self.link.fpga[number].device or self.link.device
+        return msgspec.structs.replace(self, actuators=own, link=msgspec.structs.replace(self.link, device=device, fpga=()))
+
+    @property
     def idle_word(self) -> int:
         """Drive word of the idle levels: bit q is the level of channel q."""
         return sum(a.idle << a.channel for a in self.actuators)
@@ -165,17 +178,22 @@ def sha256(data: bytes) -> bytes:
     raise AssertionError("every Python has hashlib")
 
 
-def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
+def load_board(path: Path, without: Collection[Relation] = (), *, several: bool = False) -> Board:
     """Read and check a board.toml.
 
-    `path` is the file, or the folder that holds it. A board may break the relations between keys in `without`: a command that mends
-    these keys has to read them first. Raises ConfigError, naming file, key and value; all keys that are missing or unknown, and all
-    relations that refuse (`relations`).
+    `path` is the file, or the folder that holds it. A board of several FPGAs is refused unless the caller serves them (`several`).
+    A board may break the relations between keys in `without`: a command that mends these keys has to read them first. Raises
+    ConfigError, naming file, key and value; all keys that are missing or unknown, and all relations that refuse (`relations`).
     """
     file = path / "board.toml" if path.is_dir() else path
     board = as_board(f"{file}: ", read_tables(file))
     if refused := judge(board, without).refused:
         raise ConfigError(f"{file}: {'; '.join(refused)}")
+    if board.link.fpga and not several:
+        raise ConfigError(
+            f"{file}: link.fpga: this serves boards of one FPGA; with {len(board.link.fpga)} there are board check, bank build,"
+            " bank info, bank verify and run"
+        )
     return msgspec.structs.replace(board, folder=file.parent)
 
 

@@ -41,6 +41,16 @@ def divided_hz(source_hz: int, asked_hz: int) -> float:
     return source_hz / min(divider + divider % 2, 65536)
 
 
+class LinkedFpga(Record, frozen=True, kw_only=True):
+    """One of several FPGAs on one clock, one trigger line and one line of run permit and faults.
+
+    Attributes:
+    device: Its own chip select, /dev/spidevB.C.
+    """
+
+    device: str = ""
+
+
 class LinkSettings(Record, frozen=True, kw_only=True):
     """The link to the FPGA.
 
@@ -59,6 +69,7 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     trigger_line: Output: starts the waveform that was prepared.
     configured_line: Input: high while the FPGA is configured, has its clock and is out of reset; may be left out.
     permit_line: Output: run permit that this host gives while it plays; may be left out where a switch gives it.
+    fpga: Two to four FPGAs, the first with channels 0 to 31, each further one with the next 32. Left out: one.
     """
 
     kind: Literal["simulated", "serial", "spi"]
@@ -72,13 +83,15 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     trigger_line: str = ""
     configured_line: str = ""
     permit_line: str = ""
+    fpga: tuple[LinkedFpga, ...] = ()
 
     def __post_init__(self) -> None:
         if self.sck_hz * MIN_SCK_TICKS > self.clock_hz:
             raise ValueError(f"sck_hz = {self.sck_hz} is above half of clock_hz = {self.clock_hz}")
         for key, said in self.also_required({"kind": self.kind}).items():
-            if not getattr(self, key):
-                raise ValueError(f"{key} is missing: {said}")
+            of_each = self.fpga if key == "device" else ()
+            if not all(getattr(one, key) for one in of_each or (self,)):
+                raise ValueError(f"{key} is missing: {said}{', for each fpga' * bool(of_each)}")
 
     @classmethod
     def also_required(cls, table: dict[str, Any]) -> dict[str, str]:

@@ -11,7 +11,8 @@ from msgspec import Meta
 from controller.device.board.layers import MOST_SHEAR, MOST_SHEAR_LEFT_OUT, PlateLayer, laminate, softest
 from controller.device.board.records import LONGEST_PLATE_MM, NotNegative, PlaceMm, Positive, Record, Share, SizeMm, left_out
 
-CHANNELS = 32
+CHANNELS = 32  # of one FPGA
+FPGAS_MAX = 4
 EDGE_WINDOW_S = 0.25  # over which the FPGA counts the edges of a stage
 
 OF_LAYERS = ("thickness_mm", "young_modulus_pa", "poisson_ratio", "density_kg_m3")  # keys of a plate that follow from its layers
@@ -200,13 +201,13 @@ class Actuator(Record, frozen=True):
     """A square piezo patch and the output that drives it.
 
     Attributes:
-    channel: Output of the FPGA, and bit of a drive word.
+    channel: Output of the FPGA, and bit of a drive word; of the second FPGA (`link.fpga`) from 32 on, and so on.
     x_mm, y_mm: Centre of the patch.
     size_mm: Edge length of the patch.
     idle: Level, 0 or 1, at which its output rests while the panel is armed.
     """
 
-    channel: Annotated[int, Meta(ge=0, lt=CHANNELS)]
+    channel: Annotated[int, Meta(ge=0, lt=CHANNELS * FPGAS_MAX)]
     x_mm: PlaceMm
     y_mm: PlaceMm
     size_mm: SizeMm

@@ -13,6 +13,7 @@ modulo 256), and return the offset of its end.
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 from controller.device.fpga.frame_table import CRC_FIELD, HEADER_FIELDS, PAYLOADS, offset_of, packing
@@ -72,11 +73,30 @@ class ReadyFrames(NamedTuple):
     """A waveform as a bank holds it."""
 
     frames: memoryview  # its LOAD frames, numbered from 0 on
-    crc: int  # CRC-32 that its words must have
+    crc: int  # CRC-32 that its words must have; of several FPGAs the next one's 32 bits above
 
 
 Waveform = memoryview | ReadyFrames
-"""Drive words, 4 bytes for each sample; or the frames that carry them."""
+"""Drive words, 4 bytes for each sample; or the frames that carry them. Of several FPGAs theirs, one behind the other."""
+
+
+def joined(waveforms: Sequence[Waveform]) -> Waveform:
+    """One waveform of those of several FPGAs, all of which are words, or all frames."""
+    ready = [waveform for waveform in waveforms if isinstance(waveform, ReadyFrames)]
+    if not ready:
+        return memoryview(b"".join([waveform for waveform in waveforms if isinstance(waveform, memoryview)]))
+    crc = sum(one.crc << 32 * number for number, one in enumerate(ready))
+    return ReadyFrames(memoryview(b"".join([one.frames for one in ready])), crc)
+
+
+def parted(waveform: Waveform, fpgas: int) -> list[Waveform]:
+    """The waveforms that `joined` made one of."""
+    whole = waveform.frames if isinstance(waveform, ReadyFrames) else waveform
+    size = whole.nbytes // fpgas
+    parts = [whole[number * size : (number + 1) * size] for number in range(fpgas)]
+    if not isinstance(waveform, ReadyFrames):
+        return [*parts]
+    return [ReadyFrames(part, waveform.crc >> 32 * number & 0xFFFFFFFF) for number, part in enumerate(parts)]
 
 
 def upload_slices(length_words: int) -> tuple[slice, ...]:

@@ -84,6 +84,11 @@ class Supervision:
         configuration.write_settings(self.exchange, self._board, self.bit_period)
 
     @property
+    def on_anywhere(self) -> bool:
+        """As `may_be_on`; of several FPGAs, whether it is so of any."""
+        return self.may_be_on
+
+    @property
     def fresh(self) -> bool:
         """Whether a heartbeat succeeded within FRESH_S, so that the settings are still those of `bring_up`."""
         return self._heartbeat_s < math.inf and self._now_s() - self._heartbeat_s < FRESH_S

@@ -856,19 +856,8 @@ static void ask_alike(const struct work *work, int64_t (*gram)[MAX_FOCI], double
     }
 }
 
-/* Negate the divisors of points so that the energy of the sum is largest; ask for what can be had. */
-static void polarise(struct work *work, double *asked) {
-    int count = work->count, unlike = 0;
-    int64_t gram[MAX_FOCI][MAX_FOCI];
-    double product[MAX_FOCI][MAX_FOCI], largest = 0;
-    for (int i = 0; i < count; i++)
-        for (int j = 0; j < i; j++) {
-            gram[i][j] = sketched_product(work, i, j);
-            product[i][j] = (double)gram[i][j] / work->divisor[i] / work->divisor[j];
-            if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
-            unlike = unlike || asked[i] != asked[j];
-        }
-    if (largest == 0) return;
+/* The points that are to be negative so that the energy of the sum is largest, a bit each. */
+static uint32_t chosen(int count, double (*product)[MAX_FOCI], double largest) {
     double unit = (double)(1 << PRODUCT_BITS) / largest;
     int64_t whole[MAX_FOCI][MAX_FOCI], field[MAX_FOCI] = {0}, energy = 0, most;
     for (int i = 0; i < count; i++) {
@@ -892,10 +881,28 @@ static void polarise(struct work *work, double *asked) {
         }
     }
     uint32_t negative = best << 1;
-    if (2 * __builtin_popcount(best) > count) negative = ~negative;
+    return 2 * __builtin_popcount(best) > count ? ~negative : negative;
+}
+
+/* Negate the divisors of negative points; ask for what can be had. `polarity` of each point is given, or 0 and then filled. */
+static void polarise(struct work *work, double *asked, int8_t *polarity) {
+    int count = work->count, unlike = 0;
+    int64_t gram[MAX_FOCI][MAX_FOCI];
+    double product[MAX_FOCI][MAX_FOCI], largest = 0;
     for (int i = 0; i < count; i++)
-        if (negative >> i & 1) work->divisor[i] = -work->divisor[i];
-    if (unlike) ask_alike(work, gram, asked);
+        for (int j = 0; j < i; j++) {
+            gram[i][j] = sketched_product(work, i, j);
+            product[i][j] = (double)gram[i][j] / work->divisor[i] / work->divisor[j];
+            if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
+            unlike = unlike || asked[i] != asked[j];
+        }
+    if (!polarity[0]) {
+        uint32_t negative = largest == 0 ? 0 : chosen(count, product, largest);
+        for (int i = 0; i < count; i++) polarity[i] = negative >> i & 1 ? -1 : 1;
+    }
+    for (int i = 0; i < count; i++)
+        if (polarity[i] < 0) work->divisor[i] = -work->divisor[i];
+    if (unlike && largest != 0) ask_alike(work, gram, asked);
 }
 
 /* Divide weights by what the points got. */
@@ -950,7 +957,7 @@ static void set_wanted(struct work *work, const double *asked) {
 }
 
 /* Compose; what is asked for and patches of `work->count` points. */
-static void compose_points(struct work *work, const struct patch *patches, double *asked) {
+static void compose_points(struct work *work, const struct patch *patches, double *asked, int8_t *polarity) {
     int full = 1;
     int16_t weight[MAX_FOCI], weight_asked[MAX_FOCI];
     for (int i = 0; i < work->count; i++) full = full && asked[i] == 1;
@@ -970,7 +977,7 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
     work->balance[0] = 1;
     if (work->count > 1) {
         take_sketch(work);
-        polarise(work, asked);
+        polarise(work, asked, polarity);
         balance_sketch(work);
     }
     if (whole_weights(work, ONES, weight) == 0) {
@@ -1318,7 +1325,7 @@ static int has_room(const Py_buffer *buffer, int64_t samples) {
     return 0;
 }
 
-static PyObject *compose_in(const Py_buffer *buffer, PyObject *const *arguments) {
+static PyObject *compose_with(const Py_buffer *buffer, PyObject *const *arguments, int8_t *polarity) {
     PyObject *points = arguments[POINTS];
     struct bank bank;
     struct work work;
@@ -1341,12 +1348,30 @@ static PyObject *compose_in(const Py_buffer *buffer, PyObject *const *arguments)
         if (cell >= 0) return PyLong_FromLongLong(cell);
     }
     lay_out(&work, plan, (int)count, buffer[ROOM].buf, buffer[WORDS].buf);
-    compose_points(&work, patches, asked);
+    compose_points(&work, patches, asked, polarity);
     return PyLong_FromLong(-1);
+}
+
+static PyObject *compose_in(const Py_buffer *buffer, PyObject *const *arguments) {
+    int8_t polarity[MAX_FOCI] = {0};
+    return compose_with(buffer, arguments, polarity);
+}
+
+static PyObject *compose_alike(const Py_buffer *buffer, PyObject *const *arguments) {
+    Py_buffer polarity;
+    PyObject *answer = NULL;
+    if (PyObject_GetBuffer(arguments[NULLS], &polarity, PyBUF_WRITABLE)) return NULL;
+    if (polarity.len == MAX_FOCI)
+        answer = compose_with(buffer, arguments, polarity.buf);
+    else
+        PyErr_Format(PyExc_ValueError, "%zd polarities, not %d", polarity.len, (int)MAX_FOCI);
+    PyBuffer_Release(&polarity);
+    return answer;
 }
 
 static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
     (void)module;
+    if (given == NULLS + 1) return with_buffers("compose", arguments, given, NULLS + 1, compose_alike);
     return with_buffers("compose", arguments, given, NULLS, compose_in);
 }
 
@@ -1973,7 +1998,7 @@ static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize
 
 static PyMethodDef methods[] = {
     {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
-    {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, bank, points)"},
+    {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, bank, points, polarities=None)"},
     {"null_places", (PyCFunction)(void (*)(void))null_places, METH_FASTCALL, "null_places(words, room, bank, points, nulls)"},
     {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
     {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},

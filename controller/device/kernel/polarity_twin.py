@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Numbers = NDArray[Any]
+Signs = NDArray[np.int8]
 
 POINT_WEIGHT_SUM: Final = 32767  # of the points
 SKETCH_STEP: Final = 4  # of all samples, one of this many is in the sketch from which polarities and weights are found
@@ -30,17 +31,20 @@ class Sketch:
         self._rows = (in_band[:, ::SKETCH_STEP] >> SKETCH_SHIFT).reshape(count, -1)
         self._gram: Numbers = np.array([[(one * other).sum() for other in self._rows] for one in self._rows])
 
-    def polarised(self, asked: list[float], norms: list[float]) -> tuple[list[float], list[float]]:
-        """What can be asked for, and the norms, with the signs of the points for which the energy of the sum is largest."""
+    def polarised(self, asked: list[float], norms: list[float], polarities: Signs) -> tuple[list[float], list[float]]:
+        """What can be asked for, and the norms, with the signs of the points.
+
+        `polarities` are given, or 0 and then filled: with those for which the energy of the sum is largest.
+        """
         count, products = len(norms), []
         for i in range(count):
             for j in range(i):
                 products.append((i, j, float(self._gram[i, j]) / norms[i] / norms[j]))
         largest = max(abs(product) for _, _, product in products)
-        if largest == 0:
-            return asked, norms
-        signs = _signs(count, products, (1 << PRODUCT_BITS) / largest)
-        if min(asked) != max(asked):
+        if not polarities[0]:
+            polarities[:count] = _signs(count, products, (1 << PRODUCT_BITS) / largest) if largest else [1] * count
+        signs = [int(sign) for sign in polarities[:count]]
+        if largest and min(asked) != max(asked):
             asked = _reconciled(asked, signs, self._correlations())
         return asked, [norm * sign for norm, sign in zip(norms, signs, strict=True)]
 

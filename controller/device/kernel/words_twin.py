@@ -45,7 +45,7 @@ from controller.device.kernel.bank_twin import (
     Writable,
     checked_words,
 )
-from controller.device.kernel.polarity_twin import Sketch, corrected, product, whole_weights
+from controller.device.kernel.polarity_twin import Signs, Sketch, corrected, product, whole_weights
 
 Numbers = NDArray[Any]
 
@@ -65,6 +65,8 @@ def compose(
     # each (x_m, y_m, amplitude): 1 to `MAX_FOCI`; above 0 to 1, less than `LEAST_AMPLITUDE` counts as that. Points beyond the
     # outermost cells take the nearest place among the cells
     points: Sequence[Point],
+    # `MAX_FOCI` signed bytes, where other words move the same points: of each point 1 or -1; all 0: chosen here, and filled in
+    polarities: Writable | None = None,
 ) -> int:
     """Drive words that make every point jump at the end of the emission.
 
@@ -76,6 +78,9 @@ def compose(
     if not 1 <= count <= MAX_FOCI:
         raise ValueError(f"{count} points to compose, not 1 to {MAX_FOCI}")
     filled = checked_words(responses, words, room, points)
+    signs = np.zeros(MAX_FOCI, np.int8) if polarities is None else np.frombuffer(polarities, np.int8)
+    if len(signs) != MAX_FOCI:
+        raise ValueError(f"{len(signs)} polarities, not {MAX_FOCI}")
     patches = []
     for x_m, y_m, _ in points:
         patch, cell = responses.patch(x_m, y_m)
@@ -85,7 +90,7 @@ def compose(
     if count == 1 and points[0][2] == 1:
         bits = responses.turned(patches[0])[: responses.samples] > 0
     else:
-        bits = _Composition(responses, patches).bits([max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points])
+        bits = _Composition(responses, patches).bits([max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points], signs)
     packed = np.packbits(bits, axis=1, bitorder="little").view("<u4")[:, 0]
     np.frombuffer(filled, "<u4", responses.samples)[:] = packed ^ np.uint32(responses.idle_word)
     return -1
@@ -102,12 +107,12 @@ class _Composition:
         self.norms = [float(np.abs(response).sum()) or math.inf for response in self.in_band]
         self._block_samples = bank.block_samples
 
-    def bits(self, asked: list[float]) -> Numbers:
-        """Where the words deviate from idle, (samples, 32), for these amplitudes."""
+    def bits(self, asked: list[float], polarities: Signs) -> Numbers:
+        """Where the words deviate from idle, (samples, 32), for these amplitudes; `polarities` as in `Sketch.polarised`."""
         divisors, balance = self.norms, [1.0]
         if len(asked) > 1:
             sketch = Sketch(self.in_band)
-            asked, divisors = sketch.polarised(asked, self.norms)
+            asked, divisors = sketch.polarised(asked, self.norms, polarities)
             balance = sketch.balanced(divisors)
         weighted, unit = self.weighted(balance, divisors)
         bits, full = weighted > 0, all(amplitude == 1 for amplitude in asked)

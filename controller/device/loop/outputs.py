@@ -49,7 +49,7 @@ class Outputs:
     @property
     def may_be_on(self) -> bool:
         """Whether there may be voltage at the actuators: no status has said that the outputs are off since they were armed."""
-        return self.on or (self._session.may_be_on and self._clock.now_s() < self.off_by_s)
+        return self.on or (self._session.on_anywhere and self._clock.now_s() < self.off_by_s)
 
     @property
     def off_by_s(self) -> float:
@@ -103,7 +103,7 @@ class Outputs:
     def next_s(self) -> float:
         """Host time at which `advance` is due."""
         if self.on:
-            return self._session.exchange.heartbeat_due_s
+            return self._session.heartbeat_due_s
         if self.ramping_down:
             now_s = self._clock.now_s()
             return min(self._session.heartbeat_due_s, self._down_s if now_s < self._down_s else now_s + OFF_POLL_S)
@@ -204,9 +204,9 @@ class Outputs:
         if now_s < min(self._down_s, self._session.heartbeat_due_s):
             return False
         self._heartbeat()
-        if self._session.may_be_on and now_s >= self._down_s + OFF_LATE_S:
+        if self._session.on_anywhere and now_s >= self._down_s + OFF_LATE_S:
             raise StillOn(f"the FPGA still has its outputs on {OFF_LATE_S * 1e3:g} ms after the end of their ramp to 0 V")
-        self.ramping_down = self._session.may_be_on
+        self.ramping_down = self._session.on_anywhere
         return not self.ramping_down
 
     def _heartbeat(self) -> None:

@@ -22,6 +22,7 @@ from controller.device.loop.scheduler import Scheduler
 from controller.device.loop.skips import ALL, Skips
 from controller.device.scene.scene import Scene
 from controller.device.waveforms.selection import Selection
+from controller.device.waveforms.wide_selection import selection_of
 from controller.metrics import Counters
 
 UPLOAD_COMMANDS = 4  # STORE, NOP while the slot is checked, PLAY, NOP
@@ -53,11 +54,12 @@ def assemble(
     """Construct a loop."""
     board = context.board
     snap_m = bank.snap_m(board) if skips.cells else -1.0
-    selection = Selection(bank, snap_m, board.idle_word, board.waveform.band_hz, ready=skips.cells)
+    selection = selection_of(bank, board, snap_m, ready=skips.cells)
     occupancy = Occupancy(context.clock_estimate, board.waveform.duration_s, board.limits.max_duty)
+    fpgas = max(len(board.link.fpga), 1)
     timing = HostTiming(
-        board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),
-        board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES),
+        board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES) * fpgas,
+        board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES) * fpgas,
         occupancy.apart_s,
     )
     sender = Sender(context, selection, occupancy, board.link.slots, skips)

@@ -15,7 +15,9 @@ from controller.device.fpga.bitstream_loader import BitstreamLoader
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.links.lazy_link import LazyLink
 from controller.device.fpga.links.link import Link
+from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.session import Session
+from controller.device.fpga.wide_session import WideSession
 from controller.device.touch import panels
 from controller.device.touch.drivers.awaited_reader import AwaitedReader
 from controller.device.touch.drivers.panel_process import PanelProcess, PanelSettings
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from controller.device.touch.recordings.recording import Recording
 
 NO_PANEL = "board {!r} has no touch panel: give its [touch] a kind, or replay a recording"
+ONLY_SIMULATED = "board {!r}: link.fpga: several FPGAs are only simulated yet: run it with --link model or rtl"
 OpenLink = Callable[[Board, Callable[[], float]], Link]  # of a board and the host's clock
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
 
@@ -45,6 +48,8 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
     An `unhurried` link waits longer for answers over a serial port: for bring-up, not for the event loop. Raises ConfigError if it
     is simulated; LinkError if its device cannot be opened.
     """
+    if board.link.fpga:
+        raise ConfigError(ONLY_SIMULATED.format(board.name))
     if board.link.kind == "spi":
         from controller.device.fpga.links.spi_link import SpiLink
 
@@ -58,6 +63,8 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
 
 def await_session(board: Board, now_s: Callable[[], float], open_fpga: OpenLink = open_link) -> tuple[Link, Session]:
     """Link and session of an FPGA that may not be connected yet; nothing is sent before `bring_up`."""
+    if board.link.fpga:
+        raise ConfigError(ONLY_SIMULATED.format(board.name))
     link = LazyLink(lambda: open_fpga(board, now_s), now_s)
     session = Session(link, board, gateware_hash(), now_s, bring_up=False)
     if board.gateware is not None:
@@ -77,6 +84,8 @@ def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Sessio
 
     Raises LinkError if it does not answer, or runs another gateware.
     """
+    if isinstance(link, LinkGroup):
+        return WideSession(link, board, gateware_hash(), now_s)
     return Session(link, board, gateware_hash(), now_s)
 
 

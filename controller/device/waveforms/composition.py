@@ -63,11 +63,14 @@ class Composer:
         self._words = bytearray(4 * bank.samples)
         self._view = memoryview(self._words).toreadonly()
 
-    def compose(self, points: Sequence[Point]) -> memoryview:
+    def compose(self, points: Sequence[Point], polarities: bytearray | None = None) -> memoryview:
         """Drive words that make every point jump at T, up or down, whichever lets all of them jump farther.
 
         Points within 2.8 mm of each other (at the simulated board's wavelength) are one place and get the smallest of their
         amplitudes. No point gets more than it asks for.
+
+        `polarities` are `MAX_FOCI` signed bytes: as another composer left them, where this one drives further patches of the same
+        plate; all 0: chosen here.
 
         There are 1 to `MAX_FOCI` points; those beyond the outermost cells take the nearest place among the cells. Returns 4 bytes a
         sample, as they go to the wire; valid until the next call. Raises BankError if a cell that a point needs is not in the bank,
@@ -76,7 +79,11 @@ class Composer:
         responses = self._bank.responses
         if not self._buffers.response:
             self._buffers = self._buffers._replace(response=responses.section)
-        while (cell := kernel.compose(self._words, self._room, self._buffers, points)) >= 0:
+        if polarities is None:
+            while (cell := kernel.compose(self._words, self._room, self._buffers, points)) >= 0:
+                responses.check(cell)
+            return self._view
+        while (cell := kernel.compose(self._words, self._room, self._buffers, points, polarities)) >= 0:
             responses.check(cell)
         return self._view
 

@@ -111,8 +111,10 @@ class Selection:
         """Name of the waveform that tests a channel."""
         return ((channel, 0, CHANNEL),)
 
-    def waveform(self, key: Key) -> Waveform:
+    def waveform(self, key: Key, polarities: bytearray | None = None) -> Waveform:
         """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
+
+        `polarities` as in `Composer.compose`.
 
         With frames comes the CRC-32 with which they were built, so that the FPGA finds whatever changed since. Points that the bank
         has composed beforehand are taken from there; if that is damaged, they are composed here.
@@ -131,7 +133,7 @@ class Selection:
             self._composer = Composer(self._bank, self._idle_word)
         lattice_m = self.lattice_m
         points = self.foci(key)
-        words = self._composer.compose(points)
+        words = self._composer.compose(points, polarities)
         if len(points) < len(key):
             self._composer.keep_still(points, [(x * lattice_m, y * lattice_m, 1.0) for x, y, step in key if step == NULL])
         self._bank.file.require_unchanged()

@@ -18,7 +18,7 @@ from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.board.paths import bank_path, build_line
+from controller.device.board.paths import bank_files, bank_path, build_line
 from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
@@ -63,26 +63,32 @@ class Order:
         """Cells of the grid that the scene can reach; None: all."""
         return None if self.scene is None or self.compact else reached(self.board, self.scene, self.pitch_m)
 
-    def build(self, path: Path, cells: NDArray[np.bool_] | None = None, *, progress: bool = True, **how: Any) -> BuildReport:
-        """Build it, its file beside or in place of another.
+    def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
+        """Build it, its file beside or in place of another; for several FPGAs a file for each, of which the first is reported.
 
         `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`. Raises
         ConfigError or BankError.
         """
-        refuse_coarse(self.board, self.pitch_m)
+        files = bank_files(path, len(self.board.link.fpga))
+        own = bank_files(self.own_path, len(self.board.link.fpga))
+        reports = [self.build_one(*each, cells, **how) for each in zip(self.board.fpga_boards, files, own, strict=True)]
+        return reports[0]
+
+    def build_one(self, board: Board, path: Path, own: Path, cells: NDArray[np.bool_] | None, **how: Any) -> BuildReport:
+        """Build the file of one FPGA, of the patches that it drives; `own` is where `run` looks for it."""
+        refuse_coarse(board, self.pitch_m)
         return build_bank(
             BankRequest(
-                self.board,
+                board,
                 path,
                 self.pitch_m,
                 self.cells if cells is None else cells,
                 emitters=self.scene.emitters if self.scene else (),
                 scene=self.scene_file.name if self.scene_file else None,
-                progress=progress,
-                overwrite=path == self.own_path,
+                overwrite=path == own,
                 choice=self.choice,
                 compact=self.compact,
-                **how,
+                **{"progress": True, **how},
             )
         )
 
@@ -135,10 +141,18 @@ def own_bank(board: Board, scene: Scene, scene_file: Path) -> Bank:
 
     Raises BankError if it does not suit and was measured, or cannot be built.
     """
-    path = find_bank(board).path
+    path, fpgas = find_bank(board).path, len(board.link.fpga)
+    for one, file, to in zip(board.fpga_boards, bank_files(path, fpgas), bank_files(bank_path(board), fpgas), strict=True):
+        if _renewed(one, scene, scene_file, file, to):
+            path = bank_path(board)
+    return Bank.open(path, board)
+
+
+def _renewed(board: Board, scene: Scene, scene_file: Path, path: Path, to: Path) -> bool:
+    """Build the bank of one FPGA at `to` unless the one at `path` suits; whether it was built. Raises as `own_bank`."""
     wanted, found = _wanted(board, scene, scene_file, path)
     if not found.reason:
-        return Bank.open(path, board)
+        return False
     if measured_at(path):
         raise BankError(
             f"{path}: {found.reason}; its responses were measured, so it is not replaced by one from the plate model: build it"
@@ -147,9 +161,8 @@ def own_bank(board: Board, scene: Scene, scene_file: Path) -> Bank:
     tell(f"building the bank {path}: {found.reason}; {int(found.cells.sum()):,} cells, some seconds")
     if aim := optimised_for(path):
         tell(f"its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}")
-    path = bank_path(board)
-    warn_of_pitch(path, wanted.build(path, found.cells))
-    return Bank.open(path, board)
+    warn_of_pitch(to, wanted.build_one(board, to, to, found.cells))
+    return True
 
 
 def warn_of_pitch(path: Path, report: BuildReport) -> None:

@@ -39,6 +39,13 @@ class Gateware(Protocol):
     def now(self) -> int:
         """The current tick."""
 
+    @property
+    def fault(self) -> bool:
+        """Whether `fault_o` is high now."""
+
+    def next_change(self) -> int | None:
+        """Next tick in which something may happen without further input; None if nothing will."""
+
     def advance(self, tick: int) -> None:
         """Advance to `tick`; does nothing if that has passed."""
 

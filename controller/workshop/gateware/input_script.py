@@ -122,6 +122,15 @@ class InputRecorder:
         return self._model.now
 
     @property
+    def fault(self) -> bool:
+        """As of `Gateware`."""
+        return self._model.fault
+
+    def next_change(self) -> int | None:
+        """As of `Gateware`."""
+        return self._model.next_change()
+
+    @property
     def script(self) -> InputScript:
         """All of it up to now."""
         return InputScript(self._parameters, self.now, self._steps)

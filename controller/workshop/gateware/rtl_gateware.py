@@ -20,12 +20,13 @@ from numpy.typing import NDArray
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.capture import Capture
 from controller.workshop.gateware.gateware import Permit
-from controller.workshop.gateware.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, UartTiming
+from controller.workshop.gateware.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, UartTiming, sck_rise_tick
 from controller.workshop.gateware.rtl_build import Design, build_library
 
 TRIGGER: Final = 0  # pins, as in wrapper.cpp
 PINS: Final = {Permit.RUN: 1, Permit.TEMPERATURE: 2}
 UART: Final = 3
+FOLLOWED_TICKS: Final = 200
 LINES: Final = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "uart_ticks")  # as in wrapper.cpp
 
 
@@ -44,11 +45,23 @@ class RtlGateware:
         weakref.finalize(self, self._library.panel_close, self._panel)
         self._timing = InputTiming()
         self._uart = UartTiming.of(parameters)
+        self._fault = False  # `fault_o` at the end of the last capture
+        # Called while a frame is on the wire, every `FOLLOWED_TICKS`, with the tick reached; None: frames are exchanged whole
+        self.followed: Callable[[int], None] | None = None
 
     @property
     def now(self) -> int:
         """Tick up to which it has been computed."""
         return int(self._library.panel_now(self._panel))
+
+    @property
+    def fault(self) -> bool:
+        """Whether `fault_o` is high."""
+        return self._fault ^ bool(self._library.panel_line_changes(self._panel, LINES.index("fault_ticks")) & 1)
+
+    def next_change(self) -> int | None:
+        """The next tick: what happens in it is not known before."""
+        return self.now
 
     def advance(self, tick: int) -> None:
         """Compute up to `tick`; earlier ticks change nothing."""
@@ -71,6 +84,9 @@ class RtlGateware:
         self._not_past("chip select falls", select_tick)
         sent = np.frombuffer(mosi, np.uint8) if len(mosi) else np.empty(0, np.uint8)
         self._timing.frame(select_tick, release_tick, sent.size)
+        if self.followed is not None and sent.size:
+            miso[:] = self._exchange_in_steps(select_tick, release_tick, sent).data
+            return
         received = np.empty(sent.size, np.uint8)
         self._library.panel_exchange(self._panel, select_tick, release_tick, sent.size, sent.ctypes.data, received.ctypes.data)
         miso[:] = received.data
@@ -92,8 +108,26 @@ class RtlGateware:
         self._library.panel_wave(self._panel, levels.size, levels.ctypes.data, miso.ctypes.data)
         return miso
 
+    def _exchange_in_steps(self, select_tick: int, release_tick: int, sent: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """As `exchange`, with `followed` called on the way; computed up to one tick behind `release_tick`."""
+        assert self.followed is not None
+        bits = 8 * sent.size
+        rises = np.array([sck_rise_tick(select_tick, release_tick, sent.size, bit) for bit in range(bits + 1)]) - select_tick
+        falls = (rises[:-1] + rises[1:]) // 2
+        ticks = np.arange(release_tick - select_tick)
+        bit = np.minimum(np.searchsorted(falls, ticks, "right"), bits - 1)
+        levels = np.ones(len(ticks) + 1, np.uint8)  # chip select rises behind the frame
+        levels[:-1] = 2 * ((ticks >= rises[bit]) & (ticks < falls[bit])) + 4 * np.unpackbits(sent)[bit]
+        self.advance(select_tick)
+        miso = []
+        for first in range(0, len(levels), FOLLOWED_TICKS):
+            miso.append(self.wave(levels[first : first + FOLLOWED_TICKS]))
+            self.followed(self.now)
+        return np.packbits(np.concatenate(miso)[rises[:-1] - 1])
+
     def take_capture(self) -> Capture:
         """Return and clear the recorded changes of the output pins since the last capture."""
+        self._fault = self.fault
         changes = self._library.panel_changes(self._panel)
         capture = Capture(
             np.empty(changes, np.uint64),

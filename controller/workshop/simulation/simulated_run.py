@@ -32,7 +32,8 @@ from controller.device.touch.recordings.replay import RecordingSource
 from controller.metrics import Counters, LatencyHistogram
 from controller.workshop.gateware.gateware import GatewareFactory
 from controller.workshop.gateware.model.model import GatewareModel
-from controller.workshop.gateware.simulated_link import SimulatedLink, open_simulated
+from controller.workshop.gateware.simulated_link import SimulatedLink
+from controller.workshop.gateware.wired_fpgas import SimulatedFpgas, open_simulated_panel
 from controller.workshop.simulation.drift import Drift
 
 SETTLE_S = 50e-3  # between arming and the first event of the recording
@@ -55,16 +56,16 @@ MODEL = Hardware()
 
 @dataclass(frozen=True)
 class Run:
-    """Record of a run. The plate twin sees only `capture`; everything else is for the figures."""
+    """Record of a run. The plate twin sees only `captures`; everything else is for the figures."""
 
     board: Board
     recording: Recording
     source: RecordingSource
     tracks: dict[int, Track]  # by the loop's finger number: all contacts of that finger joined
     counters: Counters
-    capture: Capture
+    captures: list[Capture]  # of each FPGA
     played: list[Played]
-    link: SimulatedLink
+    link: SimulatedLink | SimulatedFpgas
     start_s: float
     real_time: bool
     touch: dict[str, Any]  # figures of the tracker
@@ -74,6 +75,11 @@ class Run:
     plate: Board  # whose plate is played on
     drift: Drift | None
     bit_clock: BitClock | None  # that follows the plate's temperature
+
+    @property
+    def capture(self) -> Capture:
+        """That of the first FPGA, in whose ticks the foci of all are."""
+        return self.captures[0]
 
 
 def play(
@@ -89,7 +95,7 @@ def play(
 ) -> Run:
     """Replay a recording through the event loop into the gateware; raises FaultError or LinkError from the event loop."""
     clock = MonotonicClock() if real_time else VirtualClock()
-    link = open_simulated(board, clock.now_s, hardware.gateware)
+    link = open_simulated_panel(board, clock.now_s, hardware.gateware)
     session = open_session(link, board, clock.now_s)
     played: list[Played] = []
     start_s = session.earliest_trigger_s() + board.limits.arming_s + (REAL_SETTLE_S if real_time else SETTLE_S)
@@ -117,7 +123,7 @@ def play(
         source=source,
         tracks={finger: Track.joined(finger, parts) for finger, parts in contacts.items()},
         counters=assembly.counters,
-        capture=link.take_capture(),
+        captures=link.take_captures(),
         played=played,
         link=link,
         start_s=start_s,

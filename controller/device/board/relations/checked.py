@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 PARTS = (panel_relations, plate_relations, limit_relations, stage_relations, device_relations)
 RELATIONS = tuple(found for part in PARTS for found in vars(part).values() if isinstance(found, Relation))
 
+OF_ONE_FPGA = frozenset(found for found in vars(stage_relations).values() if isinstance(found, Relation))  # each limits its own
+
 
 class BoardProblems(NamedTuple):
     """What is wrong with a board as a whole, one line each."""
@@ -36,5 +38,6 @@ def judge(board: Board, without: Collection[Relation] = ()) -> BoardProblems:
     found: dict[bool, list[str]] = {True: [], False: []}
     for relation in RELATIONS:
         if relation not in without:
-            found[relation.refuses] += relation.broken(board)
+            boards = board.fpga_boards if relation in OF_ONE_FPGA else (board,)
+            found[relation.refuses] += dict.fromkeys(said for one in boards for said in relation.broken(one))
     return BoardProblems(tuple(found[True]), tuple(found[False]))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from controller.device.board.panel import CHANNELS
+from controller.device.board.panel import CHANNELS, FPGAS_MAX
 from controller.device.board.patches import TOUCHING_MM, discs
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.board.relations.relation import refuses, warns
@@ -38,9 +38,10 @@ def coarse(board: Board, pitch_mm: float) -> Iterator[str]:
 
 @refuses("`actuators`")
 def _count(board: Board) -> Iterator[str]:
-    """There are 1 to 32."""
-    if not 1 <= len(board.actuators) <= CHANNELS:
-        yield f"actuators are {len(board.actuators)}; a board has 1 to {CHANNELS} channels"
+    """There are 1 to 32 for each FPGA."""
+    most = CHANNELS * max(len(board.link.fpga), 1)
+    if not 1 <= len(board.actuators) <= most:
+        yield f"actuators are {len(board.actuators)}; a board has 1 to {most} channels"
 
 
 @refuses("`actuators.channel`")
@@ -50,6 +51,38 @@ def _channels(board: Board) -> Iterator[str]:
     for index, actuator in enumerate(board.actuators):
         if first.setdefault(actuator.channel, index) != index:
             yield f"actuators[{index}].channel = {actuator.channel} is taken by actuators[{first[actuator.channel]}] already"
+
+
+@refuses("`link.fpga`, `actuators.channel`")
+def _fpgas(board: Board) -> Iterator[str]:
+    """Each of two to four FPGAs has a channel, and there is no channel of another."""
+    fpgas = len(board.link.fpga)
+    if fpgas == 1 or fpgas > FPGAS_MAX:
+        yield f"link.fpga are {fpgas}; give 2 to {FPGAS_MAX}, or leave it out"
+        return
+    driven = {actuator.channel // CHANNELS for actuator in board.actuators}
+    if beyond := driven - set(range(max(fpgas, 1))):
+        yield (
+            f"actuators.channel: there are channels from {CHANNELS * min(beyond)} on, and FPGAs for {CHANNELS * max(fpgas, 1)}:"
+            " give a further [[link.fpga]]"
+        )
+    elif idle := set(range(fpgas)) - driven:
+        yield f"link.fpga[{min(idle)}] has no channel: give it actuators with channels from {CHANNELS * min(idle)} on"
+
+
+@refuses("`link.fpga`, `patches`, `gateware`, `compose.method`")
+def _together(board: Board) -> Iterator[str]:
+    """Several FPGAs are not loaded by the host, and play a bank as `bank` says on a plate that its patches do not stiffen."""
+    if not board.link.fpga:
+        return
+    for key, given in (
+        ("patches", board.patches is not None),
+        ("gateware", board.gateware is not None),
+        ("compose.method", board.compose.method != "bank"),
+        ("link.kind", board.link.kind == "serial"),
+    ):
+        if given:
+            yield f"link.fpga: several FPGAs do not go with this {key} yet: take it out"
 
 
 @refuses("`actuators.x_mm`, `y_mm`, `size_mm`, `plate.length_mm`, `width_mm`")
@@ -212,4 +245,5 @@ def _bank_size(board: Board) -> Iterator[str]:
         )
 
 
-PLACES = (_count, _channels, _on_plate, _apart, _patches)  # of patches on a plate: what any plate must keep, whatever plays on it
+# Of patches on a plate: what any plate must keep, whatever plays on it
+PLACES = (_count, _channels, _fpgas, _on_plate, _apart, _patches)

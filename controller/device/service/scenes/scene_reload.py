@@ -16,7 +16,7 @@ from controller.device.scene.scene import Scene
 from controller.device.scene.scene_file import find_scene
 from controller.device.service.scenes.helper_process import Helper
 from controller.device.service.scenes.scene_message import pack_request, unpack_scene
-from controller.device.waveforms.selection import Selection
+from controller.device.waveforms.wide_selection import selection_of
 from controller.errors import ConfigError, ControllerError
 
 LIMIT_S = 30.0  # time limit of one preparation; the bank may have to be read from a slow card
@@ -87,7 +87,7 @@ class SceneChanger:
         board = self._board
         try:
             bank = Bank.open(self._bank.path, board)
-            selection = Selection(bank, bank.snap_m(board), board.idle_word, board.waveform.band_hz)
+            selection = selection_of(bank, board, bank.snap_m(board))
             selection.prepare()
         except ControllerError as error:
             return PreparedScene(self._ticket, None, reason=str(error))

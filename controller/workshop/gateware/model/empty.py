@@ -15,6 +15,15 @@ class EmptyFpga:
     def __init__(self) -> None:
         self.now = 0
 
+    @property
+    def fault(self) -> bool:
+        """The pin floats, and is pulled to what stops the others."""
+        return True
+
+    def next_change(self) -> int | None:
+        """Nothing ever happens."""
+        return None
+
     def advance(self, tick: int) -> None:
         """As in `Gateware`."""
         self.now = max(self.now, tick)

@@ -49,6 +49,11 @@ class GatewareModel:
         """The current tick."""
         return self._events.now
 
+    @property
+    def fault(self) -> bool:
+        """Whether a fault is latched."""
+        return bool(self._gate.faults)
+
     def advance(self, tick: int) -> None:
         """Advance to `tick`; does nothing if that has passed."""
         while (change := self.next_change()) is not None and change < tick:

@@ -1,0 +1,197 @@
+"""A session with several FPGAs that play as one: on one clock, one trigger line, and one line of run permit and faults.
+
+Each FPGA has its own ticks, of one clock, counted since its own reset. A pulse of the trigger line, which all see in the same tick,
+says how far they are apart; so what begins at a time begins in the same tick on all pins, as what the trigger starts does. The
+pulse is given with the outputs off, in each bring-up, and proves the line as well.
+
+A fault of one shuts all by the wire, not by this host: the line of the run permit is low while one of them reports a fault, so that
+the others shut for NO_PERMIT. Raised is what the first one had.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+from controller.device.board.board import Board
+from controller.device.fpga.belief import BUSY
+from controller.device.fpga.exchange import OutOfStep
+from controller.device.fpga.frames import Play, Waveform, parted
+from controller.device.fpga.links.link_group import LinkGroup
+from controller.device.fpga.registers import Fault, Register, Start, State
+from controller.device.fpga.session import Session
+from controller.device.fpga.status import Status
+from controller.errors import ControllerError, FaultError, LinkError
+
+ANY: Final = State.HV_ENABLE | BUSY  # of a state: true if it is of one FPGA; the others if they are of all
+
+
+class WideSession(Session):
+    """The session of the first FPGA, which those of the others follow: each step is done with all, or with none.
+
+    Waveforms are those of all FPGAs (`frames.joined`). Start.NOW is for single FPGAs. Parameters and errors as of `Session`.
+    """
+
+    def __init__(
+        self, links: LinkGroup, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True
+    ) -> None:
+        boards = board.fpga_boards
+        self._others = [
+            Session(link, one, build_hash, now_s, bring_up=False) for link, one in zip(links.links[1:], boards[1:], strict=True)
+        ]
+        self._ahead_ticks = [0] * len(self._others)  # by which the ticks of each are ahead of the first one's
+        self._emissions: list[int] = []  # of each when they last were at rest; empty: not known
+        super().__init__(links, boards[0], build_hash, now_s, bring_up=bring_up)
+
+    @property
+    def on_anywhere(self) -> bool:
+        """As in `Supervision`, of all FPGAs."""
+        return self.may_be_on or any(one.may_be_on for one in self._others)
+
+    @property
+    def heartbeat_due_s(self) -> float:
+        """When the next heartbeat is due, of whichever FPGA is the first to need one."""
+        return min([self.exchange.heartbeat_due_s, *[one.exchange.heartbeat_due_s for one in self._others]])
+
+    def bring_up(self) -> None:
+        """As in `Supervision`, of all FPGAs; then the ticks of each are compared.
+
+        Raises LinkError if the trigger line does not reach one of them.
+        """
+        for one in self._others:
+            one.bring_up()
+        super().bring_up()
+        self._compare_ticks()
+
+    def arm(self) -> float:
+        """As in `Session`, of all FPGAs; when the last ramp ends."""
+        self._emissions = []
+        self.ramp_end_s = super().arm()
+        for one in self._others:
+            one.counters, one.never_began = self.counters, self.never_began
+            self.ramp_end_s = max(self.ramp_end_s, one.arm())
+        return self.ramp_end_s
+
+    def disarm(self) -> float:
+        """As in `Session`, of all FPGAs, also if one of them does not answer; when the last ramp ends."""
+        ends_s, failed = [], []
+        for disarm in (super().disarm, *[one.disarm for one in self._others]):
+            try:
+                ends_s.append(disarm())
+            except (LinkError, FaultError) as error:
+                failed.append(error)
+        _raise_first(failed)
+        self.ramp_end_s = max(ends_s)
+        return self.ramp_end_s
+
+    def off(self) -> None:
+        """As in `Supervision`, of all FPGAs."""
+        super().off()
+        for one in self._others:
+            one.off()
+
+    def heartbeat(self) -> Status:
+        """As in `Session`, of all FPGAs; the status of the first one, with the state of all.
+
+        Raises OutOfStep if they have played different numbers of emissions.
+        """
+        statuses, failed = [], []
+        for heartbeat in (super().heartbeat, *[one.heartbeat for one in self._others]):
+            try:
+                statuses.append(heartbeat())
+            except (LinkError, FaultError) as error:
+                failed.append(error)
+        _raise_first(failed)
+        state = statuses[0].state
+        for status in statuses[1:]:
+            state = state & status.state | (state | status.state) & ANY
+        if self._armed and not state & BUSY:
+            self._compare_emissions([status.emissions for status in statuses])
+        return statuses[0]._replace(state=state)
+
+    def play(self, play: Play, *, stop: bool) -> None:
+        """As in `Session`, on all FPGAs, or none."""
+        super().play(play, stop=stop)
+        self._follow(play, stop=stop)
+
+    def upload(self, slot: int, waveform: Waveform) -> None:
+        """As in `Session`, to all FPGAs."""
+        first, *others = parted(waveform, 1 + len(self._others))
+        super().upload(slot, first)
+        for one, part in zip(self._others, others, strict=True):
+            one.upload(slot, part)
+
+    def upload_and_play(self, play: Play, waveform: Waveform, *, stop: bool) -> None:
+        """As in `Session`, on all FPGAs, or none: nothing is queued before all have their waveform."""
+        first, *others = parted(waveform, 1 + len(self._others))
+        for one, part in zip(self._others, others, strict=True):
+            one.upload(play.slot, part)
+        super().upload_and_play(play, first, stop=stop)
+        self._follow(play, stop=stop)
+
+    def stop(self) -> None:
+        """As in `Session`, on all FPGAs."""
+        super().stop()
+        for one in self._others:
+            one.stop()
+
+    def trigger(self) -> float:
+        """As in `Session`: one edge starts what waits in all FPGAs."""
+        at_s = super().trigger()
+        for one in self._others:
+            one.belief.triggered()
+        return at_s
+
+    def set_bit_period(self, scale: float) -> bool:
+        """As in `Session`, of all FPGAs, or of none."""
+        before = self._board.bit_period / self.bit_period
+        setters = (super().set_bit_period, *[one.set_bit_period for one in self._others])
+        for number, set_one in enumerate(setters):
+            if not set_one(scale):
+                for changed in setters[:number]:
+                    changed(before)
+                return False
+        return True
+
+    def _follow(self, play: Play, *, stop: bool) -> None:
+        """Have the others accept what the first FPGA has accepted; it is withdrawn from all if one does not."""
+        try:
+            for one, ahead_ticks in zip(self._others, self._ahead_ticks, strict=True):
+                own = play._replace(when_ticks=play.when_ticks + ahead_ticks) if play.start is Start.TIME else play
+                one.play(own, stop=stop)
+        except ControllerError:
+            self._emissions = []  # what was to begin just now may have begun where it was accepted
+            self.stop()
+            raise
+
+    def _compare_ticks(self) -> None:
+        """Pulse the trigger line, with nothing queued and the outputs off, and note how far the ticks are apart."""
+        sessions = (self, *self._others)
+        before = [one.exchange.read(Register.TRIGGERS) for one in sessions]
+        self.link.trigger()
+        ticks = []
+        for number, (one, count) in enumerate(zip(sessions, before, strict=True)):
+            seen = one.exchange.read(Register.TRIGGERS) - count & 0xFFFFFFFF
+            if seen != 1:
+                raise LinkError(f"FPGA {number} saw {seen} edges of the trigger line and not one: is the line wired to each FPGA?")
+            low = one.exchange.read(Register.TRIGGER_TIME_LOW)
+            ticks.append(one.exchange.read(Register.TRIGGER_TIME_HIGH) << 32 | low)
+        self._ahead_ticks = [tick - ticks[0] for tick in ticks[1:]]
+
+    def _compare_emissions(self, emissions: list[int]) -> None:
+        """Compare how many emissions each FPGA has had since they were last at rest, as they are now."""
+        if self._emissions:
+            had = [now - before & 0xFFFFFFFF for now, before in zip(emissions, self._emissions, strict=True)]
+            if len(set(had)) > 1:
+                self._emissions = []
+                raise OutOfStep(f"the FPGAs have played {', '.join(map(str, had))} emissions where all were to play the same")
+        self._emissions = emissions
+
+
+def _raise_first(failed: list[LinkError | FaultError]) -> None:
+    """Raise what came first, if anything: a fault before an error of the link; NO_PERMIT, which the wire makes of it, last."""
+    if not failed:
+        return
+    faults = [error for error in failed if isinstance(error, FaultError)]
+    causes = [error for error in faults if Fault(error.faults) & ~Fault.NO_PERMIT]
+    raise (causes or faults or failed)[0]
