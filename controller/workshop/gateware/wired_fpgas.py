@@ -87,8 +87,8 @@ class WiredFpgas:
         return self.gatewares[number].now + self.ready_ticks[number]
 
     def _own(self, number: int, tick: int) -> int:
-        """A tick as one of them counts it; its reset, if it has not ended yet."""
-        return max(tick - self.ready_ticks[number], self.gatewares[number].now, 0)
+        """A tick as one of them counts it; its first, before its reset has ended."""
+        return max(tick - self.ready_ticks[number], 0)
 
     def _follow(self, number: int, own_tick: int) -> None:
         """Have the others reach the tick at which one of them is within a frame."""

@@ -13,7 +13,7 @@ from tables import each_row
 from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
 from controller.device.board.board import load_board
-from controller.device.board.devices import ApplicationSocket, Temperature
+from controller.device.board.devices import ApplicationSocket, LinkedFpga, Temperature
 from controller.device.board.lookup import data_folder, find_board
 from controller.device.board.panel import Compose, Damping, DecayAt
 from controller.device.board.patches import Patches
@@ -91,12 +91,26 @@ BROAD_F = capacitance_at(0.5)
 EDGES_HZ = 0.25 / worst_edge_j(BOARD.driver)
 RAMP_MS = 53e3 * 0.25 / (500e3 * RAMP_EDGES) * 1e3
 MODES_HZ = 50 * (WAVE_MM * 1e-3) ** 2 * HIGH / (math.pi * 0.21 * 0.148)
+TWO = (LinkedFpga(device="/dev/spidev0.0"), LinkedFpga(device="/dev/spidev0.1"))
 CELLS_MM = math.sqrt(210 * 148 * 1000 * BANK_BYTES / 4e9)
 
 # of each relation: what a board is that just keeps it, and one that just breaks it
 JUST = {
     "_count": ({"actuators": BOARD.actuators[:1]}, {"actuators": ()}),
     "_channels": ({}, {"actuators": patch(3, channel=2)}),
+    "_fpgas": (
+        {"actuators": patch(31, channel=32), "link__fpga": TWO},
+        {"actuators": patch(31, channel=64), "link__fpga": TWO},
+    ),
+    "_together": (
+        {"link__fpga": (LinkedFpga(device="/dev/spidev0.0"),) * 2, "gateware": None, "patches": None},
+        {
+            "link__fpga": (LinkedFpga(device="/dev/spidev0.0"),) * 2,
+            "gateware": None,
+            "patches": None,
+            "compose": Compose(method="auto"),
+        },
+    ),
     "_on_plate": ({"actuators": patch(0, x_mm=2.3)}, {"actuators": patch(0, x_mm=2.29)}),
     "_apart": ({"actuators": patch(0, x_mm=31.5 - 4.6)}, {"actuators": patch(0, x_mm=31.5 - 4.59)}),
     "_patches": (

@@ -163,3 +163,28 @@ def test_a_plan_is_read_only_and_what_is_filled_is_not(one):
         wrong = [bytes(some) if index == which else some for index, some in enumerate(made)]
         with pytest.raises((BufferError, TypeError, ValueError)):
             compose_with(one, wrong, [(5e-3, 6e-3, 1.0)])
+
+
+@both
+def test_polarities_that_other_words_have_are_taken_and_those_chosen_are_given(one):
+    rng = np.random.default_rng(5)
+    given_buffers = buffers(rng, 200, 4, 4, 0x69969669, 48)
+    points = [(6e-3, 7e-3, 1.0), (9e-3, 12e-3, 0.6), (12e-3, 8e-3, 1.0)]
+    chosen = bytearray(kernel.MAX_FOCI)
+    words, room, *rest = given_buffers
+    assert one.compose(words, room, kernel.BankBuffers(*rest), points, chosen) == -1
+    plain = bytes(words)
+    assert compose_with(one, given_buffers, points) == -1
+    assert bytes(words) == plain
+    assert sorted(set(chosen[:3])) in ([1], [1, 255])
+    assert not any(chosen[3:])
+    turned = bytearray(bytes(256 - sign if sign else 0 for sign in chosen[:1]) + chosen[1:])
+    kept = bytes(turned)
+    assert one.compose(words, room, kernel.BankBuffers(*rest), points, turned) == -1
+    assert bytes(turned) == kept
+    assert bytes(words) != plain
+    twin = bytearray(len(words))
+    assert words_twin.compose(twin, room, kernel.BankBuffers(*rest), points, bytearray(kept)) == -1
+    assert bytes(words) == bytes(twin)
+    with pytest.raises(ValueError, match="9 polarities, not 10"):
+        one.compose(words, room, kernel.BankBuffers(*rest), points, bytearray(9))

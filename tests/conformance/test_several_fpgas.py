@@ -1,0 +1,198 @@
+"""Two FPGAs on one clock, one trigger line and one line of run permit: their pins in the same tick, a fault of one shuts both."""
+
+import numpy as np
+import pytest
+from tables import each_row
+
+from controller.clocks import VirtualClock
+from controller.device.board.board import load_board
+from controller.device.board.lookup import find_board
+from controller.device.fpga.exchange import HostSilent, OutOfStep, Refused
+from controller.device.fpga.frames import Play, ReadyFrames, joined, parted
+from controller.device.fpga.recovery import Action, Recovery, action_for
+from controller.device.fpga.registers import Control, Fault, Result, Start, State
+from controller.device.fpga.session import Session
+from controller.device.fpga.wide_session import WideSession
+from controller.device.service.drivers import open_session
+from controller.errors import FaultError, LinkError
+from controller.workshop.gateware.gateware import Permit
+from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.gateware.wired_fpgas import LINE_TICKS, SimulatedFpgas
+
+BOARD = load_board(find_board("simulated_64"), several=True)
+HZ = BOARD.link.clock_hz
+SHUT_TICKS = HZ // 10_000  # 100 us
+PARTS = [memoryview(np.random.default_rng(seed).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)) for seed in (7, 8)]
+WORDS = joined(PARTS)
+
+
+class Panel:
+    """Two FPGAs whose resets end at different ticks, with their outputs on."""
+
+    def __init__(self, back_end, ready_ticks=(0, 31_415)):
+        self.clock = VirtualClock()
+        self.link = SimulatedFpgas(BOARD, self.clock.now_s, back_end, ready_ticks)
+        self.session = open_session(self.link, BOARD, self.clock.now_s)
+        assert isinstance(self.session, WideSession)
+        self.clock._now_s = self.session.arm()
+        self.session.require_armed()
+        self.link.take_captures()
+
+    def wait(self, seconds):
+        self.clock._now_s = max(self.clock.now_s(), self.link.wire_free_s()) + seconds
+
+    def captures(self):
+        self.link.close()
+        return self.link.take_captures()
+
+    def off_ticks(self):
+        """Tick in which the high voltage of each FPGA went off."""
+        found = [capture.ticks[capture.hv == 0] for capture in self.captures()]
+        assert [len(ticks) for ticks in found] == [1, 1]
+        return [int(ticks[0]) for ticks in found]
+
+
+@pytest.fixture
+def panel():
+    return Panel(GatewareModel)
+
+
+def test_all_pins_play_in_the_same_tick_by_the_trigger_and_at_a_time(back_end):
+    panel = Panel(back_end)
+    session = panel.session
+    session.upload_and_play(Play(1), WORDS, stop=False)
+    session.trigger()
+    panel.wait(3e-3)
+    when = session.heartbeat().timestamp_ticks + HZ // 1000
+    session.play(Play(1, start=Start.TIME, when_ticks=when), stop=False)
+    panel.wait(5e-3)
+    assert session.heartbeat().emissions == 2
+    first, second = panel.captures()
+    assert first.focus_ticks.tolist() == second.focus_ticks.tolist()
+    assert first.focus_ticks[1] == when + BOARD.emission_ticks
+    for capture, words in zip((first, second), PARTS, strict=True):
+        starts = capture.focus_ticks - BOARD.emission_ticks
+        for start in starts.astype(np.int64):
+            ticks = start + np.arange(1000) * BOARD.bit_ticks
+            on_pins = capture.words[np.searchsorted(capture.ticks, ticks, "right") - 1]
+            assert on_pins.tobytes() == bytes(words)
+
+
+@each_row(
+    ("number", "which", "fault"),
+    [
+        (0, Permit.TEMPERATURE, Fault.OVER_TEMPERATURE),
+        (1, Permit.TEMPERATURE, Fault.OVER_TEMPERATURE),
+        (0, Permit.RUN, Fault.NO_PERMIT),
+    ],
+)
+def test_what_shuts_one_shuts_both_and_its_cause_is_said(number, which, fault):
+    shut_by(Panel(GatewareModel), number, which, fault)
+
+
+def test_heat_at_one_shuts_both(back_end):
+    shut_by(Panel(back_end), 1, Permit.TEMPERATURE, Fault.OVER_TEMPERATURE)
+
+
+def shut_by(panel, number, which, fault):
+    """A permit of one of them is lost: both are off in time and say why, and both can be armed again."""
+    at = panel.link.tick(panel.clock.now_s()) + 1000
+    panel.link.panel.permit(number, at, level=False, which=which)
+    panel.wait(1e-3)
+    with pytest.raises(FaultError) as said:
+        panel.session.heartbeat()
+    assert said.value.faults == fault
+    assert all(at < tick <= at + LINE_TICKS + 8 <= at + SHUT_TICKS for tick in panel.off_ticks())
+    panel.link.panel.permit(number, panel.link.panel.now + 1000, level=True, which=which)
+    panel.wait(1e-3)
+    panel.session.bring_up()
+    panel.clock._now_s = panel.session.arm()
+    panel.session.require_armed()
+
+
+def test_a_host_that_is_silent_to_one_of_them_shuts_both_and_may_arm_again(panel):
+    silent, other = panel.session._others[0], panel.session.exchange
+    timeout_s = BOARD.limits.heartbeat_timeout_ms * 1e-3
+    silent_from = panel.link.tick(panel.clock.now_s())
+    while panel.clock.now_s() < panel.link.time_s(silent_from) + 0.9 * timeout_s:
+        panel.wait(timeout_s / 10)
+        other.control(Control.STOP)
+    panel.wait(timeout_s / 5)
+    with pytest.raises(HostSilent) as said:
+        panel.session.heartbeat()
+    assert action_for(said.value) is Action.RETRY
+    first, second = panel.off_ticks()
+    assert second < first <= second + LINE_TICKS + 8 <= second + SHUT_TICKS
+    assert silent.may_be_on is False
+    recovery = Recovery(panel.session, BOARD)
+    recovery.begin(said.value, panel.clock.now_s())
+    for _ in range(20):
+        panel.clock._now_s = max(panel.clock.now_s(), recovery.next_s)
+        if recovery.step(panel.clock.now_s()):
+            return
+    pytest.fail(f"not armed again: {recovery.cause}")
+
+
+def test_a_trigger_line_that_does_not_reach_one_of_them_is_found_before_anything_is_armed():
+    clock = VirtualClock()
+    link = SimulatedFpgas(BOARD, clock.now_s)
+    link.panel.gatewares[1].trigger = lambda *_: None
+    with pytest.raises(LinkError, match=r"FPGA 1 saw 0 edges of the trigger line and not one"):
+        open_session(link, BOARD, clock.now_s)
+
+
+def test_what_one_of_them_refuses_none_plays(panel):
+    session = panel.session
+    session.upload(1, WORDS)
+    Session.upload(session, 3, PARTS[0])  # to the first one alone
+    with pytest.raises(Refused) as said:
+        session.play(Play(3), stop=False)
+    assert said.value.result is Result.EMPTY_SLOT
+    assert session.heartbeat().queued == 0
+    session.trigger()
+    panel.wait(3e-3)
+    assert session.heartbeat().emissions == 0
+    session.play(Play(1), stop=False)
+    session.trigger()
+    panel.wait(3e-3)
+    assert session.heartbeat().emissions == 1
+
+
+def test_fpgas_that_have_played_different_numbers_of_emissions_are_out_of_step(panel):
+    session = panel.session
+    session.upload_and_play(Play(1), WORDS, stop=False)
+    session.trigger()
+    panel.wait(4e-3)
+    session.heartbeat()
+    one = session._others[0]
+    one.play(Play(1, start=Start.NOW), stop=False)  # behind the back of the others
+    panel.wait(4e-3)
+    with pytest.raises(OutOfStep, match="have played 0, 1 emissions"):
+        session.heartbeat()
+
+
+def test_the_bit_clock_changes_for_all_of_them_or_for_none(panel):
+    session = panel.session
+    assert session.set_bit_period(1.01)
+    periods = [one.bit_period for one in (session, *session._others)]
+    assert periods == [round(BOARD.bit_period / 1.01)] * 2
+    session._others[0].upload_and_play(Play(1), PARTS[1], stop=False)  # it waits for a trigger
+    assert not session.set_bit_period(1.0)
+    assert [one.bit_period for one in (session, *session._others)] == periods
+
+
+def test_a_state_is_of_all_fpgas_and_ramps_end_when_the_last_does(panel):
+    session = panel.session
+    assert State.ARMED in session.heartbeat().state
+    panel.clock._now_s = session.disarm()
+    panel.wait(1e-3)
+    status = session.heartbeat()
+    assert not status.state & (State.ARMED | State.HV_ENABLE)
+    assert not session.on_anywhere
+    assert not any(capture.hv[-1] for capture in panel.captures())
+
+
+def test_waveforms_of_several_fpgas_are_one_behind_the_other():
+    assert [bytes(part) for part in parted(WORDS, 2)] == [bytes(part) for part in PARTS]
+    ready = [ReadyFrames(memoryview(bytes([number]) * 100), 0xFFFFFFFF - number) for number in range(3)]
+    assert parted(joined(ready), 3) == ready
