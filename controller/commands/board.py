@@ -134,12 +134,11 @@ def schema_text(*, scene: bool, ascii_only: bool = False) -> str:
 def _first_word_ms(board: Board) -> dict[str, float]:
     """Times from a touch to its first drive word, in ms, but for the host's: touch panel, wire (an upload or a play), trigger."""
     upload_bytes, play_bytes = PlayMessages(memoryview(b""), board).sizes_bytes()
-    further = max(len(board.link.fpga) - 1, 0)  # FPGAs, each of which has an upload and a play of its own
-    upload_bytes, play_bytes = upload_bytes + further * (upload_bytes + play_bytes), play_bytes * (1 + further)
+    fpgas = len(board.fpga_boards)  # one after the other
     times_s = {
         "panel": board.touch.lag_s,
-        "upload": board.link.wire_s(upload_bytes),
-        "play": board.link.wire_s(play_bytes),
+        "upload": fpgas * board.link.wire_s(upload_bytes),
+        "play": fpgas * board.link.wire_s(play_bytes),
         "trigger": TRIGGER_LATENCY_TICKS / board.link.clock_hz,
     }
     return {part: time_s * 1e3 for part, time_s in times_s.items()}

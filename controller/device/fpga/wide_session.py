@@ -10,7 +10,7 @@ the others shut for NO_PERMIT. Raised is what the first one had.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final
 
 from controller.device.board.board import Board
@@ -39,6 +39,7 @@ class WideSession(Session):
         self._others = [
             Session(link, one, build_hash, now_s, bring_up=False) for link, one in zip(links.links[1:], boards[1:], strict=True)
         ]
+        self._resident: list[Waveform | None] = [None] * len(self._others)  # in place of waveforms that are there
         self._ahead_ticks = [0] * len(self._others)  # by which the ticks of each are ahead of the first one's
         self._emissions: list[int] = []  # of each when they last were at rest; empty: not known
         super().__init__(links, boards[0], build_hash, now_s, bring_up=bring_up)
@@ -112,7 +113,7 @@ class WideSession(Session):
     def play(self, play: Play, *, stop: bool) -> None:
         """As in `Session`, on all FPGAs, or none."""
         super().play(play, stop=stop)
-        self._follow(play, stop=stop)
+        self._follow(play, self._resident, stop=stop)
 
     def upload(self, slot: int, waveform: Waveform) -> None:
         """As in `Session`, to all FPGAs."""
@@ -122,12 +123,13 @@ class WideSession(Session):
             one.upload(slot, part)
 
     def upload_and_play(self, play: Play, waveform: Waveform, *, stop: bool) -> None:
-        """As in `Session`, on all FPGAs, or none: nothing is queued before all have their waveform."""
+        """As in `Session`, on all FPGAs, or none: nothing begins before all have their waveform."""
         first, *others = parted(waveform, 1 + len(self._others))
-        for one, part in zip(self._others, others, strict=True):
-            one.upload(play.slot, part)
+        if play.start is Start.TIME:
+            for one, part in zip(self._others, others, strict=True):
+                one.upload(play.slot, part)
         super().upload_and_play(play, first, stop=stop)
-        self._follow(play, stop=stop)
+        self._follow(play, self._resident if play.start is Start.TIME else others, stop=stop)
 
     def stop(self) -> None:
         """As in `Session`, on all FPGAs."""
@@ -153,12 +155,18 @@ class WideSession(Session):
                 return False
         return True
 
-    def _follow(self, play: Play, *, stop: bool) -> None:
-        """Have the others accept what the first FPGA has accepted; it is withdrawn from all if one does not."""
+    def _follow(self, play: Play, waveforms: Sequence[Waveform | None], *, stop: bool) -> None:
+        """Have the others accept what the first FPGA has accepted, with what they have to play unless it is resident.
+
+        It is withdrawn from all if one of them does not.
+        """
         try:
-            for one, ahead_ticks in zip(self._others, self._ahead_ticks, strict=True):
+            for one, ahead_ticks, waveform in zip(self._others, self._ahead_ticks, waveforms, strict=True):
                 own = play._replace(when_ticks=play.when_ticks + ahead_ticks) if play.start is Start.TIME else play
-                one.play(own, stop=stop)
+                if waveform is None:
+                    one.play(own, stop=stop)
+                else:
+                    one.upload_and_play(own, waveform, stop=stop)
         except ControllerError:
             self._emissions = []  # what was to begin just now may have begun where it was accepted
             self.stop()
