@@ -59,7 +59,7 @@ class BadDay(SimulatedLink):
 
     def reset(self, dark_s=1e-3):
         """Interrupt the FPGA's supply now."""
-        self.gateware.restart(max(self._tick_now(), self._free_tick), round(dark_s * self.clock_hz))
+        self.gateware.restart(max(self._tick_now(), self._bus.free_tick), round(dark_s * self.clock_hz))
 
 
 class Panel:

@@ -86,12 +86,12 @@ class SlowLink(SimulatedLink):
         """Work, then send frames and wait for them."""
         if self.host is None:
             super().exchange(sent, lengths, received)
-            self.ends_s.append(self.time_s(self._free_tick))
+            self.ends_s.append(self.time_s(self._bus.free_tick))
             return
         self.clock.spend(self.host.draw_s() * (1.0 if sum(lengths) >= UPLOAD_BYTES else SHORT_SHARE))
         self._pause_ticks = round(KERNEL_S / 2 * self.clock_hz)  # before and after each frame's bits
         super().exchange(sent, lengths, received)
-        self.ends_s.append(self.time_s(self._free_tick))
+        self.ends_s.append(self.time_s(self._bus.free_tick))
         self.clock.wait_until(self.wire_free_s())
 
 
