@@ -96,7 +96,8 @@ def test_heat_at_one_shuts_both(back_end):
 
 def shut_by(panel, number, which, fault):
     """A permit of one of them is lost: both are off in time and say why, and both can be armed again."""
-    at = panel.link.tick(panel.clock.now_s()) + 1000
+    panel.wait(0)
+    at = max(panel.link.tick(panel.clock.now_s()), panel.link.panel.now) + 1000
     panel.link.panel.permit(number, at, level=False, which=which)
     panel.wait(1e-3)
     with pytest.raises(FaultError) as said:
