@@ -172,6 +172,21 @@ def test_fpgas_that_have_played_different_numbers_of_emissions_are_out_of_step(p
         session.heartbeat()
 
 
+def test_a_repetition_that_ends_once_more_on_one_of_them_is_no_reason_to_switch_off(panel):
+    session = panel.session
+    session.upload(1, WORDS)
+    period = BOARD.emission_ticks
+    for before_us in range(0, 80, 10):  # of the next emission: between the commands to each, for one of these
+        session.play(Play(1, emissions=0, period_ticks=period), stop=False)
+        at = panel.link.tick(session.trigger())
+        panel.clock._now_s = panel.link.time_s(at + 2 * period - round(before_us * 1e-6 * HZ))
+        session.stop()
+        panel.wait(5e-3)
+        session.heartbeat()
+    first, second = (len(capture.focus_ticks) for capture in panel.captures())
+    assert first < second <= first + 4
+
+
 def test_the_bit_clock_changes_for_all_of_them_or_for_none(panel):
     session = panel.session
     assert session.set_bit_period(1.01)

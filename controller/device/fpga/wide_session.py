@@ -123,16 +123,18 @@ class WideSession(Session):
             one.upload(slot, part)
 
     def upload_and_play(self, play: Play, waveform: Waveform, *, stop: bool) -> None:
-        """As in `Session`, on all FPGAs, or none: nothing begins before all have their waveform."""
+        """As in `Session`, on all FPGAs, or none: nothing begins, or ends, before all have their waveform."""
         first, *others = parted(waveform, 1 + len(self._others))
-        if play.start is Start.TIME:
+        ahead = stop or play.start is Start.TIME
+        if ahead:
             for one, part in zip(self._others, others, strict=True):
                 one.upload(play.slot, part)
         super().upload_and_play(play, first, stop=stop)
-        self._follow(play, self._resident if play.start is Start.TIME else others, stop=stop)
+        self._follow(play, self._resident if ahead else others, stop=stop)
 
     def stop(self) -> None:
-        """As in `Session`, on all FPGAs."""
+        """As in `Session`, on all FPGAs; between two of them a repetition may begin once more, on those that are yet to stop."""
+        self._emissions = []
         super().stop()
         for one in self._others:
             one.stop()
@@ -160,6 +162,8 @@ class WideSession(Session):
 
         It is withdrawn from all if one of them does not.
         """
+        if stop:
+            self._emissions = []  # as in `stop`
         try:
             for one, ahead_ticks, waveform in zip(self._others, self._ahead_ticks, waveforms, strict=True):
                 own = play._replace(when_ticks=play.when_ticks + ahead_ticks) if play.start is Start.TIME else play

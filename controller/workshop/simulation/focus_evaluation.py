@@ -20,7 +20,6 @@ from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
 from controller.device.scene.emission import Emission
 from controller.device.touch.recordings.recording import Track
-from controller.errors import ConfigError, GatewareError
 from controller.workshop.physics.field import Field, FocusMetrics
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.modes.retuned import drifted
@@ -84,11 +83,9 @@ class SeveralTwins:
         self.scale = self._twins[0].scale
 
     def fields(self, captures: Sequence[Capture], clock_hz: float) -> Iterator[Field]:
-        """As of `PlateTwin`, at the foci of the first FPGA's capture; raises GatewareError where another's are at other ticks."""
-        for number, capture in enumerate(captures):
-            if not np.array_equal(capture.focus_ticks, captures[0].focus_ticks):
-                raise GatewareError(f"the emissions of FPGA {number} do not end in the same ticks as those of FPGA 0")
-        each = [twin.fields(capture, clock_hz) for twin, capture in zip(self._twins, captures, strict=True)]
+        """As of `PlateTwin`, at the foci of the first FPGA's capture."""
+        at_foci = [replace(capture, focus_ticks=captures[0].focus_ticks) for capture in captures]
+        each = [twin.fields(capture, clock_hz) for twin, capture in zip(self._twins, at_foci, strict=True)]
         for fields in zip(*each, strict=True):
             yield reduce(Field.plus, fields)
 
@@ -106,8 +103,6 @@ def _fields(run: Run) -> Iterator[tuple[PlateTwin | SeveralTwins, Field]]:
     """The twin as it is at every focus of a run, with its displacement then."""
     drift = run.drift
     if run.plate.link.fpga:
-        if drift is not None:
-            raise ConfigError("--drift: a plate of several FPGAs does not drift yet: leave it out")
         together = SeveralTwins(run.plate)
         yield from ((together, field) for field in together.fields(run.captures, run.link.clock_hz))
         return
