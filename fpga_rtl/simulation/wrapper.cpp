@@ -49,7 +49,12 @@ public:
         for (int i = 0; i < RESET_CLOCKS; ++i) clock();
         core_.rst_i = 0;
     }
-    ~Panel() { core_.final(); }
+
+    // A model's names belong to the thread's context, which is that of whichever ran last, and may be gone
+    ~Panel() {
+        Verilated::threadContextp(&context_);
+        core_.final();
+    }
 
 #if VM_TRACE
     // Write the ticks from `from` to `to` to an FST file, whose unit is a ps: the pins and what frame_view.sv says, or all signals.

@@ -15,6 +15,7 @@ from controller.device.fpga.session import Session
 from controller.device.fpga.wide_session import WideSession
 from controller.device.service.drivers import open_session
 from controller.errors import FaultError, LinkError
+from controller.workshop.gateware.actual_panel import gateware_of
 from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.model import GatewareModel
 from controller.workshop.gateware.wired_fpgas import LINE_TICKS, SimulatedFpgas
@@ -55,6 +56,15 @@ class Panel:
 @pytest.fixture
 def panel():
     return Panel(GatewareModel)
+
+
+def test_the_verilog_of_each_is_closed_in_any_order(back_end):
+    """Verilator's names belong to a context of the thread: that of whichever ran last, which may be the one that is gone."""
+    for number in range(20):
+        pair = [back_end(gateware_of(one, 0)) for one in BOARD.fpga_boards]
+        pair[number % 2].advance(1000)
+        del pair[number % 2]
+        pair.pop()
 
 
 def test_all_pins_play_in_the_same_tick_by_the_trigger_and_at_a_time(back_end):
