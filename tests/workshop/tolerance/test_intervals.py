@@ -26,7 +26,7 @@ LEAST, MOST = 0.93, 0.97  # of 95 times in 100
 
 
 def within(records, name):
-    return coverage(BOARD, records)[name]["all"]["within"]
+    return coverage(BOARD, records, [name])[name]["all"]["within"]
 
 
 @each_row("name", ["bare plate", "finger"])
