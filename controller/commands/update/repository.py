@@ -58,6 +58,29 @@ def add(step: argparse.ArgumentParser) -> None:
     opening.add_argument("--all", dest="everything", action="store_true", help="all its steps: nobody needs to look before each")
     declare_shares(rollout, required=True)
     fleet = action("status", fleet_status, "count devices by release and health, and propose the next step of a rollout, or a stop")
+    _declare_reports(fleet)
+    sign = action("sign", sign_draft, "show the draft, sign it, and publish it once all signatures are there")
+    _declare_signing(sign)
+    rotate = action("rotate", change_keys, "draft other keys, or another number of people")
+    _declare_rotation(rotate)
+    renewal = action("renew", renew, "draft a longer life of what is published")
+    export = action("export", export_stick, "copy what the channels offer into a folder, such as on a stick, valid for a year")
+    export.add_argument("folder", type=Path, metavar="FOLDER")
+    export.add_argument("--key", required=True, type=Path, metavar="KEY", help="a key of the publisher")
+    for parser in (release, rollout, opening, stop, sign, rotate, renewal, export):
+        parser.add_argument(
+            "--date",
+            type=_date,
+            metavar="YYYY-MM-DD",
+            help="date of the new timestamp, if it is right although the last one is later, or more than 90 days older",
+        )
+    for parser in (key, sign, export):
+        parser.add_argument(
+            "--passphrase-file", type=Path, metavar="F", help=f"file with the passphrase (default: ${PASSPHRASE}, or asked)"
+        )
+
+
+def _declare_reports(fleet: argparse.ArgumentParser) -> None:
     fleet.add_argument(
         "--from",
         dest="reports",
@@ -75,7 +98,9 @@ def add(step: argparse.ArgumentParser) -> None:
         metavar="S",
         help="age of a report from which its device is silent (default: 86400)",
     )
-    sign = action("sign", sign_draft, "show the draft, sign it, and publish it once all signatures are there")
+
+
+def _declare_signing(sign: argparse.ArgumentParser) -> None:
     sign.add_argument("--key", type=Path, metavar="KEY", help="sign with this key")
     sign.add_argument(
         "--from", dest="copies", nargs="+", default=[], type=Path, metavar="COPY", help="take the signatures of copies"
@@ -88,28 +113,15 @@ def add(step: argparse.ArgumentParser) -> None:
         metavar="RELEASE",
         help="sign only if the draft has these releases, made here",
     )
-    rotate = action("rotate", change_keys, "draft other keys, or another number of people")
+
+
+def _declare_rotation(rotate: argparse.ArgumentParser) -> None:
     rotate.add_argument("--drop", nargs="+", default=[], metavar="PUB|NAME", help="keys that shall not count any more")
     rotate.add_argument("--add", nargs="+", default=[], type=Path, metavar="PUB", help="keys that shall count")
     rotate.add_argument(
         "--role", nargs="+", choices=ROLES, metavar="ROLE", help="for what (default: what the dropped keys count for)"
     )
     rotate.add_argument("--threshold", type=int, metavar="N", help="people who must sign root and releases (default: as it is)")
-    renewal = action("renew", renew, "draft a longer life of what is published")
-    export = action("export", export_stick, "copy what the channels offer into a folder, such as on a stick, valid for a year")
-    export.add_argument("folder", type=Path, metavar="FOLDER")
-    export.add_argument("--key", required=True, type=Path, metavar="KEY", help="a key of the publisher")
-    for parser in (release, rollout, opening, stop, sign, rotate, renewal, export):
-        parser.add_argument(
-            "--date",
-            type=_date,
-            metavar="YYYY-MM-DD",
-            help="date of the new timestamp, if it is right although the last one is later, or more than 90 days older",
-        )
-    for parser in (key, sign, export):
-        parser.add_argument(
-            "--passphrase-file", type=Path, metavar="F", help=f"file with the passphrase (default: ${PASSPHRASE}, or asked)"
-        )
 
 
 def declare_shares(parser: argparse.ArgumentParser, *, required: bool = False) -> None:

@@ -50,7 +50,7 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-class Exchange(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class ConversationStep(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """One step: what is said and what its answer has, or what a message has that comes by itself."""
 
     about: str = ""
@@ -64,11 +64,11 @@ class Exchange(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class Conversation(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The whole file."""
 
-    steps: tuple[Exchange, ...]
+    steps: tuple[ConversationStep, ...]
     title: str = ""
 
 
-def steps_of(file: Path) -> tuple[Exchange, ...]:
+def steps_of(file: Path) -> tuple[ConversationStep, ...]:
     """Steps of a conversation; raises ControllerError if the file cannot be read."""
     try:
         return msgspec.json.decode(read_regular(file, BYTES_MAX), type=Conversation).steps
@@ -76,7 +76,7 @@ def steps_of(file: Path) -> tuple[Exchange, ...]:
         raise ControllerError(f"{file}: cannot be read as a conversation: {error}") from error
 
 
-def held(path: str, steps: tuple[Exchange, ...]) -> Iterator[str]:
+def held(path: str, steps: tuple[ConversationStep, ...]) -> Iterator[str]:
     """Hold a conversation; each step in words, once it was as recorded.
 
     Raises LinkError if there is no panel, or it does not answer; ControllerError if it answers otherwise than recorded, with step,
@@ -97,7 +97,9 @@ def held(path: str, steps: tuple[Exchange, ...]) -> Iterator[str]:
         raise LinkError(f"{path}: what answers is no panel ({error})") from error
 
 
-def _hold(panel: socket.socket, messages: Iterator[dict[str, Any]], step: Exchange, number: int, names: dict[str, Any]) -> str:
+def _hold(
+    panel: socket.socket, messages: Iterator[dict[str, Any]], step: ConversationStep, number: int, names: dict[str, Any]
+) -> str:
     """One step."""
     if step.awaited is not None:
         notice = next((message for message in messages if has(message, step.awaited)), None)

@@ -20,7 +20,7 @@ from controller.device.board.devices import Temperature
 from controller.workshop.tolerance.corner import corner_of
 from controller.workshop.tolerance.figures import kept_file, wilson
 from controller.workshop.tolerance.tolerances import Tolerances
-from controller.workshop.tolerance.unseen import KINDS, Record, Unseen
+from controller.workshop.tolerance.unseen import KINDS, PlateRecord, Unseen
 from controller.workshop.workers.map_kept import map_kept
 from controller.workshop.workers.workers import Workers
 
@@ -29,7 +29,7 @@ BOARD_DIGEST: Final = bytes(32)  # nobody looks at it
 HERE, ELSEWHERE = "0" * 16, "1" * 16
 SENSOR: Final = Temperature(kind="hwmon", device="sensor", coefficient_per_k=-2e-4)
 AT_ONCE: Final = 4
-Stated = Callable[[Board, Record], tuple[Interval, float]]  # of a plate: what its bank states, and the truth
+Stated = Callable[[Board, PlateRecord], tuple[Interval, float]]  # of a plate: what its bank states, and the truth
 
 
 def drawn_from(board: Board, tolerances: Tolerances) -> Unseen:
@@ -44,7 +44,7 @@ def interval_figures(board: Board, tolerances: Tolerances, plates: int, workers:
     return {"plates": plates, "seed": study.seed, "intervals": coverage(corner, records_of(study, plates, workers))}
 
 
-def records_of(study: Unseen, plates: int, workers: Workers) -> list[Record]:
+def records_of(study: Unseen, plates: int, workers: Workers) -> list[PlateRecord]:
     """Records of the first plates; what is done is kept. Errors as `map_kept`."""
     kept = kept_file(study.name())
     mapped = map_kept(
@@ -53,12 +53,12 @@ def records_of(study: Unseen, plates: int, workers: Workers) -> list[Record]:
     return [record_of(np.frombuffer(mapped.results[number])) for number in range(plates)]
 
 
-def record_of(values: NDArray[np.floating[Any]]) -> Record:
+def record_of(values: NDArray[np.floating[Any]]) -> PlateRecord:
     """From the values of a record."""
-    return Record._make(values.tolist())
+    return PlateRecord._make(values.tolist())
 
 
-def coverage(board: Board, records: Collection[Record], names: Iterable[str] = ()) -> dict[str, dict[str, dict[str, Any]]]:
+def coverage(board: Board, records: Collection[PlateRecord], names: Iterable[str] = ()) -> dict[str, dict[str, dict[str, Any]]]:
     """By what is stated, or those of it that have names, and by kind of plate: how often it holds the truth, and how wide it is."""
     found: dict[str, dict[str, dict[str, Any]]] = {}
     for name in names or STATED:
@@ -84,7 +84,7 @@ def _counted(pairs: list[tuple[Interval, float]]) -> dict[str, Any]:
     }
 
 
-def expected_of(board: Board, record: Record, *, kind: str = "measured", panel: str = HERE) -> Expectation:
+def expected_of(board: Board, record: PlateRecord, *, kind: str = "measured", panel: str = HERE) -> Expectation:
     """What a device makes of what is known of a plate."""
     places_um = [record.low_um, record.middle_um, record.high_um]
     if kind == "modelled":
@@ -107,11 +107,11 @@ def expected_of(board: Board, record: Record, *, kind: str = "measured", panel: 
     return found
 
 
-def _free(expected: Expectation, record: Record) -> Interval:
+def _free(expected: Expectation, record: PlateRecord) -> Interval:
     return expected.free(record.reading_c, round(record.foci))
 
 
-def _felt(expected: Expectation, record: Record, **mass: Any) -> Interval:
+def _felt(expected: Expectation, record: PlateRecord, **mass: Any) -> Interval:
     return expected.felt(record.reading_c, round(record.foci), round(record.fingers) - 1, **mass)
 
 

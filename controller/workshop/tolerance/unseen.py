@@ -55,7 +55,7 @@ DAMPING: Final = (0.5, 1.5)
 APART_M: Final = 12e-3  # of fingers
 
 
-class Record(NamedTuple):
+class PlateRecord(NamedTuple):
     """A plate: what is known of it, and what is true."""
 
     kind: float  # number in `KINDS`
@@ -101,7 +101,7 @@ class Unseen:
         digest.update(Path(__file__).read_bytes())
         return digest.hexdigest()[:16]
 
-    def record(self, number: int) -> Record:
+    def record(self, number: int) -> PlateRecord:
         """Measure, interpolate and play one plate."""
         random = np.random.default_rng([self.seed, number])
         plate = _Plate.of(self, number, random)
@@ -119,7 +119,7 @@ class Unseen:
         assert provenance.kept is not None
         assert provenance.foreseen is not None
         truths = [played.by(one.drive_order_responses(places_m[:foci])) for one in (source, other, model)]
-        return Record._make([
+        return PlateRecord._make([
             number % len(KINDS),
             provenance.kept[0],
             *provenance.foreseen,

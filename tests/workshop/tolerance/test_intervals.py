@@ -16,7 +16,7 @@ from controller.device.board.records import load_toml
 from controller.workshop.tolerance.coverage import coverage, drawn_from, record_of
 from controller.workshop.tolerance.expectation_fit import fit
 from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances
-from controller.workshop.tolerance.unseen import KINDS, Record
+from controller.workshop.tolerance.unseen import KINDS, PlateRecord
 
 BOARD = small_board()
 STUDY = drawn_from(BOARD, load_toml(SHIPPED, Tolerances))
@@ -54,7 +54,7 @@ def same(number):
     """Whether a plate is what it was when it was kept; rounding of linear algebra apart."""
     with threadpool_limits(1, "blas"):
         found = STUDY.record(number)
-    for name, one, other in zip(Record._fields, found, KEPT[number], strict=True):
+    for name, one, other in zip(PlateRecord._fields, found, KEPT[number], strict=True):
         assert one == pytest.approx(other, rel=2e-2, abs=2e-3, nan_ok=True), name
 
 
