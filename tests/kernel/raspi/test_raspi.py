@@ -24,9 +24,9 @@ from controller.device.doctor.bring_up import CHIRP_REPETITIONS
 HERE = Path(__file__).parent
 NS_PER_INSTRUCTION = 2
 FORMS = {  # most instructions of the host at the median, of an upload and of a resident play: 15 % above what was measured
-    "kernel": (0.57e6, 0.245e6),
-    "mypyc": (0.281e6, 0.085e6),
-    "numpy": (1.16e6, 0.266e6),
+    "kernel": (0.69e6, 0.295e6),
+    "mypyc": (0.315e6, 0.104e6),
+    "numpy": (1.51e6, 0.3e6),
 }
 UPLOAD_IN_KERNEL_US = 1600  # bits, pauses between frames, and the driver
 NINTH_CLOCKS_US = 4240 / 25  # of each byte that is polled, at 25 MHz
