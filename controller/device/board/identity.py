@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
 from pathlib import Path
 from typing import Final
 
-from controller.device.board.board import Board
+from controller.device.board.board import Board, sha256
 from controller.regular_file import read_regular
 
 MACHINE_ID = Path("/etc/machine-id")
@@ -36,4 +35,4 @@ def simulated_identity(real: Board) -> str:
 
 
 def _hashed(text: str) -> str:
-    return hashlib.sha256(f"haptic-panel panel\n{text}".encode()).hexdigest()[:DIGITS]
+    return sha256(f"haptic-panel panel\n{text}".encode()).hex()[:DIGITS]

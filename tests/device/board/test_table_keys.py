@@ -64,8 +64,8 @@ def test_unknown_keys_are_named_beside_missing_ones():
     with pytest.raises(ConfigError) as caught:
         as_record("", tables, BOARD_FILE)
     assert str(caught.value) == (
-        "actuators[0].chanel = 0: unknown key; did you mean channel?; actuators[0].channel is missing: a whole number from 0 to 31;"
-        " waveform.duraton_ms = 2.0: unknown key; did you mean duration_ms?;"
+        "actuators[0].chanel = 0: unknown key; did you mean channel?; actuators[0].channel is missing: a whole number from 0 to"
+        " 127; waveform.duraton_ms = 2.0: unknown key; did you mean duration_ms?;"
         " waveform.duration_ms is missing: a number above 0, at most 10 ms"
     )
 

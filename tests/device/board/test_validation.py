@@ -84,7 +84,7 @@ PANELS = ", ".join(repr(panel.__struct_config__.tag) for panel in touch_records(
         (("plate", "density_kg_m3"), 1, "plate.density_kg_m3 = 1: must be a number from 100 to 25000 kg/m³"),
         (("driver", "moment_n_per_v"), 2, "driver.moment_n_per_v = 2: must be a number from 1e-06 to 1 N/V"),
         (("driver", "supply_v"), 61, "driver.supply_v = 61: must be a number above 0, at most 60 V"),
-        (("actuators", 3, "channel"), 32, "actuators[3].channel = 32: must be a whole number from 0 to 31"),
+        (("actuators", 3, "channel"), 128, "actuators[3].channel = 128: must be a whole number from 0 to 127"),
         (("actuators", 3, "x_mm"), "left", "actuators[3].x_mm = 'left': must be a number from -1000 to 5000 mm"),
         (
             ("touch", "x_mm_from_axes"),

@@ -258,12 +258,16 @@ def test_an_fpga_that_cannot_watch_its_clock_is_warned_of_with_what_its_supply_m
 
 def test_a_measured_bank_is_reported_with_its_files_date_temperature_and_expected_share(panel, monkeypatch):
     monkeypatch.setattr(doctor, "service_user", lambda: None)
-    reported = Provenance("measured", "cosines", (SourceFile("plate.npz", "ab" * 32),), "2026-11-20", 23.5, 2072, (0.997, 0.99))
+    files, kept, identity = (SourceFile("plate.npz", "ab" * 32),), (0.997, 0.99), "0" * 16
+    reported = Provenance("measured", "cosines", files, "2026-11-20", 23.5, 2072, kept, (0.0, 0.02), identity)
     model = ResponseModel(panel)
     model.provenance = reported
     build_bank(BankRequest(panel, bank_path(panel), source=model))
-    (finding,) = [finding for finding in look(panel, VirtualClock().now_s) if finding.about == "responses"]
-    assert (finding.good, finding.warns) == (True, False)
+    for here, warns in (("1" * 16, True), (identity, False)):
+        monkeypatch.setattr(doctor, "panel_identity", lambda here=here: here)
+        (finding,) = [finding for finding in look(panel, VirtualClock().now_s) if finding.about == "responses"]
+        assert (finding.good, finding.warns) == (True, warns)
+        assert ("measured on another panel" in finding.said) is warns
     assert finding.said == (
         "the bank's responses are measured: 2072 points; plate.npz; 2026-11-20; 23.5 °C; cosines; keeps 0.997 of the amplitude,"
         " 0.99 at least"

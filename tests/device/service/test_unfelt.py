@@ -62,7 +62,15 @@ def test_the_status_says_it_while_the_panel_serves(tmp_path, capsys, monkeypatch
 
 @each_row(("off_s", "said"), [(0.0, "outputs were never on"), (1.25, "outputs were off for 1.25 s")])
 def test_outputs_that_were_never_on_are_no_outputs_that_were_off_for_no_time(off_s, said):
-    figures = {"board": "panel", "foci": 0, "host_silent": 0, "outages": 0, "outputs_off_s": off_s, "warnings": [], "unfelt": []}
+    figures = {
+        "board": "panel",
+        "foci": 0,
+        "host_silent": 0,
+        "outages": 0,
+        "outputs_off_s": off_s,
+        "warnings": [],
+        "unfelt": [],
+    } | {"expected": None}
     assert said in served(figures | {"state": "waiting for FPGA", "cause": "there is no /dev/spidev0.0"})
 
 
