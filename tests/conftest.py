@@ -62,7 +62,7 @@ def pytest_configure(config):
     if config.option.markexpr == "quick" and settings.get_current_profile_name() == "repeatable":
         settings.load_profile("quick")
     if (worker := getattr(config, "workerinput", None)) and config.args == ["tests"]:
-        files = sorted(str(path) for path in HERE.rglob("test_*.py"))
+        files = sorted(str(path) for path in HERE.rglob("test_*.py") if not left_out(path, config.option.markexpr))
         first = int(worker["workerid"].removeprefix("gw")) * len(files) // worker["workercount"]
         config.args[:] = files[first:] + files[:first]
 
@@ -81,10 +81,14 @@ def pytest_xdist_make_scheduler(config, log):
 
 def pytest_ignore_collect(collection_path, config):
     """Leave out files without a test that is asked for by `-m quick`, `-m kernel` or `-m gateware`; None otherwise: as always."""
-    marked, is_file = config.option.markexpr, collection_path.suffix == ".py"
+    return True if collection_path.suffix == ".py" and left_out(collection_path, config.option.markexpr) else None
+
+
+def left_out(path, marked):
+    """Whether a file has no test that `-m marked` runs; pytest asks `pytest_ignore_collect` of no file that it is given by name."""
     if marked == "quick":
-        return True if is_file and not is_quick(collection_path) else None
-    return True if marked in OWN_LINES and is_file and f"mark.{marked}" not in collection_path.read_text() else None
+        return not is_quick(path)
+    return marked in OWN_LINES and f"mark.{marked}" not in path.read_text()
 
 
 def pytest_collection_modifyitems(items, config):

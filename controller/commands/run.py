@@ -126,10 +126,11 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
             tell(f"{scene_file}: {warning}", Priority.WARNING)
-        expected = expected_of(bank.header, board)
+        expect = partial(expected_of, board=board)
+        expected = expect(bank.header)
         if expected is not None and expected.cause and measured_at(bank.path):
             tell(f"{bank.path}: what it will do on this panel nobody knows: {expected.cause}", Priority.WARNING)
-        ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board), expected)
+        ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board), expect)
         figures = {
             "bank": str(bank.path),
             "memory": memory_fit(board).in_words(),

@@ -220,5 +220,7 @@ def test_a_state_is_of_all_fpgas_and_ramps_end_when_the_last_does(panel):
 
 def test_waveforms_of_several_fpgas_are_one_behind_the_other():
     assert [bytes(part) for part in parted(WORDS, 2)] == [bytes(part) for part in PARTS]
+    with pytest.raises(ValueError, match="words of one FPGA, frames of another"):
+        joined([PARTS[0], ReadyFrames(PARTS[1], 0)])
     ready = [ReadyFrames(memoryview(bytes([number]) * 100), 0xFFFFFFFF - number) for number in range(3)]
     assert parted(joined(ready), 3) == ready

@@ -260,7 +260,8 @@ def why_unknown(provenance: Provenance | None, panel: str | None) -> str:
 def in_words(figures: dict[str, Any] | None) -> str:
     """`Expectation.figures` in a line; None: of a bank that says no amplitude."""
     if figures is None:
-        return "nothing is known: the bank does not say what amplitudes it foresees (built again it does, but not for [finger])"
+        nothing = "nothing is known: the bank does not say what amplitudes it foresees"
+        return f"{nothing} (built again it does, but not for [finger] or for several FPGAs)"
     finger, bare = (Interval(*figures[name]).in_words() for name in ("finger_um", "bare_um"))
     felt = f"a finger of 30 to 150 mg feels {finger} of a pulse"
     if figures["cause"]:

@@ -85,6 +85,8 @@ def joined(waveforms: Sequence[Waveform]) -> Waveform:
     ready = [waveform for waveform in waveforms if isinstance(waveform, ReadyFrames)]
     if not ready:
         return memoryview(b"".join([waveform for waveform in waveforms if isinstance(waveform, memoryview)]))
+    if len(ready) < len(waveforms):
+        raise ValueError("words of one FPGA, frames of another: they have no common layout")
     crc = sum(one.crc << 32 * number for number, one in enumerate(ready))
     return ReadyFrames(memoryview(b"".join([one.frames for one in ready])), crc)
 

@@ -84,6 +84,11 @@ class Supervision:
         configuration.write_settings(self.exchange, self._board, self.bit_period)
 
     @property
+    def exchanges(self) -> tuple[Exchange, ...]:
+        """The exchange with each FPGA."""
+        return (self.exchange,)
+
+    @property
     def on_anywhere(self) -> bool:
         """As `may_be_on`; of several FPGAs, whether it is so of any."""
         return self.may_be_on
@@ -101,7 +106,7 @@ class Supervision:
     @property
     def heartbeat_due_s(self) -> float:
         """When the next heartbeat is due, on the loop's clock."""
-        return self.exchange.heartbeat_due_s
+        return min([one.heartbeat_due_s for one in self.exchanges])
 
     def wire_free_s(self) -> float:
         """When everything sent so far has left the wire, on the loop's clock."""

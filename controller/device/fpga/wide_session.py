@@ -15,7 +15,7 @@ from typing import Final
 
 from controller.device.board.board import Board
 from controller.device.fpga.belief import BUSY
-from controller.device.fpga.exchange import OutOfStep
+from controller.device.fpga.exchange import Exchange, OutOfStep
 from controller.device.fpga.frames import Play, Waveform, parted
 from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.registers import Fault, Register, Start, State
@@ -50,9 +50,9 @@ class WideSession(Session):
         return self.may_be_on or any(one.may_be_on for one in self._others)
 
     @property
-    def heartbeat_due_s(self) -> float:
-        """When the next heartbeat is due, of whichever FPGA is the first to need one."""
-        return min([self.exchange.heartbeat_due_s, *[one.exchange.heartbeat_due_s for one in self._others]])
+    def exchanges(self) -> tuple[Exchange, ...]:
+        """As in `Supervision`; a heartbeat is due when the first FPGA needs one."""
+        return (self.exchange, *[one.exchange for one in self._others])
 
     def bring_up(self) -> None:
         """As in `Supervision`, of all FPGAs; then the ticks of each are compared.

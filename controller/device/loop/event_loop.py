@@ -70,6 +70,7 @@ class EventLoop:
         self._scene_changed = watch.scene_changed
         self._spare = watch.spare
         self.outputs = Outputs(context)
+        self._emissions = context.emissions
         self._layers = Layers(scheduler, context.layers, commands)
         # What commands may ask of this loop
         self.control = PanelControl(context, self.outputs, scheduler, playback.timing, self._layers, change)
@@ -284,6 +285,7 @@ class EventLoop:
         if prepared.scene is not None:
             if prepared.selection is not None:
                 self._playback.sender.change_bank(prepared.selection)
+                self._emissions.expected = prepared.expected
             self._scheduler.change_scene(self._layers.over(prepared.scene), self._clock_estimate.fpga_s(now_s))
             self._playback.sender.pin([(emitter.x_m, emitter.y_m, emitter.amplitude) for emitter in prepared.scene.emitters])
             self._counters.scenes_loaded += 1

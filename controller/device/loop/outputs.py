@@ -38,6 +38,7 @@ class Outputs:
         self._down_s = 0.0  # end of the last ramp down
         self._woken_s = -NEVER
         self._session = context.session
+        self._exchanges = context.session.exchanges
         self._clock = context.clock
         self._clock_estimate = context.clock_estimate  # updated with each heartbeat
         self._counters = context.counters
@@ -103,7 +104,7 @@ class Outputs:
     def next_s(self) -> float:
         """Host time at which `advance` is due."""
         if self.on:
-            return self._session.heartbeat_due_s
+            return min([one.heartbeat_due_s for one in self._exchanges])
         if self.ramping_down:
             now_s = self._clock.now_s()
             return min(self._session.heartbeat_due_s, self._down_s if now_s < self._down_s else now_s + OFF_POLL_S)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from controller.device.bank.expectation import Expectation
 from controller.device.scene.scene import Scene
 from controller.device.waveforms.selection import Selection
 
@@ -17,6 +18,7 @@ class PreparedScene:
     scene: Scene | None  # None: refused
     selection: Selection | None = None  # of another bank, if that was replaced
     reason: str = ""  # why it was refused; empty if it was not
+    expected: Expectation | None = None  # of that bank
     saves: bool = False  # it was to be saved only: the scene in force stays
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from controller.clocks import MonotonicClock
 from controller.device.bank.expectation import Expectation
+from controller.device.bank.file_format import Header
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.panel_state import Condition
@@ -63,7 +64,7 @@ def serve(
     replay: Recording | None = None,  # touches from a recording instead of the board's panel; the service ends with it
     open_fpga: OpenLink = open_link,  # opens the link to the FPGA, if that is a simulated one
     open_commands: Callable[[], CommandSocket] | None = None,  # opens what others command the panel by
-    expected: Expectation | None = None,  # what the bank will do, for those who watch emissions
+    expect: Callable[[Header], Expectation | None] = lambda _: None,  # what a bank will do, for those who watch emissions
 ) -> dict[str, Any]:
     """Run a panel.
 
@@ -78,13 +79,13 @@ def serve(
         status = stack.enter_context(closing(StatusFile.from_environment(board.name)))
         trace = TraceFile.from_environment(board.name, board.waveform.duration_s)
         stack.callback(lambda: trace.close(time.monotonic()))
-        change = stack.enter_context(closing(SceneChanger(board, scene_name, bank)))
+        change = stack.enter_context(closing(SceneChanger(board, scene_name, bank, expect=expect)))
         cells = cells_of(bank, scene, scene_name)
         bank.drive.check_frames(cells)  # before memory is locked and anything is armed
         check_responses_beside(bank, cells)
         layers = stack.enter_context(closing(LayerPreparer(board, bank, cells))) if open_commands else None
         panel = _connect(stack, board, replay, open_fpga, layers)
-        panel.context.emissions.expected = expected
+        panel.context.emissions.expected = expect(bank.header)
         commands = open_commands() if open_commands else None
         if commands is not None:
             stack.callback(commands.close)

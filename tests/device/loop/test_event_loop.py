@@ -480,15 +480,19 @@ class Change:
         return self._prepared.pop() if self._prepared and self._clock.now_s() > 0.25 else None
 
 
+EXPECTED = object()  # what somebody makes of the other bank
+
+
 def test_after_a_change_of_bank_nothing_of_the_former_is_played(board, bank_file, tmp_path, cell, evemu_text):
     """The same place three times; between the first and the second the bank is changed."""
     clock, taps = VirtualClock(), [(0.2 * k + more_s, {0: at}) for k in range(3) for more_s, at in ((0.0, cell[1]), (0.1, None))]
     with Bank.open(bank_file, board) as bank, Bank.open(shutil.copy(bank_file, tmp_path / "other.bank"), board) as other:
         another = Selection(other, board.bank.snap_mm * 1e-3, board.idle_word)
         (tmp_path / "same.toml").write_text(CLICK)
-        change = Change(clock, PreparedScene(0, load_scene(tmp_path / "same.toml", board), another))
+        change = Change(clock, PreparedScene(0, load_scene(tmp_path / "same.toml", board), another, expected=EXPECTED))
         link, counters, loop = loop_of(board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change)
         loop.run()
+        assert loop._emissions.expected is EXPECTED, "what is said of emissions is of the bank that is played"
         link.close()
         assert loop._playback.sender.selection is another
     assert (counters.uploads, counters.resident) == (2, 1)

@@ -27,6 +27,6 @@ def bank(bank_file, folder, board):
 
 @pytest.fixture
 def changer(board, folder, bank):
-    changer = SceneChanger(msgspec.structs.replace(board, folder=folder), "scene", bank)
+    changer = SceneChanger(msgspec.structs.replace(board, folder=folder), "scene", bank, expect=lambda header: header.board_digest)
     yield changer
     changer.close()

@@ -58,7 +58,10 @@ def test_a_bank_that_took_the_place_of_the_old_one_is_opened(changer, bank_file,
     shutil.copy(bank_file, folder / "new.bank")
     (folder / "new.bank").replace(folder / "own.bank")
     changer.begin(None, 0)
-    selection = prepared(changer).selection
+    done = prepared(changer)
+    selection = done.selection
+    with Bank.open(folder / "own.bank") as bank:
+        assert done.expected == bank.header.board_digest
     assert selection.composes, "the memory for composing is taken before it plays"
     changer.begin(None, 0)
     assert prepared(changer).selection is None, "once"

@@ -5,10 +5,13 @@ Nothing here blocks.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import msgspec
 
+from controller.device.bank.expectation import Expectation
+from controller.device.bank.file_format import Header
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.loop.scene_source import PreparedScene
@@ -29,10 +32,17 @@ class SceneChanger:
     no such scene.
     """
 
-    def __init__(self, board: Board, name: str, bank: Bank, limit_s: float = LIMIT_S) -> None:
+    def __init__(
+        self,
+        board: Board,
+        name: str,
+        bank: Bank,
+        limit_s: float = LIMIT_S,
+        expect: Callable[[Header], Expectation | None] = lambda _: None,  # of what a bank says, what it will do here
+    ) -> None:
         self._board = msgspec.structs.replace(board, folder=board.folder.absolute())
         self._name = str(find_scene(board, name).absolute())
-        self._bank = bank
+        self._bank, self._expect = bank, expect
         self._bank_is = _identity(bank.path)
         self.helper = Helper("scenes", limit_s, "prepares scenes")
         self.fileno = self.helper.fileno
@@ -92,7 +102,7 @@ class SceneChanger:
         except ControllerError as error:
             return PreparedScene(self._ticket, None, reason=str(error))
         self._bank, self._bank_is = bank, bank_is
-        return PreparedScene(self._ticket, scene, selection)
+        return PreparedScene(self._ticket, scene, selection, expected=self._expect(bank.header))
 
 
 def _identity(path: Path) -> tuple[int, ...]:
