@@ -45,6 +45,7 @@ def test_a_good_panel_has_its_bank_and_what_is_wrong_with_others_is_a_line(tmp_p
     measure(fleet / "good", 1)
     (fleet / "torn").mkdir()
     (fleet / "torn/measurement.toml").write_text("[records\n")
+    (fleet / "torn/records.npy").symlink_to("gone")
     (fleet / "empty").mkdir()
     (fleet / "notes").mkdir()
     shutil.copytree(fleet / "good", fleet / "without-records")

@@ -98,9 +98,17 @@ def _number(panel: Panel) -> int:
     for root, _, names in sorted(os.walk(panel.wanted.folder)):
         for name in sorted(names):
             file = Path(root, name)
-            state = file.stat()
-            parts.append(f"{file.relative_to(panel.wanted.folder)} {state.st_size} {state.st_mtime_ns}")
+            parts.append(f"{file.relative_to(panel.wanted.folder)} {_state(file)}")
     return int.from_bytes(hashlib.sha256("\0".join(parts).encode()).digest()[:8], "little")
+
+
+def _state(file: Path) -> str:
+    """Size and time of a file; why there are none, of a link that leads nowhere or what is gone meanwhile."""
+    try:
+        state = file.stat()
+    except OSError as error:
+        return str(error.errno)
+    return f"{state.st_size} {state.st_mtime_ns}"
 
 
 def _still_holds(result: bytes) -> bool:
