@@ -112,11 +112,10 @@ def proposal(version: str, rollout: Rollout | None, opened_ppm: int, fleet: Flee
 
 def at_least(count: int, expected: float) -> float:
     """Probability of `count` or more, where so many are expected, by Poisson's distribution."""
-    term, below = math.exp(-expected), 0.0
-    for number in range(count):
-        below += term
-        term *= expected / (number + 1)
-    return 1.0 - below
+    if expected == 0:
+        return float(count == 0)
+    logs = (number * math.log(expected) - expected - math.lgamma(number + 1) for number in range(count))  # exp(-800) is 0
+    return max(1.0 - math.fsum(map(math.exp, logs)), 0.0)
 
 
 def rollout_figures(repository: Repository, channel: str, fleet: Fleet, now: datetime) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from controller.clocks import MonotonicClock
 from controller.device.application_socket.command_socket import CommandSocket
 from controller.device.bank.expectation import Expectation
+from controller.device.bank.file_format import Header
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket
@@ -73,7 +74,11 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touche
     session = open_session(link, board, clock.now_s)
     begin_s = clock.now_s() + 0.2
     source = tracked(touched.touches(board, link, begin_s), board)
-    change = SceneChanger(board, board.scene, bank)
+
+    def expect(header: Header) -> Expectation | None:
+        return Expectation.of(header, board, simulated_identity(board), datetime.now(tz=UTC).date())
+
+    change = SceneChanger(board, board.scene, bank, expect=expect)
     for warning in enter_realtime(board.realtime):
         log(warning, Priority.WARNING)
     drain_s = clock.now_s()
@@ -89,7 +94,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touche
     trace = TraceFile.from_environment(board.name, board.waveform.duration_s)
     housekeeping = Housekeeping(board, session, notifier, Watchdog(notifier, math.inf), None)
     context = LoopContext(board, clock, session, source, layers=layers)
-    context.emissions.expected = Expectation.of(bank.header, board, simulated_identity(board), datetime.now(tz=UTC).date())
+    context.emissions.expected = expect(bank.header)
     trace.watch(context.trace)
     try:
         assembly = assemble(

@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 import pytest
 from repository_fixture import NOW
-from scipy.stats import binom
+from scipy.stats import binom, poisson
 from test_fall_back import Device as FallBack
 from test_fall_back import cutting
 from test_fleet import report
@@ -26,7 +26,7 @@ from controller.device.update.settings import UpdateSettings
 from controller.device.update.trial import judge_trial
 from controller.device.update.trust.offer import NotYetError
 from controller.device.update.trust.rollout import place_ppm
-from controller.workshop.publish.fleet import Fleet, Tally, fleet_table, proposal, read_fleet, rollout_figures
+from controller.workshop.publish.fleet import Fleet, Tally, at_least, fleet_table, proposal, read_fleet, rollout_figures
 from controller.workshop.publish.publications import draft_open, draft_stop
 from controller.workshop.publish.publisher import Repository
 
@@ -74,6 +74,12 @@ def test_few_devices_are_harmed_however_many_are_bad():
     assert harmed_more(SHARES, any_number).max() == pytest.approx(0.0134, abs=1e-4)
     assert harmed_more((1, 10, 50, 100), any_number).max() == pytest.approx(0.18, abs=0.01)
     assert harmed_more(SHARES, np.arange(1, 251), 5).max() < 0.05 < harmed_more(SHARES, np.arange(1, 201), 4).max()
+
+
+def test_chance_is_that_of_poisson_also_in_a_large_fleet():
+    for expected in (0.0, 0.3, 5.0, 800.0, 20_000.0):
+        for count in (0, 1, 7, round(expected), round(1.1 * expected) + 20):
+            assert at_least(count, expected) == pytest.approx(poisson.sf(count - 1, expected), abs=1e-9)
 
 
 def test_the_rule_does_what_the_formula_says():
