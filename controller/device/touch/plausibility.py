@@ -206,18 +206,17 @@ class Plausibility:
             return
         x_m, y_m = place
         before_s, period_s = self._habits.before_s, self._habits.rate.period_s
-        if reaches(contact, x_m, y_m, time_s, self._number, before_s, period_s):
-            if contact.held:
-                step_s = moving_s(time_s - contact.held_s, period_s, lost=2)
+        held = contact.held
+        step_s = moving_s(time_s - contact.held_s, period_s, lost=2) if held else moving_s(time_s - before_s, period_s)
+        if reaches(contact, x_m, y_m, step_s, rested=contact.stepped != (held or self._number) - 1):
+            if held:
                 self._leave_out(contact)
-            else:
-                step_s = moving_s(time_s - before_s, period_s)
-        elif contact.held and goes_on(contact, x_m, y_m, time_s, before_s, period_s):
+        elif held and goes_on(contact, x_m, y_m, time_s, before_s, period_s):
             counts.confirmed += 1
             step_s = moving_s(time_s - before_s, period_s)
             contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
         else:
-            if contact.held:
+            if held:
                 self._leave_out(contact, more=True)
             counts.held += 1
             self._hold(contact, x_m, y_m, time_s)
