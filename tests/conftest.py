@@ -88,6 +88,8 @@ def left_out(path, marked):
     """Whether a file has no test that `-m marked` runs; pytest asks `pytest_ignore_collect` of no file that it is given by name."""
     if marked == "quick":
         return not is_quick(path)
+    if marked == "gateware" and "conformance" in path.parts:  # whose conftest.py marks tests of the compiled Verilog
+        return False
     return marked in OWN_LINES and f"mark.{marked}" not in path.read_text()
 
 

@@ -11,6 +11,7 @@ from controller.workshop.gateware.rtl_gateware import RtlGateware
 sys.path.insert(0, str(Path(__file__).parent))  # where the tests find pin_script
 from pin_script import MODEL, Script
 
+HERE = Path(__file__).parent
 BACK_ENDS = {"model": MODEL} | ({"rtl": RtlGateware} if verilator_root() else {})
 
 
@@ -29,6 +30,15 @@ def pytest_runtest_makereport(item, call):
         Script.performed.kept().write(kept)
         report.sections.append(("pins", f"haptic-panel gateware waves --script {kept} --from-ms 0 --to-ms 1000"))
     return report
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """What runs the compiled Verilog is of the line `-m gateware`; the model alone is not."""
+    for item in items:
+        of_verilog = "rtl" in item.fixturenames or (hasattr(item, "callspec") and item.callspec.params.get("back_end") == "rtl")
+        if of_verilog and HERE in item.path.parents:
+            item.add_marker(pytest.mark.gateware)
 
 
 @pytest.fixture(params=BACK_ENDS)

@@ -15,7 +15,7 @@ from controller.device.loop.layer_source import AcceptedLayer
 from controller.device.scene.layer_tables import REFUSED_MOST, read_layer
 from controller.device.scene.layers import UNMOVED, Placement
 from controller.device.scene.scene import SpatialIndex
-from controller.device.service.scenes import helper_process, layer_preparer
+from controller.device.service.scenes import helper_process
 from controller.device.service.scenes.layer_helper import LayerChecker
 from controller.device.service.scenes.layer_message import (
     pack_layer,
@@ -136,8 +136,11 @@ def test_a_helper_that_hangs_is_ended_and_the_next_layer_is_checked(preparer, mo
     works(preparer)
     before = preparer.helper.process.pid
     os.kill(before, signal.SIGSTOP)
-    monkeypatch.setattr(helper_process, "GRACE_S", -layer_preparer.LIMIT_S)
+    monkeypatch.setattr(helper_process, "GRACE_S", -60)
+    waited = iter([0.0, 3600.0, 3600.0, 0.0])  # at the start; twice it had no processor; then it had
+    monkeypatch.setattr(helper_process, "starved_s", lambda _: next(waited))
     assert "hangs, and was ended" in prepared(preparer, line(*rectangles()))
+    assert not list(waited)
     monkeypatch.undo()
     works(preparer)
     assert preparer.helper.process.pid != before

@@ -196,6 +196,7 @@ def test_the_file_shows_what_the_model_does_and_each_frame_by_its_name(traced, c
     assert {int(bits, 2): name for bits, name in shown.items()} == {int(one): one.name for one in Result} | {255: "NO_RESULT"}
 
 
+@pytest.mark.gateware
 def test_inside_are_all_signals_and_a_frame_by_the_uart_is_named_too(traced, script_file):
     run = Script()
     begin = SCRIPT.end_tick

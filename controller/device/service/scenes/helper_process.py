@@ -128,8 +128,8 @@ class Helper:
     def ask(self, request: bytes) -> None:
         """Begin a request."""
         self.asked, self._again, self._request, self._failure = True, False, request, ""
-        self._until_s = time.monotonic() + self._limit_s + GRACE_S
         self._said.clear()
+        self._wait_until()
         if not self.process.send(request):
             self._ask_again()
 
@@ -161,9 +161,14 @@ class Helper:
         if self._first:
             self.process.send(self._first)
 
+    def _wait_until(self) -> None:
+        """Begin to wait for an answer: for the limit and the grace, and as long as the process has no processor meanwhile."""
+        self._until_s = time.monotonic() + self._limit_s + GRACE_S - starved_s(self.process.pid)
+
     def _ask_again(self) -> None:
         self._restart()
         self._said.clear()
+        self._wait_until()
         if self._again:
             self._failure = f"the process that {self._does} ends again and again"
         elif not self.process.send(self._request):
@@ -177,9 +182,20 @@ class Helper:
             self._said += more
         elif more is not None:
             self._ask_again()
-        elif time.monotonic() > self._until_s:
+        elif (now_s := time.monotonic()) > self._until_s and now_s > self._until_s + starved_s(self.process.pid):
             self._restart()
             self._failure = f"the process that {self._does} hangs, and was ended; ask again"
+
+
+def starved_s(pid: int) -> float:
+    """Time since its start for which a process was ready to run and had no processor; 0 if the kernel does not count it.
+
+    A busy computer starts a helper of low priority late; it does not hang. proc(5), /proc/PID/schedstat: its second number, in ns.
+    """
+    try:
+        return int(Path(f"/proc/{pid}/schedstat").read_text(encoding="ascii").split()[1]) * 1e-9
+    except (OSError, IndexError, ValueError):
+        return 0.0
 
 
 def _fork() -> int:
