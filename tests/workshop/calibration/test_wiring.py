@@ -74,7 +74,7 @@ def evaluated(edges, count, seed, margin_m, fault):
 
 
 EVERY = [(edges, count, margin_m) for edges in ("free", "clamped") for count in (3, 4, 6, 8, 10) for margin_m in (0.0, 0.03)]
-SOME = [("free", count, 0.03) for count in (6, 10)]  # few points take a minute, clamped ones as long again
+SOME = [("free", 10, 0.03)]  # few points take a minute, clamped ones as long again
 
 
 @pytest.mark.parametrize(
