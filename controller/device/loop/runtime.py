@@ -18,7 +18,7 @@ def no_garbage_collection() -> Iterator[None]:
     gc.collect()
     gc.disable()
     for length in range(1, TUPLE_LENGTHS):
-        _ = [tuple([None] * length) for _ in range(FREE_TUPLES)]
+        _ = list(zip(*[[None] * FREE_TUPLES] * length, strict=True))
     try:
         yield
     finally:
