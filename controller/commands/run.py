@@ -129,7 +129,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
         expect = partial(expected_of, board=board)
         expected = expect(bank.header)
         if expected is not None and expected.cause and measured_at(bank.path):
-            tell(f"{bank.path}: what it will do on this panel nobody knows: {expected.cause}", Priority.WARNING)
+            tell(f"{bank.path}: its amplitude on this panel has no lower bound: {expected.cause}", Priority.WARNING)
         ran = serve(board, scene, str(scene_file), bank, replay, open_fpga_of(board), _application_socket(board), expect)
         figures = {
             "bank": str(bank.path),

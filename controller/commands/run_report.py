@@ -27,7 +27,7 @@ def felt(figures: dict[str, Any]) -> str:
         lines.append(f"what was felt at worst is left out: {figures['spoiled']}")
     if (felt_um := focus["felt_light_touch_um"]) is not None:
         lines.append(f"a light touch feels {felt_um:.2f} µm of the median pulse: {felt_in_words(felt_um)}")
-    lines += [f"by the bank: {in_words(figures['expected'])}", *figures["unfelt"]]
+    lines += [f"expected from the bank: {in_words(figures['expected'])}", *figures["unfelt"]]
     if total["count"]:
         median_ms, worst_ms = total["p50"] * 1e-3, total["worst"] * 1e-3
         lines.append(f"from the report of a touch to its trigger: {median_ms:.2f} ms at the median, {worst_ms:.2f} ms at worst")
@@ -42,7 +42,7 @@ def served(figures: dict[str, Any]) -> str:
     lines = [
         f"board {figures['board']}: {_count(figures['foci'], 'pulse')} played; outputs {off} ({stalls})",
         f"at the end: {figures['state']}" + (f" ({figures['cause']})" if figures["cause"] else ""),
-        f"by the bank: {in_words(figures['expected'])}",
+        f"expected from the bank: {in_words(figures['expected'])}",
         *(f"warning: {warning}" for warning in figures["warnings"]),
         *figures["unfelt"],
         MORE,

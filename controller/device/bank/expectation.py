@@ -244,7 +244,7 @@ def why_unknown(provenance: Provenance | None, panel: str | None) -> str:
     if provenance is None:
         return "the bank does not say where its responses come from"
     if not provenance.from_measurements:
-        return "the bank is a model's, and no two plates are alike"
+        return "the bank comes from a model, not from this plate"
     if not _foresees(provenance):
         return f"the bank does not say how well its measurements foresee each other: {MEASURE_AGAIN} of the same folder does"
     if provenance.panel is None:
@@ -260,10 +260,9 @@ def why_unknown(provenance: Provenance | None, panel: str | None) -> str:
 def in_words(figures: dict[str, Any] | None) -> str:
     """`Expectation.figures` in a line; None: of a bank that says no amplitude."""
     if figures is None:
-        nothing = "nothing is known: the bank does not say what amplitudes it foresees"
-        return f"{nothing} (built again it does, but not for [finger] or for several FPGAs)"
+        return "no amplitude is stated: build the bank again (none is with a [finger] in board.toml, or several FPGAs)"
     finger, bare = (Interval(*figures[name]).in_words() for name in ("finger_um", "bare_um"))
     felt = f"a finger of 30 to 150 mg feels {finger} of a pulse"
     if figures["cause"]:
-        return f"{felt}, and how much nobody knows: {figures['cause']}"
+        return f"{felt}; no lower bound: {figures['cause']}"
     return f"{felt}, the bare plate moves {bare}"
