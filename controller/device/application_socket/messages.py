@@ -240,7 +240,7 @@ class PlayedFocus(Struct, frozen=True, kw_only=True, omit_defaults=True, gc=Fals
 
     `period_ms` of a fixed emitter: the FPGA repeats it until another emission starts, another scene is in force, or outputs go off.
     `expected_um`: least, expected and most that the finger feels, or without one that the plate moves at T; the truth lies between
-    least and most with 95 %. Expected is null where nobody knows whether the bank is of this plate; all are left out near an edge.
+    least and most with 95 %. Expected is null where the bank may be of another plate; all are left out near an edge.
     """
 
     time_s: float

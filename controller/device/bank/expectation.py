@@ -87,7 +87,7 @@ class Expectation:
     absorbed: float  # loss by each other finger
     sides_m: tuple[float, float]
     feels: bool  # whether what a finger feels can be said
-    cause: str  # why nobody knows whether the bank is of this plate; empty: it is
+    cause: str  # why the bank may be of another plate; empty: it is of this one
 
     @classmethod
     def of(cls, header: Header, board: Board, panel: str | None, today: date) -> Expectation | None:

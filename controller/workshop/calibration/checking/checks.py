@@ -80,7 +80,7 @@ def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], dri
 
 
 def wrong_wires(wiring: Wiring, alive: Sequence[int]) -> list[Objection]:
-    """Channels that drive the patch of another one, or the other way round; and those of which nobody knows."""
+    """Channels that drive the patch of another one, or the other way round; and those that are undecided."""
     found = []
     for names in wiring.swapped:
         way = "swapped" if len(names) == 2 else "in the wrong order"

@@ -141,7 +141,7 @@ class MeasurementFile(Record, frozen=True):
     temperature_c: Annotated[float, Meta(ge=-50, le=150)] | None = None  # of the plate
     # `board digest` of the board that was measured, in hex; `haptic-panel calibrate check` warns where it differs
     board_sha256: Annotated[str, Meta(pattern=r"^[0-9a-f]{64}\Z")] | None = None
-    # Which panel was measured: `panel_identity` of its computer. Left out: nobody knows, and no bank from it says what it will do
+    # Which panel was measured: `panel_identity` of its computer. Left out: unknown, and a bank from it states no lower bound
     panel: Annotated[str, Meta(pattern=r"^[0-9a-f]{16}\Z")] | None = None
     points: str | None = None  # CSV file with the columns point, x_mm, y_mm. Left out: the points are in the file of the records
 
