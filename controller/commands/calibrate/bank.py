@@ -8,10 +8,12 @@ from typing import Any
 
 from controller.commands.calibrate.check import declare_accept
 from controller.commands.common.output import picture_path, progress_bar, show
+from controller.commands.common.worker_options import add_worker_options, asked_for, workers_of
 from controller.console import tell
 from controller.device.bank.lookup import find_bank
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
+from controller.errors import UsageError
 
 OF_RECORDS = {"measuring frame": "frame", "mass of the sensor": "sensor_mass"}
 
@@ -40,6 +42,13 @@ def declare_bank(step: argparse.ArgumentParser) -> None:
         action="store_true",
         help="let the board's plate model fill gaps between scattered points, if its edges prove right",
     )
+    step.add_argument(
+        "--optimise",
+        choices=("contrast", "quiet", "balanced", "loud", "cool"),
+        help="optimise every entry by the field that the measurements foresee: more contrast, less sound, both, a fifth more"
+        " amplitude, or less heat in the stages; about a second of a core a cell (default: none)",
+    )
+    add_worker_options(step)
     declare_accept(step)
 
 
@@ -50,7 +59,10 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from controller.workshop.bank_builder.own_bank import pitch_of
     from controller.workshop.calibration.banks.plate_bank import PlateBank, build, fit
     from controller.workshop.calibration.duration import foreseen
+    from controller.workshop.workers.workers import ALONE
 
+    if options.optimise is None and asked_for(options):
+        raise UsageError("--workers, --dask and --scheduler-file are of use with --optimise: a plain bank uses all cores itself")
     picture = picture_path(options)
     board, folder = load_board(find_board(options.board)), Path(options.folder)
     out, also = (Path(name) if name else None for name in (options.out, options.also))
@@ -68,10 +80,15 @@ def calibrate_bank(options: argparse.Namespace) -> int:
         from controller.workshop.calibration.checking.plot_leave_out import plot_leave_out
 
         plot_leave_out(picture, board, fitted.source, fitted.waves, fitted.decays)
-    built = build(wanted, fitted)
+    built = build(wanted, fitted, workers_of(options) if options.optimise else ALONE)
     for note in built.notes:
         tell(note)
-    report = {"path": str(built.path), "cells": built.report.cells, "bytes": built.report.bytes}
+    report = {
+        "path": str(built.path),
+        "cells": built.report.cells,
+        "bytes": built.report.bytes,
+        "optimised": built.report.optimised,
+    }
     show(options, report | fitted.figures | {"notes": built.notes}, _table)
     if built.path != (played := find_bank(board)).path:
         tell(f"run plays from {played.path} ({played.why}) unless given --bank {built.path}")
@@ -80,8 +97,10 @@ def calibrate_bank(options: argparse.Namespace) -> int:
 
 def bank_options(options: argparse.Namespace) -> dict[str, Any]:
     """What `declare_bank` declares, as fields of `PlateBank`."""
+    from controller.workshop.bank_builder.methods.descent import AIMS
+
     fields = {name: getattr(options, name) for name in ("pitch_mm", "compact", "memory_mb", "model")}
-    return fields | {"accept": tuple(options.accept)}
+    return fields | {"accept": tuple(options.accept), "aim": AIMS.get(options.optimise)}
 
 
 def _table(figures: dict[str, Any]) -> str:
@@ -115,4 +134,10 @@ def _table(figures: dict[str, Any]) -> str:
         lines.append(f"{'frequencies, other set':<28}{reported(drift['frequency_ratio'])}{kelvin}, {drift['alike']:g} alike")
         if drift["coefficient_per_k"]:
             lines.append(f"{'coefficient_per_k':<28}{reported(with_error(*drift['coefficient_per_k']))}")
+    if optimised := figures["optimised"]:
+        over = optimised["contrast_of_plain"]
+        lines.append(
+            f"{'optimised':<28}{optimised['aim']}: {over['by_responses']:g} times the contrast of plain entries"
+            f" by the responses, {over['with_error']:g} with their error"
+        )
     return "\n".join([*lines, f"{figures['responses']}", f"bank: {figures['path']}, {figures['cells']:,} cells"])

@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from controller.device.bank.file_format import Header
-from controller.device.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
+from controller.device.bank.packing import CHANNELS, WORD, channel_bits, drive_words, edges, quantise
 from controller.device.board.board import Board
 from controller.device.board.paths import make_folder
 from controller.errors import ConfigError
@@ -25,15 +25,23 @@ from controller.workshop.bank_builder.compact.trial import Trial
 from controller.workshop.bank_builder.interpolation_error import interpolation_error
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
-from controller.workshop.bank_builder.optimised import Optimise, Words, kept_path, optimised_words, remove_kept
+from controller.workshop.bank_builder.optimised import (
+    Cell,
+    Optimise,
+    Words,
+    contrast_of_plain,
+    kept_path,
+    optimised_words,
+    remove_kept,
+)
 from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.bank_builder.said_amplitude import said_amplitude
 from controller.workshop.bank_builder.writer import BankWriter
-from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.workers.kept_file import writing
 from controller.workshop.workers.map_kept import Mapped
 
-WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
+WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "responses", "optimised")  # build parameters: optimised drive words of a cell
 CELLS_COMPARED = 32  # at most, of an optimised bank: 10 ms each
 
 
@@ -80,7 +88,7 @@ def build_bank(request: BankRequest) -> BuildReport:
         results = plan.header.parameters
         results["content_sha256"] = entries.content.hexdigest()
         if optimised is not None:
-            results["amplitude_of_plain"] = _amplitude_of_plain(plan.board, source, plan.points_m, optimised)
+            results["amplitude_of_plain"] = _amplitude_of_plain(plan, optimised)
         results["interpolation_error"] = error
         results["amplitude_um"] = said_amplitude(plan.board, source, plan.points_m, results["amplitude_of_plain"])
     remove_kept(path)
@@ -94,7 +102,11 @@ def build_bank(request: BankRequest) -> BuildReport:
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=entries.worst_edge_rate_hz,
         interpolation_error=results["interpolation_error"],
-        optimised={"aim": aim.name, "amplitude_of_plain": results["amplitude_of_plain"], "workers": mapped.figures()}
+        optimised={
+            "aim": aim.name,
+            **{name: results[name] for name in ("amplitude_of_plain", "contrast_of_plain") if name in results},
+            "workers": mapped.figures(),
+        }
         if aim and mapped
         else None,
     )
@@ -103,10 +115,38 @@ def build_bank(request: BankRequest) -> BuildReport:
 def _optimised(request: BankRequest, plan: BankPlan) -> tuple[Words, Mapped]:
     """Optimised drive words of all cells, and who found them; what an interrupted build has kept is not computed again."""
     assert request.aim
-    kept = kept_path(request.path, inputs_sha256(plan.board, {key: plan.header.parameters[key] for key in WORDS_DEPEND_ON}))
-    points_m = dict(zip(plan.numbers.tolist(), map(tuple, plan.points_m.tolist()), strict=True))
-    optimise = Optimise(plan.board, request.highest_mode_hz, request.aim)
-    return optimised_words(optimise, points_m, kept, request.workers, progress=request.progress)
+    board, plate, parameters = plan.board, request.plate, plan.header.parameters
+    kept = kept_path(request.path, inputs_sha256(board, {key: parameters[key] for key in WORDS_DEPEND_ON}))
+    cells: list[Cell] = [tuple(place_m) for place_m in plan.points_m.tolist()]
+    file = None
+    if plate:
+        file = kept.with_suffix(".plate")
+        plain = _plain_words(plan)
+        cells = [(*cell, words.tobytes()) for cell, words in zip(cells, plain, strict=True)]
+        with writing(file):
+            plate.write(file)
+    optimise = Optimise(board, request.highest_mode_hz, request.aim, file)
+    numbered = dict(zip(plan.numbers.tolist(), cells, strict=True))
+    found, mapped = optimised_words(optimise, numbered, kept, request.workers, progress=request.progress)
+    if plate:
+        some = _compared(plan)
+        parameters["contrast_of_plain"] = contrast_of_plain(board, plate, plan.points_m[some], plain[some], found[some])
+    return found, mapped
+
+
+def _plain_words(plan: BankPlan) -> Words:
+    """Plain drive words of all cells: (cell, sample)."""
+    found = np.empty((len(plan.numbers), plan.header.samples), WORD)
+    for block in plan.blocks:
+        some = slice(block.start, block.stop)
+        responses = plan.source.drive_order_responses(plan.points_m[some])
+        found[some] = [drive_words(response, plan.board.idle_word) for response in responses]
+    return found
+
+
+def _compared(plan: BankPlan) -> NDArray[np.intp]:
+    """Which of the cells are compared with plain ones: evenly spaced among those of the bank."""
+    return np.unique(np.linspace(0, len(plan.points_m) - 1, CELLS_COMPARED).round().astype(np.intp))
 
 
 def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, name: str, *, progress: bool) -> None:
@@ -203,9 +243,9 @@ class _Entries:
         self.worst_edge_rate_hz = max(self.worst_edge_rate_hz, rate_hz)
 
 
-def _amplitude_of_plain(board: Board, source: ResponseSource, points_m: NDArray[np.float64], words: Words) -> dict[str, Any]:
-    """Amplitudes of optimised entries over those of plain ones, by all modes, at cells evenly spaced among those of the bank."""
-    some = np.unique(np.linspace(0, len(points_m) - 1, CELLS_COMPARED).round().astype(int))
+def _amplitude_of_plain(plan: BankPlan, words: Words) -> dict[str, Any]:
+    """Amplitudes of optimised entries over those of plain ones, by all modes."""
+    board, source, points_m, some = plan.board, plan.source, plan.points_m, _compared(plan)
     plain, prediction = SignOfSum(board, source), FocusPrediction(board, source)
     shares = [
         float(

@@ -18,6 +18,7 @@ from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.compact.design import CompactDesign, compact_grid
 from controller.workshop.bank_builder.compositions import Composition, compositions
+from controller.workshop.bank_builder.methods.descent import DescentAim
 from controller.workshop.bank_builder.optimised import reported
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.memory import BASE_BYTES, cell_bytes, entries_bytes, require
@@ -53,15 +54,11 @@ class BankPlan:
     def of(cls, request: BankRequest) -> BankPlan:
         """BankPlan a build; ConfigError where it cannot be."""
         board, source = request.board_as_chosen, request.source
-        if request.aim is not None and source is not None:
-            kind = source.provenance.kind
-            raise ConfigError(f"responses that are {kind} cannot be optimised: that takes a model of the whole plate")
-        if request.compact and request.aim is not None:
-            raise ConfigError("a compact bank holds no waveforms of cells that could be optimised")
-        if request.aim is not None and (board.finger is not None or board.waveform.drift_percent):
-            key = "[finger]" if board.finger is not None else "waveform.drift_percent"
-            what = "a bare plate that does not drift"
-            raise ConfigError(f"board {board.name!r}: entries are optimised for {what}: leave out {key}, or --optimise")
+        if request.aim is not None:
+            refuse_aim(board, request.aim, measured=source is not None, compact=request.compact)
+            if source is not None and request.plate is None:
+                kind = source.provenance.kind
+                raise ConfigError(f"responses that are {kind} cannot be optimised: that takes the field of the whole plate")
         pitch_m = board.bank.pitch_mm * 1e-3 if request.pitch_m is None else request.pitch_m
         grid = compact_grid(board, pitch_m) if request.compact else Grid.of(board.plate, pitch_m)
         wanted = _wanted(request, grid)
@@ -88,6 +85,18 @@ class BankPlan:
         blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, bare, more_bytes))
         modes = bare.modes if isinstance(bare, ResponseModel) else None
         return cls(board, wanted, numbers, grid.points()[numbers], found, modes, header, composed, blocks, design)
+
+
+def refuse_aim(board: Board, aim: DescentAim, *, measured: bool, compact: bool) -> None:
+    """Refuse a board, responses or a form of bank that cannot be optimised for an aim; raises ConfigError."""
+    if compact:
+        raise ConfigError("a compact bank holds no waveforms of cells that could be optimised")
+    if measured and aim.felt_turns:
+        raise ConfigError("measured responses cannot be optimised to be felt: that takes a model of the plate under a finger")
+    if board.finger is not None or board.waveform.drift_percent:
+        key = "[finger]" if board.finger is not None else "waveform.drift_percent"
+        what = "a bare plate that does not drift"
+        raise ConfigError(f"board {board.name!r}: entries are optimised for {what}: leave out {key}, or --optimise")
 
 
 def _wanted(request: BankRequest, grid: Grid) -> NDArray[np.bool_]:
@@ -117,7 +126,7 @@ def _parameters(request: BankRequest, grid: Grid, wanted: NDArray[np.bool_], sou
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
         **({} if choice is None else {"choice": choice, "composes": choice["composes"]}),
         "spots_sha256": hashlib.sha256(repr([(*emitter[:3], *emitter[4:]) for emitter in emitters]).encode()).hexdigest(),
-        "optimised": aim and reported(board, aim),
+        "optimised": aim and reported(board, aim, request.plate),
     }
     return parameters | {
         "inputs_sha256": inputs_sha256(board, parameters),
@@ -125,6 +134,7 @@ def _parameters(request: BankRequest, grid: Grid, wanted: NDArray[np.bool_], sou
         "channel_edges": 0,
         "all_edges": 0,
         "amplitude_of_plain": aim and {"cells": 10**3, "least": 0.001, "median": 0.001, "most": 0.001},
+        **({"contrast_of_plain": {"by_responses": 0.001, "with_error": 0.001}} if request.plate else {}),
         "interpolation_error": {},
         "amplitude_um": [0.0001111] * 3,  # of most digits
     }

@@ -15,6 +15,7 @@ from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.scene.scene import FixedEmitter
 from controller.workshop.bank_builder.methods.descent import DescentAim
+from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlate
 from controller.workshop.physics.plate import mode_cut_hz
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.workers.workers import ALONE, Workers
@@ -45,6 +46,7 @@ class BankRequest:
     # Optimise every entry for this (`workshop/bank_builder/methods/descent.py`). What is done of an interrupted build is kept
     # beside `path`
     aim: DescentAim | None = None
+    plate: MeasuredPlate | None = None  # by which entries of a `source` are optimised
     workers: Workers = ALONE  # who optimises
     # Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is
     memory_mb: float | None = None

@@ -42,6 +42,10 @@ class LeaveOut:
         quartiles = np.nanquantile(np.log(np.maximum(self.over_foreseen, 1e-3)), (0.25, 0.5, 0.75))
         return round(float(quartiles[1]), 4), round(float(quartiles[2] - quartiles[0]) / QUARTILES, 4)
 
+    def unforeseen(self) -> float:
+        """Share of the energy in the band that is not foreseen, mean over the points: words by signs keep the correlation."""
+        return round(float(np.nanmean(1 - self.kept**2)), 4)
+
     def summary(self) -> tuple[float, float]:
         """Median and least."""
         return round(float(np.nanmedian(self.kept)), 4), round(float(np.nanmin(self.kept)), 4)
@@ -69,8 +73,8 @@ class InterpolatedResponses:
         self.samples = bins.samples
         self.bit_clock_hz = board.waveform.bit_clock_hz
         self.plate_m = (board.plate.length_m, board.plate.width_m)
-        self._bins = bins
-        self._field = field
+        self.bins = bins
+        self.field = field
         self._reach = reach
 
     def foreseen(self, points_m: ArrayLike) -> Floats:
@@ -78,7 +82,7 @@ class InterpolatedResponses:
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         if self._reach is None:
             return np.ones(len(points))
-        some = self._bins.in_band
+        some = self.bins.in_band
         return foreseen_shares(*self._reach, points, some[:: max(len(some) // BINS_ASKED, 1)])
 
     def near_enough(self, points_m: Floats) -> NDArray[np.bool_]:
@@ -101,8 +105,8 @@ class InterpolatedResponses:
         out = _room(out, (len(points), self.samples, CHANNELS), dtype)
         for first in range(0, len(points), POINTS_AT_ONCE):
             some = slice(first, first + POINTS_AT_ONCE)
-            spectra = self._field.at(points[some])
-            out[some] = self._bins.band_limited(spectra) if band_limited else self._bins.whole(spectra)
+            spectra = self.field.at(points[some])
+            out[some] = self.bins.band_limited(spectra) if band_limited else self.bins.whole(spectra)
         return out
 
     def drive_order_responses(
@@ -118,13 +122,13 @@ class InterpolatedResponses:
     ) -> NDArray[np.floating[Any]]:
         """As `ResponseSource` says; outside the band, rows of rest hold what was measured there. Errors as in `responses`."""
         points = self._checked(points_m)
-        rows = self._bins.rest_rows
+        rows = self.bins.rest_rows
         out = _room(out, (len(points), self.samples + rows, CHANNELS), dtype)
         for first in range(0, len(points), POINTS_AT_ONCE):
             some = slice(first, first + POINTS_AT_ONCE)
-            spectra = self._field.at(points[some])
-            out[some, : self.samples] = self._bins.band_limited(spectra)[:, ::-1]
-            out[some, self.samples :] = self._bins.rest(spectra)
+            spectra = self.field.at(points[some])
+            out[some, : self.samples] = self.bins.band_limited(spectra)[:, ::-1]
+            out[some, self.samples :] = self.bins.rest(spectra)
         return out
 
     def _checked(self, points_m: ArrayLike) -> Floats:

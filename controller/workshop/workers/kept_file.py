@@ -38,33 +38,33 @@ class KeptFile:
     @contextlib.contextmanager
     def open(cls, path: Path) -> Iterator[KeptFile]:
         """The file at a path, made if it is not there; raises WorkersError if it cannot be written, UsageError if it is in use."""
-        with _reported(path):
+        with writing(path):
             file = os.fdopen(open_private(path), "r+b")
         try:
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 raise UsageError(f"{path}: another command is at work on the same: wait for it, or give another file") from None
-            with _reported(path):
+            with writing(path):
                 kept = cls(file, path)
             yield kept
         finally:
-            with _reported(path):  # it flushes
+            with writing(path):  # it flushes
                 file.close()
 
     def add(self, number: int, result: bytes) -> None:
         """Append a result; raises WorkersError if it cannot be written."""
-        with _reported(self._path):
+        with writing(self._path):
             self._file.write(sealed(RECORD.pack(number, len(result)) + result))
 
     def flush(self) -> None:
         """Hand what was added to the system; raises WorkersError if it cannot be written."""
-        with _reported(self._path):
+        with writing(self._path):
             self._file.flush()
 
 
 @contextlib.contextmanager
-def _reported(path: Path) -> Iterator[None]:
+def writing(path: Path) -> Iterator[None]:
     """Raise WorkersError for what the system says of the file."""
     try:
         yield

@@ -29,7 +29,8 @@ from controller.workshop.workers.workers import ALONE, Workers
 Item = TypeVar("Item")
 
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
-ONE_AT_A_TIME = threading.Lock()  # in a process: a model may have one workspace, and a dask worker several threads
+# In a process: a model may have one workspace, and a dask worker several threads; an item may map others itself
+ONE_AT_A_TIME = threading.RLock()
 
 
 @dataclass

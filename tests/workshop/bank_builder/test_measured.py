@@ -170,7 +170,7 @@ def test_responses_that_cannot_be_are_refused_and_an_old_bank_stays(built, tmp_p
 
 
 def test_entries_of_measured_responses_are_not_optimised(tmp_path):
-    with pytest.raises(ConfigError, match="responses that are completed cannot be optimised: that takes a model"):
+    with pytest.raises(ConfigError, match="responses that are completed cannot be optimised: that takes the field"):
         build(tmp_path / "bank", Measured(), aim=AIMS["quiet"])
 
 

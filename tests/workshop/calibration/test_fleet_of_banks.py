@@ -1,5 +1,6 @@
 """Banks of a fleet: of 50 measurements one is broken, a clear line; resumed after kill -9, the same bytes however many compute."""
 
+import dataclasses
 import json
 import os
 import re
@@ -17,6 +18,7 @@ from tables import each_row
 
 from controller.cli import main
 from controller.device.bank.reader import Bank
+from controller.workshop.bank_builder.methods.descent import AIMS
 from controller.workshop.calibration.banks.fleet import KEPT, REPORT, calibrate_fleet
 from controller.workshop.calibration.banks.plate_bank import PlateBank
 from controller.workshop.calibration.point_plan import scattered_points
@@ -36,8 +38,8 @@ def measure(folder, seed):
     )
 
 
-def wanted(folder):
-    return PlateBank(small_board(), folder, pitch_mm=4.0)
+def wanted(folder, aim=None):
+    return PlateBank(small_board(), folder, pitch_mm=4.0, aim=aim)
 
 
 def test_a_good_panel_has_its_bank_and_what_is_wrong_with_others_is_a_line(tmp_path):
@@ -72,19 +74,26 @@ def test_a_good_panel_has_its_bank_and_what_is_wrong_with_others_is_a_line(tmp_p
 KILLED = """
 import sys
 from pathlib import Path
-from workshop.calibration.test_fleet_of_banks import calibrate_fleet, wanted
+from workshop.calibration.test_fleet_of_banks import HURRIED, calibrate_fleet, wanted
 from controller.workshop.workers.workers import Workers
 if __name__ == "__main__":
-    folder = Path(sys.argv[1])
-    print(calibrate_fleet(folder, Path(sys.argv[2]), wanted(folder), Workers(int(sys.argv[3]))))
+    folder, aim = Path(sys.argv[1]), HURRIED if sys.argv[4:] else None
+    print(calibrate_fleet(folder, Path(sys.argv[2]), wanted(folder, aim), Workers(int(sys.argv[3]))))
 """
+HURRIED = dataclasses.replace(AIMS["contrast"], steps=4)
+
+
+def started(script, *arguments):
+    script.write_text(KILLED)
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+    command = [sys.executable, str(script), *map(str, arguments)]
+    return subprocess.Popen(command, env=environment, start_new_session=True, stdout=subprocess.PIPE, text=True)
 
 
 @pytest.mark.slow
 def test_a_fleet_of_fifty_of_which_one_is_broken_killed_and_resumed(tmp_path):
     """Ten plates, five times each. Everything is killed once some banks are there; two processes, and one alone, go on."""
     fleet, banks, script = tmp_path / "fleet", tmp_path / "banks", tmp_path / "killed.py"
-    script.write_text(KILLED)
     for number in range(50):
         if number < 10:
             measure(fleet / f"panel-{number:02}", number)
@@ -93,18 +102,13 @@ def test_a_fleet_of_fifty_of_which_one_is_broken_killed_and_resumed(tmp_path):
     record = sorted((fleet / "panel-17").rglob("*.npy"))[-1]
     record.write_bytes(record.read_bytes()[:-100])
 
-    def started(out, workers):
-        environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
-        command = [sys.executable, str(script), str(fleet), str(out), str(workers)]
-        return subprocess.Popen(command, env=environment, start_new_session=True, stdout=subprocess.PIPE, text=True)
-
-    killed = started(banks, 2)
+    killed = started(script, fleet, banks, 2)
     assert wait_for("some banks", lambda: (banks / KEPT).exists() and (banks / KEPT).stat().st_size > 5000, seconds=500)
     os.killpg(killed.pid, signal.SIGKILL)
     killed.communicate()
     some = sorted(path.stem for path in banks.glob("panel-*.bank"))
     assert 0 < len(some) < 49
-    with started(banks, 2) as going_on:
+    with started(script, fleet, banks, 2) as going_on:
         said = going_on.communicate()[0]
     assert int(re.search(r"'kept': (\d+)", said)[1]) >= len(some) - 2  # two may have been under way
     report = json.loads((banks / REPORT).read_text())
@@ -119,6 +123,30 @@ def test_a_fleet_of_fifty_of_which_one_is_broken_killed_and_resumed(tmp_path):
         if number != 17 and number % 10 < 3:
             one, other = alone / f"panel-{number % 10:02}.bank", banks / f"panel-{number:02}.bank"
             assert one.read_bytes() == other.read_bytes()
+
+
+@pytest.mark.slow
+def test_an_optimised_fleet_killed_amid_its_panels_goes_on_at_their_cells(tmp_path):
+    """The bytes are those of one process that nobody disturbs; what each bank says of its contrast is in the report."""
+    fleet, banks, script = tmp_path / "fleet", tmp_path / "banks", tmp_path / "killed.py"
+    for number in range(3):
+        measure(fleet / f"panel-{number}", number)
+    killed = started(script, fleet, banks, 2, "optimised")
+    assert wait_for("some cells", lambda: sum(file.stat().st_size > 20_000 for file in banks.glob(".*.words")) == 2, seconds=500)
+    os.killpg(killed.pid, signal.SIGKILL)
+    killed.communicate()
+    assert not list(banks.glob("*.bank"))
+    with started(script, fleet, banks, 2, "optimised") as going_on:
+        going_on.communicate()
+    report = json.loads((banks / REPORT).read_text())
+    assert not report["broken"]
+    with started(script, fleet, tmp_path / "alone", 1, "optimised") as alone:
+        alone.communicate()
+    for name, panel in report["panels"].items():
+        assert (banks / f"{name}.bank").read_bytes() == (tmp_path / "alone" / f"{name}.bank").read_bytes()
+        assert panel["optimised"]["aim"] == "contrast"
+        assert panel["optimised"]["contrast_of_plain"]["with_error"] > 1.2
+    assert sorted(file.name for file in banks.iterdir()) == [KEPT, *(f"panel-{number}.bank" for number in range(3)), REPORT]
 
 
 @each_row(

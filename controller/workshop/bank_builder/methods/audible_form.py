@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
+from controller.device.board.panel import CHANNELS, Waveform
 from controller.workshop.bank_builder.methods.exact import rounded
+from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlate
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import HEARD_HZ, a_weighting
@@ -25,25 +26,35 @@ FINE = 10  # frequencies averaged over a bin: a mode may be narrower
 PHASE_BITS, FORM_BITS, STATE_BITS = 14, 15, 28
 
 
+def bins_hz(waveform: Waveform) -> Floats:
+    """Frequencies up to 20 kHz of which `FINE` make a bin: (bin, fine)."""
+    count = int(np.ceil(HEARD_HZ * waveform.duration_s * BINS_PER_LINE))
+    fine_hz: Floats = HEARD_HZ / count / FINE * (np.arange(count * FINE, dtype=np.float64) + 0.5)
+    return fine_hz.reshape(count, FINE)
+
+
+def heard(board: Board, model: ResponseModel) -> Floats:
+    """Energy at the surface of each bin as a form of the channels, before it is weighted: (bin, 32, 32)."""
+    fine_hz, modes, driver = bins_hz(board.waveform), model.plate_modes, DriverResponse.of(board.driver)
+    rate = np.maximum(modes.decay_rate, 2 * np.pi * (fine_hz[0, 1] - fine_hz[0, 0]))  # a narrower mode is not met by chance
+    form = np.empty((len(fine_hz), CHANNELS, CHANNELS))
+    for index, some_hz in enumerate(fine_hz):
+        s = 2j * np.pi * some_hz
+        stiffness = modes.mass_kg[:, None] * (modes.angular_frequency[:, None] ** 2 + 2 * rate[:, None] * s + s**2)
+        gain = np.abs(driver.transfer(s) * (1 - np.exp(-s * board.waveform.bit_period_s)) / stiffness)
+        form[index] = (model.forces * (modes.mean_square * np.sum(gain**2, axis=1))[:, None]).T @ model.forces
+    return form
+
+
 class AudibleForm:
     """Audible energy of many emissions at once, in a unit of this class. `longest_lag` is in samples."""
 
-    def __init__(self, board: Board, model: ResponseModel, longest_lag: int) -> None:
-        waveform = board.waveform
-        period_s, samples = waveform.bit_period_s, model.samples
-        count = int(np.ceil(HEARD_HZ * waveform.duration_s * BINS_PER_LINE))
-        fine_hz: Floats = HEARD_HZ / count / FINE * (np.arange(count * FINE, dtype=np.float64) + 0.5)
-        modes, driver = model.plate_modes, DriverResponse.of(board.driver)
-        rate = np.maximum(modes.decay_rate, 2 * np.pi * HEARD_HZ / count / FINE)  # a mode that is narrower is not met by chance
-        form = np.empty((count, CHANNELS, CHANNELS))
-        for index, some_hz in enumerate(fine_hz.reshape(count, FINE)):
-            s = 2j * np.pi * some_hz
-            stiffness = modes.mass_kg[:, None] * (modes.angular_frequency[:, None] ** 2 + 2 * rate[:, None] * s + s**2)
-            gain = np.abs(driver.transfer(s) * (1 - np.exp(-s * period_s)) / stiffness)
-            form[index] = (model.forces * (modes.mean_square * np.sum(gain**2, axis=1))[:, None]).T @ model.forces
-        form *= (a_weighting(fine_hz).reshape(count, FINE) ** 2).mean(axis=1)[:, None, None]
+    def __init__(self, board: Board, plate: ResponseModel | MeasuredPlate, longest_lag: int) -> None:
+        fine_hz, period_s, samples = bins_hz(board.waveform), board.waveform.bit_period_s, plate.samples
+        form = heard(board, plate) if isinstance(plate, ResponseModel) else plate.heard
+        form = form * (a_weighting(fine_hz) ** 2).mean(axis=1)[:, None, None]
+        count, hz = len(fine_hz), fine_hz.mean(axis=1)
         self._form = rounded(form / form.max(), FORM_BITS, (1, 2))
-        hz = fine_hz.reshape(count, FINE).mean(axis=1)
         turns = 2 * np.pi * np.outer(np.arange(samples), hz * period_s)
         self._phases: Floats = np.rint(np.concatenate([np.cos(turns), np.sin(turns)], axis=1) * 2.0**PHASE_BITS) * 2.0**-PHASE_BITS
         lag_turns = 2 * np.pi * np.outer(np.arange(longest_lag + 1), hz * period_s)

@@ -35,7 +35,9 @@ from controller.workshop.bank_builder.methods.design import Place, WaveformDesig
 from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.bank_builder.methods.felt_form import FeltForm
 from controller.workshop.bank_builder.methods.field_form import FieldForm
-from controller.workshop.bank_builder.methods.prediction import Prediction
+from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlate
+from controller.workshop.bank_builder.methods.prediction import FocusPrediction
+from controller.workshop.bank_builder.methods.settling import settle
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 Floats = NDArray[np.float64]
@@ -43,7 +45,6 @@ Floats = NDArray[np.float64]
 LEVELS = 64  # to which relaxed levels are rounded before they become bits
 STEPS_BEFORE_WEIGHING = 5  # relaxation steps between two corrections of the weight of the amplitude
 SAMPLES_AT_ONCE = 20  # after which the audible spectrum is brought up to date
-FLIPS_PER_SAMPLE = 3  # of one cell in one pass of the descent
 LEAST_SHARE, MOST_SHARE = 0.8, 1.25  # of the plain amplitude; what is beyond was no good start (points that hardly move)
 CALMER = 4.0  # an entry that switches too often is improved again, edges costing this many times as much
 CALMING_PASSES = 4
@@ -102,19 +103,18 @@ class _Cells:
 class Descent:
     """Optimised waveforms for single points at full amplitude."""
 
-    def __init__(self, board: Board, model: ResponseModel, aim: DescentAim, like: Descent | None = None) -> None:
-        """`like` has another aim for the same board and model: what both need is taken from it."""
+    def __init__(self, board: Board, plate: ResponseModel | MeasuredPlate, aim: DescentAim, like: Descent | None = None) -> None:
+        """`like` has another aim for the same board and plate: what both need is taken from it."""
         self.name = f"descent: {aim.name}"
-        self._aim, self._model = aim, model
+        self._aim, self._plate = aim, plate
         self._idle_word = board.idle_word
         self._idle: Floats = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
         self._most_edges = math.floor(board.limits.max_edge_rate_hz * board.waveform.duration_s)
-        self._field: FieldForm = like._field if like else FieldForm(board, model)
-        self._audible: AudibleForm = like._audible if like else AudibleForm(board, model, SAMPLES_AT_ONCE)
+        self._field: FieldForm = like._field if like else FieldForm(board, plate)
+        self._audible: AudibleForm = like._audible if like else AudibleForm(board, plate, SAMPLES_AT_ONCE)
         self._late = np.ascontiguousarray(self._audible.lags[:0:-1]).reshape(-1, CHANNELS)  # longest lag first
-        self._prediction = Prediction(board, model)
         self._board = board
-        cell_bytes = 8.0 * CHANNELS * (3 * model.modes + 8 * model.samples)
+        cell_bytes = 8.0 * CHANNELS * (3 * plate.modes + 8 * plate.samples)
         self._at_once = max(1, min(CELLS_AT_ONCE, int(WORKING_BYTES / cell_bytes)))
 
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
@@ -125,24 +125,30 @@ class Descent:
             raise ValueError("a point that is not finite")
         place_m = np.array([points[0][:2]])
         words = self.entries(place_m)[0]
-        return WaveformDesign(words, self._prediction.at_focus(words, place_m), np.zeros(0))
+        return WaveformDesign(words, FocusPrediction(self._board, self._model()).at_focus(words, place_m), np.zeros(0))
 
-    def entries(self, points_m: ArrayLike) -> NDArray[np.uint32]:
-        """Drive words of each of `points_m`, (point, 2), alone: (point, sample).
+    def entries(self, points_m: ArrayLike, plain: NDArray[np.uint32] | None = None) -> NDArray[np.uint32]:
+        """Drive words of each of `points_m`, (point, 2), alone: (point, sample); `plain` are the plain ones, which a model knows.
 
         Where nothing can be gained (a point that does not move), the amplitude would be another, or edges would be more than the
         board's `limits.max_edge_rate_hz` allows, it is the plain waveform.
         """
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
-        found = np.empty((len(points), self._model.samples), np.uint32)
+        found = np.empty((len(points), self._plate.samples), np.uint32)
         for first in range(0, len(points), self._at_once):
-            found[first : first + self._at_once] = self._some(points[first : first + self._at_once])
+            some = slice(first, first + self._at_once)
+            found[some] = self._some(points[some], self._plain(points[some]) if plain is None else plain[some].copy())
         return found
 
-    def _some(self, points_m: Floats) -> NDArray[np.uint32]:
-        responses = self._model.drive_order_responses(points_m, dtype=np.float64)
-        words = np.stack([drive_words(response, self._idle_word) for response in responses])
-        del responses
+    def _plain(self, points_m: Floats) -> NDArray[np.uint32]:
+        responses = self._model().drive_order_responses(points_m, dtype=np.float64)
+        return np.stack([drive_words(response, self._idle_word) for response in responses])
+
+    def _model(self) -> ResponseModel:
+        assert isinstance(self._plate, ResponseModel)  # `BankPlan` refuses the rest
+        return self._plate
+
+    def _some(self, points_m: Floats, words: NDArray[np.uint32]) -> NDArray[np.uint32]:
         cells, good = self._cells(points_m, words)
         if good.size:
             levels = self._felt(cells, points_m[good]) if self._aim.felt_turns else self._descended(cells)
@@ -171,7 +177,7 @@ class Descent:
 
     def _felt(self, cells: _Cells, points_m: Floats) -> Floats:
         """Levels for the felt amplitude, in turns: it is what its derivative at the last ones says, or more."""
-        form, levels = FeltForm(self._board, self._model, points_m), cells.plain
+        form, levels = FeltForm(self._board, self._model(), points_m), cells.plain
         worth, plain_m = cells.worth, np.zeros(0)
         for turn in range(self._aim.felt_turns):
             cells.pull, felt_m = form.derivative(levels - self._idle)
@@ -287,7 +293,7 @@ class Descent:
                 slope -= edge * (2 - 2 * (before + after))  # edges of a 1 here, less those of a 0
                 change = changes[:, ahead]
                 curvature = self._field.curvature[sample] + own_curvature if self._aim.contrast else own_curvature
-                _settle(levels[sample], slope, curvature, change)
+                settle(levels[sample], slope, curvature, change)
                 if self._aim.contrast and change.any():
                     left -= change @ moves.T
                 before = levels[sample]
@@ -310,36 +316,6 @@ class Descent:
         """Where edges cost nothing by the aim, a hundredth of what the amplitude is worth for all of them."""
         found: Floats = cells.worth / 100 / np.maximum(self._edges(cells.plain).sum(axis=1), 1)
         return found
-
-
-def _settle(levels: Floats, slope: Floats, curvature: Floats, change: Floats) -> None:
-    """Choose the bits of one sample: round levels between 0 and 1, then flip the bits that gain most.
-
-    `levels` (cell, 32) become 0 or 1; `slope` (cell, 32), the derivative of the gain by each, is overwritten; `curvature` (cell,
-    32, 32) is that of the loss; `change` (cell, 32) receives the change of the levels.
-    """
-    half = np.diagonal(curvature, axis1=1, axis2=2) / 2
-    between = (levels > 0) & (levels < 1)
-    for channel in np.flatnonzero(between.any(axis=0)).tolist():
-        level = levels[:, channel]
-        up = slope[:, channel] > (1 - 2 * level) * half[:, channel]  # the gain of 1 - level over that of -level
-        by = np.where(between[:, channel], up - level, 0.0)
-        change[:, channel] = by
-        slope -= by[:, None] * curvature[:, channel]
-    levels += change
-    sense = 1 - 2 * levels
-    for _ in range(FLIPS_PER_SAMPLE):
-        gain = sense * slope - half
-        best = gain.argmax(axis=1)
-        cells = np.flatnonzero(gain[np.arange(len(gain)), best] > 0)
-        if not cells.size:
-            break
-        channels = best[cells]
-        by = sense[cells, channels]
-        change[cells, channels] += by
-        levels[cells, channels] += by
-        sense[cells, channels] = -by
-        slope[cells] -= by[:, None] * curvature[cells, channels]
 
 
 def _dot(shapes: Floats, modal: Floats) -> Floats:

@@ -17,6 +17,7 @@ from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.workshop.bank_builder.methods.exact import rounded
+from controller.workshop.bank_builder.methods.measured_plate import MeasuredDrive, MeasuredPlate
 from controller.workshop.physics.field import FocusScale, map_axis
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
@@ -38,35 +39,60 @@ class Surroundings(NamedTuple):
     share: float  # points of the map for each point outside
 
 
-class FieldForm:
-    """The field at T of many emissions at once; an array's axis `cell` counts emissions, each with a focus of its own.
+class ModalDrive:
+    """What bits move each mode, in a unit of this class."""
 
-    All displacements are in a unit of this class, from rest at the idle word.
-    """
-
-    def __init__(self, board: Board, model: ResponseModel) -> None:
+    def __init__(self, model: ResponseModel, size: Floats) -> None:
+        """`size` (mode,): by which shapes are multiplied."""
         kernel = model.modal[:, ::-1].T
         _, exponents = np.frexp(np.abs(kernel).max(axis=0))  # a mode's kernel is brought below 1, its forces are what its bits do
-        self._modes = model.plate_modes
-        self._size: Floats = 0.5 / np.sqrt(self._modes.mean_square)  # of the shapes: their mean square is then 1/4
-        forces = np.ldexp(model.forces / self._size[:, None], exponents[:, None])
+        forces = np.ldexp(model.forces / size[:, None], exponents[:, None])
         forces *= np.ldexp(1.0, TABLE_BITS - int(np.frexp(np.abs(forces).max())[1]))
         self._kernel: Floats = np.ascontiguousarray(np.rint(np.ldexp(kernel, TABLE_BITS - exponents)) * 2.0**-TABLE_BITS)
         self._forces: Floats = np.rint(forces)
-        self._idle = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
-        scale = FocusScale.of(board)
-        self._outside_m = scale.outside_m
-        self._x_m = map_axis(self._modes.length_m, scale.map_step_m)
-        self._y_m = map_axis(self._modes.width_m, scale.map_step_m)
-        # (sample, 32, 32): products of the moves of two channels' bits of one sample, summed over the modes
-        self.curvature = np.stack([table.T @ table for table in map(self.moves, range(len(kernel)))])
-        # Largest eigenvalue of the quadratic form, rounded up: what bits (sample, 32) of norm 1 move, squared
-        self.largest = self._largest()
 
     def moves(self, sample: int) -> Floats:
         """What one bit of a sample moves each mode, (mode, 32): whole numbers."""
         table: Floats = np.rint(self._kernel[sample, :, None] * self._forces)
         return table
+
+    def modal(self, deviations: Floats) -> Floats:
+        """Displacement of each mode by levels above idle: (sample, cell, 32) to (cell, mode)."""
+        moved = self._kernel.T @ deviations.reshape(len(deviations), -1)
+        moved = rounded(moved.reshape(-1, deviations.shape[1], CHANNELS), STATE_BITS, (0, 2))
+        moved *= self._forces[:, None]
+        return np.ascontiguousarray(moved.sum(axis=2).T)
+
+    def gradient(self, wanted: Floats) -> Floats:
+        """Sum over the modes of `wanted`, (cell, mode), times what each bit moves them: (sample, cell, 32)."""
+        driven = wanted.T[:, :, None] * self._forces[:, None]
+        driven = rounded(driven, 24, (0, 2))
+        return (self._kernel @ driven.reshape(len(driven), -1)).reshape(len(self._kernel), -1, CHANNELS)
+
+
+class FieldForm:
+    """The field at T of many emissions at once; an array's axis `cell` counts emissions, each with a focus of its own.
+
+    All displacements are in a unit of this class, from rest at the idle word. "Modes" are cosines where the plate was measured.
+    """
+
+    def __init__(self, board: Board, plate: ResponseModel | MeasuredPlate) -> None:
+        self._modes = plate.plate_modes if isinstance(plate, ResponseModel) else plate.shapes
+        self._size: Floats = 0.5 / np.sqrt(self._modes.mean_square)  # of the shapes: their mean square is then 1/4
+        self._samples = plate.samples
+        self._drive: ModalDrive | MeasuredDrive = (
+            ModalDrive(plate, self._size) if isinstance(plate, ResponseModel) else MeasuredDrive(plate, self._size)
+        )
+        self._idle = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+        scale = FocusScale.of(board)
+        self._outside_m = scale.outside_m
+        self._x_m = map_axis(self._modes.length_m, scale.map_step_m)
+        self._y_m = map_axis(self._modes.width_m, scale.map_step_m)
+        self.moves, self.gradient = self._drive.moves, self._drive.gradient
+        # (sample, 32, 32): products of the moves of two channels' bits of one sample, summed over the modes
+        self.curvature = np.stack([table.T @ table for table in map(self.moves, range(self._samples))])
+        # Largest eigenvalue of the quadratic form, rounded up: what bits (sample, 32) of norm 1 move, squared
+        self.largest = self._largest()
 
     def shapes(self, points_m: Floats) -> Floats:
         """Mode shapes at points, (point, 2): (point, mode)."""
@@ -95,17 +121,7 @@ class FieldForm:
 
     def modal(self, levels: Floats) -> Floats:
         """Displacement of each mode by levels of the channels, 0 to 1 in 2^-10 at most: (sample, cell, 32) to (cell, mode)."""
-        cells = levels.shape[1]
-        moved = self._kernel.T @ (levels - self._idle).reshape(len(levels), -1)
-        moved = rounded(moved.reshape(-1, cells, CHANNELS), STATE_BITS, (0, 2))
-        moved *= self._forces[:, None]
-        return np.ascontiguousarray(moved.sum(axis=2).T)
-
-    def gradient(self, wanted: Floats) -> Floats:
-        """Sum over the modes of `wanted`, (cell, mode), times what each bit moves them: (sample, cell, 32)."""
-        driven = wanted.T[:, :, None] * self._forces[:, None]
-        driven = rounded(driven, 24, (0, 2))
-        return (self._kernel @ driven.reshape(len(driven), -1)).reshape(len(self._kernel), -1, CHANNELS)
+        return self._drive.modal(levels - self._idle)
 
     def near(self, modal: Floats, places: list[Surroundings]) -> tuple[Floats, Floats]:
         """The part of the field that counts as the focus.
@@ -141,7 +157,7 @@ class FieldForm:
         return self._x_m.size * self._y_m.size
 
     def _largest(self) -> float:
-        bits: NDArray[Any] = np.random.default_rng(1).standard_normal((len(self._kernel), 1, CHANNELS))
+        bits: NDArray[Any] = np.random.default_rng(1).standard_normal((self._samples, 1, CHANNELS))
         size = 0.0
         for _ in range(20):
             bits = self.gradient(self.modal(np.rint(bits * 1024) / 1024 + self._idle))

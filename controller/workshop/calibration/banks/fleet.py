@@ -76,6 +76,8 @@ def _calibrated(panel: Panel) -> dict[str, Any]:
     except (ControllerError, OSError) as error:
         return {"broken": " ".join(str(error).split())}
     report = {"path": str(built.path), "cells": built.report.cells, "bytes": state.st_size, "written_ns": state.st_mtime_ns}
+    if optimised := built.report.optimised:
+        report["optimised"] = {name: value for name, value in optimised.items() if name != "workers"}
     return report | fitted.figures | {"notes": built.notes}
 
 

@@ -18,7 +18,9 @@ from controller.errors import CalibrationError, ConfigError
 from controller.workshop.bank_builder.build import BuildReport
 from controller.workshop.bank_builder.compact.design import compact_pitch_m
 from controller.workshop.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
+from controller.workshop.bank_builder.methods.descent import DescentAim
 from controller.workshop.bank_builder.own_bank import SMALLEST_PITCH_MM, Order, chosen, pitch_of
+from controller.workshop.bank_builder.plan import refuse_aim
 from controller.workshop.calibration.banks.bank_figures import plate_figures, plate_notes
 from controller.workshop.calibration.decay_fit import Decay, fit_decays
 from controller.workshop.calibration.drift_fit import fit_drift
@@ -28,7 +30,9 @@ from controller.workshop.calibration.learning import Learned, learn
 from controller.workshop.calibration.point_cache import calibration_cache
 from controller.workshop.calibration.stage_fit import stage_notes
 from controller.workshop.calibration.wave_fit import WaveFit
+from controller.workshop.calibration.whole_field import whole_field
 from controller.workshop.physics.modes.plate_modes import modes_of
+from controller.workshop.workers.workers import ALONE, Workers
 
 Progress = Callable[[str, int, int], None]  # what is done, how much of it, and all of it
 
@@ -50,12 +54,15 @@ class PlateBank:
     model: bool = False  # let the board's plate model fill gaps between scattered points
     also: Path | None = None  # the same plate at another temperature
     accept: tuple[str, ...] = ()  # kinds of what is wrong, and is accepted
+    aim: DescentAim | None = None  # optimise every entry for this
 
     def __post_init__(self) -> None:
         if not pitch_of(self.board, self.pitch_mm) >= SMALLEST_PITCH_MM:  # NaN too
             raise ConfigError(f"--pitch-mm: pitch_mm = {self.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
         if self.pitch_mm is not None:
             refuse_coarse(self.board, self.pitch_mm * 1e-3)
+        if self.aim is not None:
+            refuse_aim(self.board, self.aim, measured=True, compact=self.compact)
 
 
 @dataclass(frozen=True)
@@ -97,8 +104,12 @@ def fit(wanted: PlateBank, progress: Progress = _silent) -> FittedPlate:
     return FittedPlate(found, source, waves, decays, figures, notes)
 
 
-def build(wanted: PlateBank, fitted: FittedPlate, *, progress: bool = True) -> BuiltBank:
-    """Build and write the bank of a plate; raises CalibrationError if no cell is near enough to measured points."""
+def build(wanted: PlateBank, fitted: FittedPlate, workers: Workers = ALONE, *, progress: bool = True) -> BuiltBank:
+    """Build and write the bank of a plate; `workers` optimise it.
+
+    Raises CalibrationError if no cell is near enough to measured points, or they do not foresee the field by which entries would be
+    optimised; WorkersError.
+    """
     board, source = wanted.board, fitted.source
     pitch_mm, choice, compact = pitch_of(board, wanted.pitch_mm), None, wanted.compact
     notes = []
@@ -116,7 +127,8 @@ def build(wanted: PlateBank, fitted: FittedPlate, *, progress: bool = True) -> B
         raise CalibrationError(f"{wanted.folder}: no cell of the bank lies near the measured points")
     path = wanted.out or order.own_path
     with threadpool_limits(1, "blas"):
-        report = order.build(path, cells, memory_mb=wanted.memory_mb, source=source, progress=progress)
+        how = {"aim": wanted.aim, "plate": whole_field(board, source), "workers": workers} if wanted.aim else {}
+        report = order.build(path, cells, memory_mb=wanted.memory_mb, source=source, progress=progress, **how)
     return BuiltBank(path, report, [*fitted.notes, *notes, *_notes(wanted, fitted, cells, report)])
 
 
