@@ -33,6 +33,7 @@ complete haptic-panel \
         'c/--rate-khz=/f/' \
         'c/--drive=/(chirp noise)/' \
         'c/--accept=/(dead swapped inverted clipped unit mass strength)/' \
+        'c/--optimise=/(contrast quiet balanced loud cool)/' \
         'c/--quantity=/(m m/s m/s^2)/' \
         'c/--mirror=/(x y xy)/' \
         'c/--targets=/(3 4 5)/' \
@@ -67,6 +68,7 @@ complete haptic-panel \
         'n/--rate-khz/f/' \
         'n/--drive/(chirp noise)/' \
         'n/--accept/(dead swapped inverted clipped unit mass strength)/' \
+        'n/--optimise/(contrast quiet balanced loud cool)/' \
         'n/--quantity/(m m/s m/s^2)/' \
         'n/--mirror/(x y xy)/' \
         'n/--targets/(3 4 5)/' \

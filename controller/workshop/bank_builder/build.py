@@ -130,7 +130,8 @@ def _optimised(request: BankRequest, plan: BankPlan) -> tuple[Words, Mapped]:
     found, mapped = optimised_words(optimise, numbered, kept, request.workers, progress=request.progress)
     if plate:
         some = _compared(plan)
-        parameters["contrast_of_plain"] = contrast_of_plain(board, plate, plan.points_m[some], plain[some], found[some])
+        form, points_m = optimise.method.field, plan.points_m[some]
+        parameters["contrast_of_plain"] = contrast_of_plain(form, plate.unforeseen, points_m, plain[some], found[some])
     return found, mapped
 
 

@@ -50,8 +50,13 @@ class Optimise:
     def __call__(self, cells: Sequence[Cell]) -> list[bytes]:
         """Drive words of some cells."""
         plain = np.stack([np.frombuffer(cell[2], WORD) for cell in cells]) if self.plate else None
-        entries = _method(self.board, self.highest_hz, self.aim, self.plate).entries([cell[:2] for cell in cells], plain)
+        entries = self.method.entries([cell[:2] for cell in cells], plain)
         return [np.ascontiguousarray(words, WORD).tobytes() for words in entries]
+
+    @property
+    def method(self) -> Descent:
+        """What does it; kept."""
+        return _method(self.board, self.highest_hz, self.aim, self.plate)
 
 
 def reported(board: Board, aim: DescentAim, plate: MeasuredPlate | None = None) -> dict[str, Any]:
@@ -107,12 +112,11 @@ def optimised_words(
     return words.reshape(len(cells), -1), mapped
 
 
-def contrast_of_plain(board: Board, plate: MeasuredPlate, points_m: Floats, plain: Words, words: Words) -> dict[str, float]:
+def contrast_of_plain(form: FieldForm, unforeseen: float, points_m: Floats, plain: Words, words: Words) -> dict[str, float]:
     """Median contrast of optimised drive words over that of plain ones, (cell, sample) each, on a measured plate.
 
-    `by_responses`: as the field is interpolated. `with_error`: what its points do not foresee is as strong as under plain words.
+    `by_responses`: as the field is interpolated. `with_error`: the share that is not foreseen is as strong as under plain words.
     """
-    form = FieldForm(board, plate)
     places, shapes = [form.surroundings(point_m) for point_m in points_m], form.shapes(points_m)
     amplitude, field = np.empty((2, 2, len(places)))
     for index, some in enumerate((plain, words)):
@@ -120,7 +124,7 @@ def contrast_of_plain(board: Board, plate: MeasuredPlate, points_m: Floats, plai
         amplitude[index], field[index] = np.sum(shapes * modal, axis=1), form.mean_square(modal, places)
     moves = (field[0] > 0) & (amplitude[0] > 0)
     louder, left = amplitude[1][moves] / amplitude[0][moves], field[1][moves] / field[0][moves]
-    sure = (1 - plate.unforeseen) * left + plate.unforeseen
+    sure = (1 - unforeseen) * left + unforeseen
     return {
         "by_responses": round(float(np.median(louder / np.sqrt(left))), 3),
         "with_error": round(float(np.median(louder / np.sqrt(sure))), 3),

@@ -82,6 +82,7 @@ class BankPlan:
             compositions=len(composed),
         )
         more_bytes = sum(one.working_bytes for one in (design, found) if isinstance(one, (CompactDesign, TransformedResponses)))
+        more_bytes += request.plate.working_bytes if request.plate else 0.0
         blocks = _blocks(numbers, grid.nx, _cells_at_once(request, header, bare, more_bytes))
         modes = bare.modes if isinstance(bare, ResponseModel) else None
         return cls(board, wanted, numbers, grid.points()[numbers], found, modes, header, composed, blocks, design)

@@ -23,6 +23,8 @@ from controller.workshop.calibration.banks.fleet import KEPT, REPORT, calibrate_
 from controller.workshop.calibration.banks.plate_bank import PlateBank
 from controller.workshop.calibration.point_plan import scattered_points
 from controller.workshop.calibration.recording.simulated_measurement import Flaws, RecordingSettings, simulate_measurement
+from controller.workshop.workers.dask_client import OWN_CLUSTER, OWN_HTTP
+from controller.workshop.workers.workers import Workers
 
 POINTS = 60
 
@@ -147,6 +149,37 @@ def test_an_optimised_fleet_killed_amid_its_panels_goes_on_at_their_cells(tmp_pa
         assert panel["optimised"]["aim"] == "contrast"
         assert panel["optimised"]["contrast_of_plain"]["with_error"] > 1.2
     assert sorted(file.name for file in banks.iterdir()) == [KEPT, *(f"panel-{number}.bank" for number in range(3)), REPORT]
+
+
+@pytest.mark.slow
+def test_what_two_processes_and_a_cluster_of_two_workers_do_of_a_fleet(tmp_path):
+    """Processor time, as cores may have other work: that of one process over that of the busier of two is the gain of two cores."""
+    import dask
+    from distributed import LocalCluster
+
+    folders = {"one process": tmp_path / "alone", "two processes": tmp_path / "two", "--dask, two workers": tmp_path / "dask"}
+    for number in range(8):
+        measure(folders["one process"] / f"panel-{number}", number)
+    seconds, cluster_options = {}, {"dashboard_address": OWN_HTTP, "worker_dashboard_address": OWN_HTTP, "silence_logs": "CRITICAL"}
+    with (
+        dask.config.set(OWN_CLUSTER),
+        LocalCluster(n_workers=2, threads_per_worker=1, host="127.0.0.1", **cluster_options) as cluster,
+    ):
+        who = [Workers(), Workers(2), Workers(address=cluster.scheduler_address)]
+        for (name, folder), workers in zip(folders.items(), who, strict=True):
+            if name != "one process":  # what was learned of points is kept by their folder
+                shutil.copytree(folders["one process"], folder)
+            report = calibrate_fleet(folder, tmp_path / f"banks of {folder.name}", wanted(folder), workers)
+            shares = [share for worker, share in report["workers"].items() if worker != "kept"]
+            assert sum(share["items"] for share in shares) == 8
+            seconds[name] = max(share["processor_s"] for share in shares)
+            of_each = ", ".join(f"{share['items']} panels in {share['processor_s']:.1f} s" for share in shares)
+            peak_mb = max(share["peak_mb"] for share in shares)
+            print(f"{name}: {of_each}, {peak_mb:.0f} MB at most; {seconds['one process'] / seconds[name]:.2f}")
+    for name in ("two", "dask"):
+        for number in range(8):
+            alone, other = (tmp_path / f"banks of {some}" / f"panel-{number}.bank" for some in ("alone", name))
+            assert alone.read_bytes() == other.read_bytes()
 
 
 @each_row(

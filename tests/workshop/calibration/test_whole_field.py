@@ -114,7 +114,7 @@ def test_contrast_is_gained_on_the_plate_that_was_measured_as_far_as_the_bank_st
     words = np.stack([np.frombuffer(one, np.uint32) for one in optimise(cells)])
     assert optimise(cells[1:2]) == [words[1].tobytes()]
     old, new = (np.array([trial.contrast(*one) for one in zip(some, places_m, strict=True)]) for some in (plain, words))
-    said = contrast_of_plain(BOARD, trial.plate, places_m, plain, words)
+    said = contrast_of_plain(optimise.method.field, trial.plate.unforeseen, places_m, plain, words)
     print(new / old, said)
     assert (new > 1.6 * old).all()
     assert 1.6 < said["with_error"] < said["by_responses"]
@@ -210,7 +210,7 @@ def test_figures_on_the_whole_plate(points):
         like = Descent(WHOLE, trial.plate, AIMS[aim], like)
         like_true = Descent(trial.there, trial.true.model, AIMS[aim], like_true)
         words = like.entries(places_m, plain)
-        said = contrast_of_plain(WHOLE, trial.plate, places_m, plain, words)
+        said = contrast_of_plain(like.field, trial.plate.unforeseen, places_m, plain, words)
         for name, found in (("measured", figures(words)), ("true modes", figures(like_true.entries(places_m)))):
             over = np.median(found[:3] / old[:3], axis=1)
             gained[aim, name] = over[1]

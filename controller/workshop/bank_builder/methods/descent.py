@@ -110,7 +110,7 @@ class Descent:
         self._idle_word = board.idle_word
         self._idle: Floats = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
         self._most_edges = math.floor(board.limits.max_edge_rate_hz * board.waveform.duration_s)
-        self._field: FieldForm = like._field if like else FieldForm(board, plate)
+        self.field: FieldForm = like.field if like else FieldForm(board, plate)
         self._audible: AudibleForm = like._audible if like else AudibleForm(board, plate, SAMPLES_AT_ONCE)
         self._late = np.ascontiguousarray(self._audible.lags[:0:-1]).reshape(-1, CHANNELS)  # longest lag first
         self._board = board
@@ -189,18 +189,18 @@ class Descent:
     def _amplitude(self, cells: _Cells, levels: Floats) -> Floats:
         """Amplitude of levels, (cell,), in the unit of `cells.amplitude`."""
         if cells.pull is None:
-            return _dot(cells.shapes, self._field.modal(levels))
+            return _dot(cells.shapes, self.field.modal(levels))
         found: Floats = np.sum(cells.pull * (levels - self._idle), axis=(0, 2))
         return found
 
     def _cells(self, points_m: Floats, words: NDArray[np.uint32]) -> tuple[_Cells, NDArray[np.intp]]:
         """State of the points at which there is something to optimise, and which they are."""
         plain = np.stack([channel_bits(row) for row in words], axis=1).astype(np.float64)
-        shapes = self._field.shapes(points_m)
-        places = [self._field.surroundings(point) for point in points_m]
-        modal = self._field.modal(plain)
+        shapes = self.field.shapes(points_m)
+        places = [self.field.surroundings(point) for point in points_m]
+        modal = self.field.modal(plain)
         amplitude = _dot(shapes, modal)
-        outside = self._field.mean_square(modal, places)
+        outside = self.field.mean_square(modal, places)
         sound = self._audible.energy(plain - self._idle)
         good = np.flatnonzero((amplitude > 0) & (outside > 0) & (sound > 0))
         edges = self._edges(plain).sum(axis=1)
@@ -220,20 +220,20 @@ class Descent:
         """Levels from 0 to 1 in steps of 1 / `LEVELS`, (sample, cell, 32)."""
         share = np.array([place.share for place in cells.places])
         curvature = cells.field * share / 2  # of half the squared modes
-        rate = 1 / (curvature * self._field.largest + 2 * cells.sound * self._audible.largest)
+        rate = 1 / (curvature * self.field.largest + 2 * cells.sound * self._audible.largest)
         aimed = cells.amplitude * self._aim.share
         levels, ahead = cells.plain, cells.plain
         pull = cells.pull
         if pull is None and not self._aim.contrast:
-            pull = self._field.gradient(cells.shapes)
+            pull = self.field.gradient(cells.shapes)
         momentum = np.ones(len(aimed))
         for step in range(1, self._aim.steps + 1):
             ahead = np.rint(ahead * 1024) / 1024
             if pull is None:
-                modal = self._field.modal(ahead)
-                near, _ = self._field.near(modal, cells.places)
+                modal = self.field.modal(ahead)
+                near, _ = self.field.near(modal, cells.places)
                 wanted = (cells.worth / aimed)[:, None] * cells.shapes - curvature[:, None] * (modal - near)
-                slope = self._field.gradient(wanted)
+                slope = self.field.gradient(wanted)
             else:
                 slope = pull * (cells.worth / aimed)[:, None]
             forces = self._audible.forces(self._audible.spectrum(ahead - self._idle))
@@ -264,8 +264,8 @@ class Descent:
         """
         if self._aim.contrast:
             scale = cells.field * np.array([place.share for place in cells.places]) / 2
-            modal = self._field.modal(levels)
-            near, _ = self._field.near(modal, cells.places)
+            modal = self.field.modal(levels)
+            near, _ = self.field.near(modal, cells.places)
             left = np.rint((cells.worth / cells.amplitude / scale)[:, None] * cells.shapes + near - modal)
         else:
             scale = cells.worth / cells.amplitude
@@ -286,13 +286,13 @@ class Descent:
                     loud = loud + changes[:, :ahead].reshape(count, -1) @ self._late[-ahead * CHANNELS :]
                 after = levels[sample + 1] if sample + 1 < samples else self._idle
                 if cells.pull is None:
-                    moves = self._field.moves(sample)
+                    moves = self.field.moves(sample)
                     slope = left @ moves - sound * loud
                 else:
                     slope = cells.pull[sample] - sound * loud
                 slope -= edge * (2 - 2 * (before + after))  # edges of a 1 here, less those of a 0
                 change = changes[:, ahead]
-                curvature = self._field.curvature[sample] + own_curvature if self._aim.contrast else own_curvature
+                curvature = self.field.curvature[sample] + own_curvature if self._aim.contrast else own_curvature
                 settle(levels[sample], slope, curvature, change)
                 if self._aim.contrast and change.any():
                     left -= change @ moves.T

@@ -82,6 +82,11 @@ class MeasuredPlate:
         """Rows of what is computed for each emission: lines."""
         return len(self.moved)
 
+    @property
+    def working_bytes(self) -> float:
+        """Memory that optimising takes beside `WORKING_BYTES` of `descent`: itself, read again, and in double precision."""
+        return 4.0 * self.moved.nbytes
+
     def write(self, path: Path) -> None:
         """Write a file for `read`; raises OSError."""
         shapes, data = self.shapes, io.BytesIO()
@@ -109,17 +114,18 @@ class MeasuredDrive:
         moved = plate.moved / size[:, None]
         moved *= 2.0 ** (TABLE_BITS - int(np.frexp(np.abs(moved).max())[1]))
         self._moved: Floats = np.rint(moved)
-        most = np.sqrt(np.square(self._moved).sum(axis=0).max())  # so that moves become as large as those of modes
-        lines = np.rint(np.cos(turns) * 2.0**TABLE_BITS) * 2.0**-TABLE_BITS
-        self._lines: Floats = lines * 2.0 ** (TABLE_BITS - int(np.frexp(most)[1]))
+        most = float(np.sqrt(np.square(self._moved).sum(axis=0).max()))  # so that moves become as large as those of modes
+        waves = np.rint(np.cos(turns) * 2.0**TABLE_BITS) * 2.0**-TABLE_BITS
+        self._lines: Floats = waves * 2.0 ** (TABLE_BITS - int(np.frexp(most)[1]))
         self._block: tuple[int, Floats] = (-1, np.zeros(0))
 
     def moves(self, sample: int) -> Floats:
         """What one bit of a sample moves each cosine, (cosine, 32): whole numbers."""
         first = sample - sample % SAMPLES_AT_ONCE
         if self._block[0] != first:
-            some = self._lines[first : first + SAMPLES_AT_ONCE] @ self._moved.reshape(len(self._moved), -1)
-            self._block = (first, np.rint(some).reshape(len(some), -1, CHANNELS))
+            lines = self._lines[first : first + SAMPLES_AT_ONCE]
+            block = np.rint(lines @ self._moved.reshape(len(self._moved), -1))
+            self._block = (first, block.reshape(len(lines), -1, CHANNELS))
         table: Floats = self._block[1][sample - first]
         return table
 
