@@ -131,7 +131,7 @@ def _optimised(request: BankRequest, plan: BankPlan) -> tuple[Words, Mapped]:
     if plate:
         some = _compared(plan)
         form, points_m = optimise.method.field, plan.points_m[some]
-        parameters["contrast_of_plain"] = contrast_of_plain(form, plate.unforeseen, points_m, plain[some], found[some])
+        parameters["contrast_of_plain"] = contrast_of_plain(form, plate, points_m, plain[some], found[some])
     return found, mapped
 
 

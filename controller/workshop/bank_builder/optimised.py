@@ -112,19 +112,21 @@ def optimised_words(
     return words.reshape(len(cells), -1), mapped
 
 
-def contrast_of_plain(form: FieldForm, unforeseen: float, points_m: Floats, plain: Words, words: Words) -> dict[str, float]:
+def contrast_of_plain(form: FieldForm, plate: MeasuredPlate, points_m: Floats, plain: Words, words: Words) -> dict[str, float]:
     """Median contrast of optimised drive words over that of plain ones, (cell, sample) each, on a measured plate.
 
-    `by_responses`: as the field is interpolated. `with_error`: the share that is not foreseen is as strong as under plain words.
+    `by_responses`: as the field is interpolated, with the amplitude that was measured. `with_error`: besides, the share that is not
+    foreseen is as strong as under plain words.
     """
     places, shapes = [form.surroundings(point_m) for point_m in points_m], form.shapes(points_m)
     amplitude, field = np.empty((2, 2, len(places)))
     for index, some in enumerate((plain, words)):
-        modal = form.modal(np.stack([channel_bits(one) for one in some], axis=1).astype(np.float64))
-        amplitude[index], field[index] = np.sum(shapes * modal, axis=1), form.mean_square(modal, places)
+        levels = np.stack([channel_bits(one) for one in some], axis=1).astype(np.float64)
+        amplitude[index] = np.sum(shapes * form.modal(levels, plate.first_line), axis=1)
+        field[index] = form.mean_square(form.modal(levels), places)
     moves = (field[0] > 0) & (amplitude[0] > 0)
     louder, left = amplitude[1][moves] / amplitude[0][moves], field[1][moves] / field[0][moves]
-    sure = (1 - unforeseen) * left + unforeseen
+    sure = (1 - plate.unforeseen) * left + plate.unforeseen
     return {
         "by_responses": round(float(np.median(louder / np.sqrt(left))), 3),
         "with_error": round(float(np.median(louder / np.sqrt(sure))), 3),

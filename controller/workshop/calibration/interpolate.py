@@ -30,6 +30,7 @@ STILL = 0.2  # of the median point's movement: those that move less are not eval
 LEAST_POINTS = 12  # of any plate
 PITCH_SLACK = 1.02  # a grid may be as much coarser than half a wavelength: the board's constants are known no better
 MOST_SCATTERED = 4000  # one matrix of them takes 128 MB
+AROUND_HZ = 1e3  # over which it is found how far spectra are foreseen
 FITTED_SHARE = 0.5  # of the points that a plate needs: fewer do not foresee each other
 OTHER_SIZE = 0.6  # of the energy that is not foreseen: glass of a size that explains less is not another's
 MOST_MODES = 800  # of glass whose size is looked for: each size takes 0.2 s of 400, 8 s of 2,100
@@ -239,4 +240,16 @@ def _evaluated(
     kept, over_foreseen = (
         np.divide(agreed, of, out=np.full(len(points_m), np.nan), where=evaluated & (of > 0)) for of in (magnitude, expected)
     )
-    return LeaveOut(points_m, kept, over_foreseen)
+    return LeaveOut(points_m, kept, over_foreseen, _trusted(bins, spectra, foreseen, known))
+
+
+def _trusted(bins: Bins, spectra: Spectra, foreseen: Spectra, known: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """`LeaveOut.trusted`, of the bins around each."""
+    agreed, expected = np.zeros((2, len(spectra)))
+    for bin_, (measured, estimate) in enumerate(zip(spectra, foreseen, strict=True)):
+        there = estimate[known]
+        agreed[bin_], expected[bin_] = np.vdot(there, measured[known]).real, np.vdot(there, there).real
+    around = np.ones(1 + 2 * round(AROUND_HZ / (2 * bins.frequency_hz[1])))
+    over, under = (np.convolve(one, around, mode="same") for one in (agreed, expected))
+    found: NDArray[np.float64] = np.clip(np.divide(over, under, out=np.zeros(len(spectra)), where=under > 0), 0, 1)
+    return found

@@ -36,6 +36,9 @@ class LeaveOut:
     # (point,): the former sum over the sum of the magnitudes foreseen: the amplitude that these words have there, over that which
     # the others foresee. NaN as `kept`
     over_foreseen: Floats
+    # (bin,): what is measured at these points over what the others foresee, by least squares, 0 to 1: below what a drive excites it
+    # is noise, and nothing of it is foreseen
+    trusted: Floats
 
     def foreseen(self) -> tuple[float, float]:
         """Mean and standard deviation of the logarithm of the amplitude over that foreseen, by median and quartiles."""

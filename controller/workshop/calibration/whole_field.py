@@ -14,7 +14,9 @@ from controller.workshop.bank_builder.methods.measured_plate import Cosines, Mea
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.interpolated import POINTS_AT_ONCE, InterpolatedResponses
 from controller.workshop.calibration.point_plan import scattered_count
+from controller.workshop.calibration.spectra import Spectra
 from controller.workshop.physics.field import map_axis
+from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 PITCH = 0.4  # of the grid, in the shortest waves
 KEPT = 1.15  # wavenumbers of cosines that are kept, over that of the shortest waves: what fades at edges has more
@@ -33,12 +35,13 @@ def whole_field(board: Board, source: InterpolatedResponses) -> MeasuredPlate:
     unforeseen = _unforeseen(board, source, points_m)
     lines = min(samples, int(np.ceil(2 * bins.frequency_hz[-1] * samples / source.bit_clock_hz)) + MORE_LINES)
     values = np.empty((len(points_m), lines, CHANNELS), np.float32)
+    below = _BelowBand(board, source)
     fine_hz = bins_hz(board.waveform)
     low = bins.frequency_hz <= fine_hz.max() + bins.frequency_hz[1]
     energy = np.zeros((int(low.sum()), CHANNELS, CHANNELS))
     for first in range(0, len(points_m), POINTS_AT_ONCE):
         some = slice(first, first + POINTS_AT_ONCE)
-        spectra = source.field.at(points_m[some])
+        spectra = below.completed(source.field.at(points_m[some]), points_m[some])
         values[some] = dct(bins.whole(spectra)[:, ::-1], type=2, axis=1, norm="forward")[:, :lines]
         heard = spectra[low].astype(np.complex128)
         energy += (heard.conj().swapaxes(1, 2) @ heard).real
@@ -50,7 +53,34 @@ def whole_field(board: Board, source: InterpolatedResponses) -> MeasuredPlate:
     for one, other in np.ndindex(CHANNELS, CHANNELS):
         of_velocity = fine_hz**2 * np.interp(fine_hz, bins.frequency_hz[low], energy[:, one, other])
         form[:, one, other] = of_velocity.mean(axis=1)
-    return MeasuredPlate(shapes, samples, moved, form, unforeseen)
+    first_line = int(np.ceil(2 * below.until_hz * samples / source.bit_clock_hz))
+    return MeasuredPlate(shapes, samples, moved, form, unforeseen, first_line)
+
+
+class _BelowBand:
+    """The board's model in the place of what is noise below the band, as no drive excited it: else it would cost nothing."""
+
+    def __init__(self, board: Board, source: InterpolatedResponses) -> None:
+        trusted = np.where(source.bins.gain > 0, 1.0, source.leave_out.trusted)
+        self._bins, self._frequency_hz = np.flatnonzero(trusted < 1), source.bins.frequency_hz
+        self._trusted = trusted[self._bins].astype(np.float32)
+        self._model = ResponseModel(board, 2 * board.waveform.band_low_hz)
+        self._model.samples = source.bins.length
+        self._modal = np.fft.rfft(self._model.modal)[:, self._bins].astype(np.complex64)
+
+    @property
+    def until_hz(self) -> float:
+        """Frequency below which less than half is measured."""
+        less = self._bins[self._trusted < 0.5]
+        return float(self._frequency_hz[less.max() + 1]) if less.size else 0.0
+
+    def completed(self, spectra: Spectra, points_m: NDArray[np.float64]) -> Spectra:
+        """Spectra at points, (bin, point, channel), completed in place."""
+        shapes, forces = self._model.plate_modes.shapes(points_m, np.float32), self._model.forces.astype(np.float32)
+        for index, (bin_, trusted) in enumerate(zip(self._bins.tolist(), self._trusted.tolist(), strict=True)):
+            spectra[bin_] *= trusted
+            spectra[bin_] += (1 - trusted) * (shapes @ (self._modal[:, index, None] * forces))
+        return spectra
 
 
 def _unforeseen(board: Board, source: InterpolatedResponses, points_m: NDArray[np.float64]) -> float:

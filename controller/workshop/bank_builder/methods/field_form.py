@@ -56,8 +56,8 @@ class ModalDrive:
         table: Floats = np.rint(self._kernel[sample, :, None] * self._forces)
         return table
 
-    def modal(self, deviations: Floats) -> Floats:
-        """Displacement of each mode by levels above idle: (sample, cell, 32) to (cell, mode)."""
+    def modal(self, deviations: Floats, _first_line: int = 0) -> Floats:
+        """Displacement of each mode by levels above idle: (sample, cell, 32) to (cell, mode). A model has no lines."""
         moved = self._kernel.T @ deviations.reshape(len(deviations), -1)
         moved = rounded(moved.reshape(-1, deviations.shape[1], CHANNELS), STATE_BITS, (0, 2))
         moved *= self._forces[:, None]
@@ -119,9 +119,12 @@ class FieldForm:
             along_y, inside = np.ones((1, 1)), np.ones((len(column), 1))
         return Surroundings(rounded(along_x, PLACE_BITS), rounded(along_y, PLACE_BITS), inside, share)
 
-    def modal(self, levels: Floats) -> Floats:
-        """Displacement of each mode by levels of the channels, 0 to 1 in 2^-10 at most: (sample, cell, 32) to (cell, mode)."""
-        return self._drive.modal(levels - self._idle)
+    def modal(self, levels: Floats, first_line: int = 0) -> Floats:
+        """Displacement of each mode by levels of the channels, 0 to 1 in 2^-10 at most: (sample, cell, 32) to (cell, mode).
+
+        Of a measured plate, by lines from one on.
+        """
+        return self._drive.modal(levels - self._idle, first_line)
 
     def near(self, modal: Floats, places: list[Surroundings]) -> tuple[Floats, Floats]:
         """The part of the field that counts as the focus.

@@ -76,6 +76,7 @@ class MeasuredPlate:
     moved: NDArray[np.float32]  # (line, cosine, 32): in m per V
     heard: Floats  # (bin, 32, 32): energy at the surface up to 20 kHz, of bins as `AudibleForm` has them, in any unit
     unforeseen: float  # share of the field's energy that points left out do not foresee of each other
+    first_line: int = 0  # lines below are a model's
 
     @property
     def modes(self) -> int:
@@ -91,7 +92,7 @@ class MeasuredPlate:
         """Write a file for `read`; raises OSError."""
         shapes, data = self.shapes, io.BytesIO()
         indices = np.stack([shapes.x_index, shapes.y_index])
-        sizes = np.array([shapes.length_m, shapes.width_m, self.samples, self.unforeseen])
+        sizes = np.array([shapes.length_m, shapes.width_m, self.samples, self.unforeseen, self.first_line])
         np.savez(data, indices=indices, sizes=sizes, moved=self.moved, heard=self.heard)
         write_durably(path, data.getvalue())
 
@@ -99,9 +100,9 @@ class MeasuredPlate:
     def read(cls, path: Path) -> MeasuredPlate:
         """What `write` has written; raises OSError or ValueError."""
         with np.load(path) as file:
-            length_m, width_m, samples, unforeseen = file["sizes"].tolist()
+            length_m, width_m, samples, unforeseen, first_line = file["sizes"].tolist()
             shapes = Cosines(length_m, width_m, *file["indices"])
-            return cls(shapes, int(samples), file["moved"], file["heard"], unforeseen)
+            return cls(shapes, int(samples), file["moved"], file["heard"], unforeseen, int(first_line))
 
 
 class MeasuredDrive:
@@ -129,14 +130,13 @@ class MeasuredDrive:
         table: Floats = self._block[1][sample - first]
         return table
 
-    def modal(self, deviations: Floats) -> Floats:
-        """Displacement of each cosine by levels above idle: (sample, cell, 32) to (cell, cosine)."""
+    def modal(self, deviations: Floats, first_line: int = 0) -> Floats:
+        """Displacement of each cosine by levels above idle, by lines from one on: (sample, cell, 32) to (cell, cosine)."""
         cells = deviations.shape[1]
-        by_line = rounded(
-            (self._lines.T @ deviations.reshape(len(deviations), -1)).reshape(-1, cells, CHANNELS), STATE_BITS, (0, 2)
-        )
+        by_line = self._lines.T @ deviations.reshape(len(deviations), -1)
+        by_line = rounded(by_line.reshape(-1, cells, CHANNELS), STATE_BITS, (0, 2))
         found = np.zeros((cells, self._moved.shape[1]))
-        for of_line, moved in zip(by_line, self._moved, strict=True):
+        for of_line, moved in zip(by_line[first_line:], self._moved[first_line:], strict=True):
             found += of_line @ moved.T
         return found
 
