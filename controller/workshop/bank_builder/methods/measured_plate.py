@@ -113,9 +113,10 @@ class MeasuredDrive:
         lines, samples = len(plate.moved), plate.samples
         turns = np.outer(np.arange(samples) + 0.5, np.arange(lines)) * (np.pi / samples)
         moved = plate.moved / size[:, None]
-        moved *= 2.0 ** (TABLE_BITS - int(np.frexp(np.abs(moved).max())[1]))
-        self._moved: Floats = np.rint(moved)
-        most = float(np.sqrt(np.square(self._moved).sum(axis=0).max()))  # so that moves become as large as those of modes
+        moved *= 2.0 ** (TABLE_BITS - int(np.frexp(max(moved.max(), -moved.min()))[1]))
+        self._moved: Floats = np.rint(moved, out=moved)
+        squares = np.einsum("kjq,kjq->jq", moved, moved)  # whole numbers: exact
+        most = float(np.sqrt(squares.max()))  # so that moves become as large as those of modes
         waves = np.rint(np.cos(turns) * 2.0**TABLE_BITS) * 2.0**-TABLE_BITS
         self._lines: Floats = waves * 2.0 ** (TABLE_BITS - int(np.frexp(most)[1]))
         self._block: tuple[int, Floats] = (-1, np.zeros(0))
