@@ -216,6 +216,8 @@ def test_through_the_files_of_a_measurement_contrast_is_gained_on_the_plate(tmp_
             found = [emit(twin, one).focus_metrics(*grid.place(cell)) for one, cell in zip(words, inside, strict=True)]
         contrasts.append(np.array([one.contrast for one in found]))
     said = built.report.optimised["contrast_of_plain"]
+    share = built.report.optimised["amplitude_of_plain"]["median"]
+    assert f"optimised entries have {share:g} of the amplitude of plain ones" in "\n".join(built.notes)
     print(f"{len(inside)} cells: {contrasts[0].mean():.1f}, optimised {contrasts[1].mean():.1f}; stated {said}")
     gained = np.median(contrasts[1] / contrasts[0])
     assert gained > 1.4

@@ -34,6 +34,8 @@ from controller.workshop.calibration.whole_field import whole_field
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.workers.workers import ALONE, Workers
 
+SAID_AMPLITUDE = 0.97  # of optimised entries over plain ones: less is said
+
 Progress = Callable[[str, int, int], None]  # what is done, how much of it, and all of it
 
 
@@ -154,6 +156,8 @@ def _notes(wanted: PlateBank, fitted: FittedPlate, cells: NDArray[np.bool_], bui
         )
     if not cells.all():
         notes.append(f"{int((~cells).sum()):,} of {cells.size:,} cells are too far from the measured points, and not in the bank")
+    if built.optimised and (share := built.optimised["amplitude_of_plain"]["median"]) < SAID_AMPLITUDE:
+        notes.append(f"optimised entries have {share:g} of the amplitude of plain ones, as far as it was measured")
     if warning := interpolation_warning(built.interpolation_error):
         notes.append(warning)
     return notes
