@@ -59,6 +59,7 @@ SLOWER = [
     "workshop/calibration/test_learning.py",
     "workshop/calibration/test_point_fit.py",
     "workshop/calibration/test_simulated_measurement.py",
+    "workshop/calibration/test_whole_field.py",
     "workshop/calibration/test_wiring.py",
     "workshop/clips/test_mutated_files.py",
     "workshop/gateware/test_waves.py",
