@@ -37,6 +37,16 @@ class RestartingGateware:
         """The current tick."""
         return self._origin + self._gateware.now
 
+    @property
+    def fault(self) -> bool:
+        """Whether a fault is latched, or the fault pin is pulled up since there is no supply."""
+        return not self._gateware.now or self._gateware.fault
+
+    def next_change(self) -> int | None:
+        """As in `Gateware`."""
+        change = self._gateware.next_change()
+        return None if change is None else self._origin + change
+
     def restart(self, tick: int, dark_ticks: int) -> None:
         """Remove the supply at `tick`: all outputs are low from then on; reset ends `dark_ticks` later."""
         self.advance(tick)

@@ -1,7 +1,8 @@
 """What stands at the far end of the guest's SPI and GPIO wires: gateware, computed, in a process of its own.
 
 Each transfer that labdev hands over is one chip-select assertion of the gateware; its trigger and permit pins follow
-the lines of a gpio-sim chip, by the kernel's own trace of each level that a line is given.
+the lines of a gpio-sim chip, by the kernel's own trace of each level that a line is given. A board of several FPGAs has
+gateware at each chip select, on the wires of boards/simulated_64: `number` says which of them.
 """
 
 import contextlib
@@ -21,6 +22,7 @@ from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.model import GatewareModel
+from controller.workshop.gateware.wired_fpgas import WiredFpgas
 from controller.workshop.gateware.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
 
 HEADER = struct.Struct("<IIII")  # of labdev: speed in Hz, bytes, mode, whether chip select rises behind it
@@ -84,29 +86,53 @@ def _chips():
     return Path("/sys/class/gpio").glob("gpiochip*")
 
 
-class _Gateware:
-    """The gateware, its pins driven as time goes on."""
+class _Pins:
+    """What the outputs of one FPGA have done so far."""
 
-    def __init__(self, parameters, factory, roles, slowness, words, word_ticks):
-        self._gateware = RestartingGateware(factory, parameters)
-        self._clock_hz = parameters.clock_hz / slowness
-        self._bits_hz = parameters.clock_hz
+    def __init__(self, gateware, words, word_ticks):
+        self._gateware, self._words, self._word_ticks = gateware, words, word_ticks
+        self.hv = self.word = self.focus = 0
+        self._recent = np.zeros(0, np.int64), np.zeros(0, np.uint32)  # ticks and channel pins of the last changes
+        self.emissions = []  # drive words
+        self.starts = []  # tick at which each ended emission had begun
+
+    def note(self):
+        """Note what they did since this was last done."""
+        capture = self._gateware.take_capture()
+        ticks = np.concatenate([self._recent[0], capture.ticks.astype(np.int64)])
+        levels = np.concatenate([self._recent[1], capture.words])
+        if capture.ticks.size:
+            self.hv, self.word = int(capture.hv[-1]), int(capture.words[-1])
+        foci = capture.focus_ticks.astype(np.int64)
+        self.focus += foci.size
+        sampled = np.arange(-self._words, 0) * self._word_ticks
+        for focus in foci:
+            self.emissions.append(levels[np.searchsorted(ticks, focus + sampled, side="right") - 1].astype("<u4").tobytes())
+            self.starts.append(int(focus + sampled[0]))
+        begun = slice(-self._words - 1, None)  # an emission that has not ended, and what was before it
+        self._recent = ticks[begun], levels[begun]
+
+
+class _Gateware:
+    """The gateware of each FPGA, its pins driven as time goes on."""
+
+    def __init__(self, boards, factory, roles, slowness):
+        parameters = [BuildParameters.of(board, build_hash(data_folder("fpga_rtl"))) for board in boards]
+        self._restarting = [RestartingGateware(factory, one) for one in parameters]
+        self._fpgas = WiredFpgas(self._restarting).members if len(boards) > 1 else self._restarting
+        self._pins = [_Pins(fpga, boards[0].waveform.samples, boards[0].bit_ticks) for fpga in self._fpgas]
+        self._bits_hz = parameters[0].clock_hz
+        self._clock_hz = self._bits_hz / slowness
         self._start_s = time.monotonic()
         self._free_tick = 10
         self._roles = roles
-        self._hv = 0
-        self._word = 0
-        self._focus = 0
-        self._recent = np.zeros(0, np.int64), np.zeros(0, np.uint32)  # ticks and channel pins of the last changes
-        self._emissions = []
-        self._words = words
-        self._word_ticks = word_ticks
         self._damaged = 0
-        self.wire = "good"
+        self._wires = ["good"] * len(boards)
         self.modes = set()
-        self._gateware.permit(0, level=True, which=Permit.TEMPERATURE)
+        for fpga in self._fpgas:
+            fpga.permit(0, level=True, which=Permit.TEMPERATURE)
         if "permit" not in roles.values():
-            self._gateware.permit(0, level=True, which=Permit.RUN)
+            self._fpgas[0].permit(0, level=True, which=Permit.RUN)
 
     def _tick(self, at_s):
         return max(round((at_s - self._start_s) * self._clock_hz), self._free_tick)
@@ -120,16 +146,17 @@ class _Gateware:
         """A line of the host has been given a level."""
         role, tick = self._roles.get(name), self._tick(at_s)
         if role == "trigger" and level:
-            self._gateware.trigger(tick + TRIGGER_PERIOD_TICKS)
+            self._fpgas[0].trigger(tick + TRIGGER_PERIOD_TICKS)  # of several, all have this line
             self._free_tick = tick + 2 * TRIGGER_PERIOD_TICKS
         elif role == "permit":
-            self._gateware.permit(tick, level=bool(level), which=Permit.RUN)
+            self._fpgas[0].permit(tick, level=bool(level), which=Permit.RUN)
 
     def transfer(self, request):
         """One chip-select assertion; what comes back, or None if nothing ever does."""
-        speed_hz, size, mode, last = HEADER.unpack_from(request)
-        assert last, "a frame is one transfer"
-        if self.wire == "stuck":
+        speed_hz, size, mode, ends = HEADER.unpack_from(request)
+        assert ends & 1, "a frame is one transfer"
+        number = ends >> 8
+        if self._wires[number] == "stuck":
             return None
         self.modes.add(mode)
         sent = request[HEADER.size : HEADER.size + size]
@@ -140,43 +167,44 @@ class _Gateware:
         ticks = max(round(8 * size * self._bits_hz / speed_hz), frame_ticks(size)) + 2 * LEAD_TICKS
         select_tick = max(self._tick(time.monotonic()) - ticks, self._free_tick)  # its time on the wire has passed already
         self._free_tick = select_tick + ticks + SELECT_HIGH_TICKS
-        self._gateware.exchange(select_tick, select_tick + ticks, sent, memoryview(answer))
+        self._fpgas[number].exchange(select_tick, select_tick + ticks, sent, memoryview(answer))
         time.sleep(max(self._start_s + self._free_tick / self._clock_hz - time.monotonic(), 0))  # a slow SCK takes its time
-        return WIRES[self.wire](bytes(answer), sent)
+        return WIRES[self._wires[number]](bytes(answer), sent)
+
+    def wire(self, kind, number):
+        self._wires[number] = kind
 
     def damage(self, frames):
         """Of the next this many frames to the FPGA, the last bit will be wrong."""
         self._damaged = frames
 
-    def reset(self, dark_s):
-        """The FPGA loses its supply now, and is configured again so much of its time later."""
-        self._gateware.restart(self._now(), round(dark_s * self._bits_hz))
+    def reset(self, dark_s, number):
+        """An FPGA loses its supply now, and is configured again so much of its time later."""
+        tick = self._now()
+        self._fpgas[0].advance(tick)
+        self._restarting[number].restart(tick, round(dark_s * self._bits_hz))
+        self._fpgas[0].advance(tick + 1)  # of several, the others' permit follows from here on
+
+    def cut_trigger(self, number):
+        """The trigger line leads to this FPGA no more."""
+        self._restarting[number].trigger = lambda *_: None
 
     def note(self):
         """Note what the pins did since this was last done: a little after each transfer, as all at once would hold one up."""
-        capture = self._gateware.take_capture()
-        ticks = np.concatenate([self._recent[0], capture.ticks.astype(np.int64)])
-        levels = np.concatenate([self._recent[1], capture.words])
-        if capture.ticks.size:
-            self._hv, self._word = int(capture.hv[-1]), int(capture.words[-1])
-        foci = capture.focus_ticks.astype(np.int64)
-        self._focus += foci.size
-        sampled = np.arange(-self._words, 0) * self._word_ticks
-        for focus in foci:
-            self._emissions.append(levels[np.searchsorted(ticks, focus + sampled, side="right") - 1].astype("<u4").tobytes())
-        begun = slice(-self._words - 1, None)  # an emission that has not ended, and what was before it
-        self._recent = ticks[begun], levels[begun]
+        for pins in self._pins:
+            pins.note()
 
-    def pins(self):
+    def pins(self, number):
         """What the pins have come to, and the emissions that ran to their end so far."""
-        self._gateware.advance(self._now())
+        self._fpgas[0].advance(self._now())
         self.note()
-        return {"hv": self._hv, "word": self._word, "focus": self._focus, "modes": self.modes}
+        of = self._pins[number]
+        return {"hv": of.hv, "word": of.word, "focus": of.focus, "starts": of.starts, "modes": self.modes}
 
-    def emissions(self):
+    def emissions(self, number):
         """Drive words on the channel pins in each emission that ended since this was last asked for, as bytes."""
-        self.pins()
-        emissions, self._emissions = self._emissions, []
+        self.pins(number)
+        emissions, self._pins[number].emissions = self._pins[number].emissions, []
         return emissions
 
 
@@ -209,21 +237,21 @@ class FarEnd:
         self._pipe.send((what, arguments))
         return self._pipe.recv()
 
-    def wire(self, kind):
+    def wire(self, kind, number=0):
         """Damage answers from now on, as `WIRES` has it; "stuck": no transfer ever ends."""
-        self.ask("wire", kind)
+        self.ask("wire", kind, number)
 
-    def reset(self, dark_s=0.0):
+    def reset(self, dark_s=0.0, number=0):
         """Take the FPGA's supply away for so long."""
-        self.ask("reset", dark_s)
+        self.ask("reset", dark_s, number)
 
-    def pins(self):
+    def pins(self, number=0):
         """Levels and emissions so far: hv, word, focus."""
-        return self.ask("pins")
+        return self.ask("pins", number)
 
-    def emissions(self):
+    def emissions(self, number=0):
         """Drive words of each emission that ended since the last call, as they were on the channel pins."""
-        return self.ask("emissions")
+        return self.ask("emissions", number)
 
     def close(self):
         """Nobody is at the far end any more: MISO is MOSI."""
@@ -233,12 +261,10 @@ class FarEnd:
 
     def _serve(self, pipe):
         settings = self.board.link
-        parameters = BuildParameters.of(self.board, build_hash(data_folder("fpga_rtl")))
         roles = {settings.trigger_line: "trigger", settings.permit_line: "permit"}
         roles.pop("", None)
         trace = GpioTrace(settings.gpio_chip, self._names)
-        waveform = (self.board.waveform.samples, self.board.bit_ticks)
-        gateware = _Gateware(parameters, self._factory, roles, self._slowness, *waveform)
+        gateware = _Gateware(self.board.fpga_boards, self._factory, roles, self._slowness)
         wires = os.open("/dev/labspi", os.O_RDWR)
         with selectors.DefaultSelector() as selector:
             for file in (wires, trace.fd, pipe):
@@ -259,13 +285,6 @@ class FarEnd:
                     what, arguments = pipe.recv()
                     if what == "close":
                         break
-                    pipe.send(self._do(gateware, what, arguments))
+                    pipe.send(getattr(gateware, what)(*arguments))
         os.close(wires)
         trace.close()
-
-    @staticmethod
-    def _do(gateware, what, arguments):
-        if what == "wire":
-            (gateware.wire,) = arguments
-            return None
-        return getattr(gateware, what)(*arguments)

@@ -269,7 +269,7 @@ def test_lines_without_names_are_driven_by_their_numbers_and_refused_by_name_wit
             link.lines.permit(given=True)
             assert link.lines.configured()
             assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (0, 1)
-            fcntl.ioctl(link.lines._fd, SET_VALUES, link.lines._high)  # the first half of a pulse
+            fcntl.ioctl(link.lines._fd, SET_VALUES, link.lines._rise)  # the first half of a pulse
             assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (1, 1)
             link.lines.pulse()
             link.lines.permit(given=False)
@@ -294,7 +294,7 @@ def test_two_programs_never_share_the_device():
 
 def test_a_device_that_is_not_there_is_reported_with_those_that_are():
     message = refusal(lambda: SpiLink(with_settings(device="/dev/spidev7.1"), time.monotonic))
-    assert "there is no /dev/spidev7.1 (there are: /dev/spidev0.0)" in message
+    assert "there is no /dev/spidev7.1 (there are: /dev/spidev0.0, /dev/spidev0.1)" in message
 
 
 def test_the_speed_is_read_back_and_divided_as_the_controller_does():

@@ -127,8 +127,10 @@ class Board(Record, frozen=True):
         own = tuple(
             msgspec.structs.replace(a, channel=a.channel - first) for a in self.actuators if first <= a.channel < first + CHANNELS
         )
-        device = self.link.fpga[number].device or self.link.device
-        return msgspec.structs.replace(self, actuators=own, link=msgspec.structs.replace(self.link, device=device, fpga=()))
+        its, link = self.link.fpga[number], self.link
+        device, configured = its.device or link.device, its.configured_line or link.configured_line
+        link = msgspec.structs.replace(link, device=device, configured_line=configured, fpga=())
+        return msgspec.structs.replace(self, actuators=own, link=link)
 
     @property
     def idle_word(self) -> int:
@@ -192,7 +194,7 @@ def load_board(path: Path, without: Collection[Relation] = (), *, several: bool 
     if board.link.fpga and not several:
         raise ConfigError(
             f"{file}: link.fpga: this serves boards of one FPGA; with {len(board.link.fpga)} there are board check, bank build,"
-            " bank info, bank verify and run"
+            " bank info, bank verify, doctor, gateware build, gateware check and run"
         )
     return msgspec.structs.replace(board, folder=file.parent)
 

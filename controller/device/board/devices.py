@@ -45,10 +45,12 @@ class LinkedFpga(Record, frozen=True, kw_only=True):
     """One of several FPGAs on one clock, one trigger line and one line of run permit and faults.
 
     Attributes:
-    device: Its own chip select, /dev/spidevB.C.
+    device: Its own chip select, /dev/spidevB.C; of a simulated one left out.
+    configured_line: Input: as `link.configured_line`, of this FPGA alone. Each FPGA has one, or none has.
     """
 
     device: str = ""
+    configured_line: str = ""
 
 
 class LinkSettings(Record, frozen=True, kw_only=True):
@@ -67,7 +69,8 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     gpio_chip: Label of the GPIO chip with the following lines, each given by its name or, where it has none of its own, by its
         number on the chip, such as "25". Where several chips have the label: the path of a udev link to the chip.
     trigger_line: Output: starts the waveform that was prepared.
-    configured_line: Input: high while the FPGA is configured, has its clock and is out of reset; may be left out.
+    configured_line: Input: high while the FPGA is configured, has its clock and is out of reset; of several FPGAs, while all are.
+        May be left out.
     permit_line: Output: run permit that this host gives while it plays; may be left out where a switch gives it.
     fpga: Two to four FPGAs, the first with channels 0 to 31, each further one with the next 32. Left out: one.
     """
@@ -89,14 +92,22 @@ class LinkSettings(Record, frozen=True, kw_only=True):
         if self.sck_hz * MIN_SCK_TICKS > self.clock_hz:
             raise ValueError(f"sck_hz = {self.sck_hz} is above half of clock_hz = {self.clock_hz}")
         for key, said in self.also_required({"kind": self.kind}).items():
-            of_each = self.fpga if key == "device" else ()
-            if not all(getattr(one, key) for one in of_each or (self,)):
-                raise ValueError(f"{key} is missing: {said}{', for each fpga' * bool(of_each)}")
+            if not self.fpga or key != "device":
+                missing = [] if getattr(self, key) else [key]
+            else:
+                missing = [f"fpga[{number}].{key}" for number, one in enumerate(self.fpga) if not one.device]
+            if missing:
+                raise ValueError(f"{missing[0]} is missing: {said}")
 
     @classmethod
     def also_required(cls, table: dict[str, Any]) -> dict[str, str]:
         """Keys that a kind of link makes required."""
         return OF_LINKS.get(str(table.get("kind")), {})
+
+    @property
+    def configured_lines(self) -> tuple[str, ...]:
+        """Lines that say whether FPGAs are configured: one of all, or one of each."""
+        return tuple(line for line in (self.configured_line, *(one.configured_line for one in self.fpga)) if line)
 
     def wire_s(self, size_bytes: int) -> float:
         """Time that bytes take on the wire, in s, without the pauses between frames."""

@@ -6,6 +6,7 @@ import os
 import pwd
 import stat
 from collections.abc import Callable
+from functools import partial
 
 import msgspec
 
@@ -52,8 +53,9 @@ def look(board: Board, now_s: Callable[[], float], opened: OpenPanel = open_pane
     as_the_service = service is not None and service.pw_uid == os.geteuid()
     checks: list[tuple[str, Callable[[], str | Finding]]] = [("user", lambda: _user(board, as_the_service=as_the_service))]
     if link.kind == "spi":
+        of_each = {f"SPI device of FPGA {number}": one.device for number, one in enumerate(link.fpga)}
         checks += [
-            ("SPI device", lambda: _node(link.device)),
+            *((about, partial(_node, device)) for about, device in (of_each or {"SPI device": link.device}).items()),
             ("spidev buffer", _buffer),
             ("GPIO lines", lambda: _lines(link)),
         ]
@@ -141,7 +143,7 @@ def _lines(link: LinkSettings) -> str:
     from controller.device.fpga.links.gpio_lines import CONSUMER
 
     path = find_chip(link.gpio_chip, LinkError)
-    wanted = [line for line in (link.trigger_line, link.configured_line, link.permit_line) if line]
+    wanted = [line for line in (link.trigger_line, *link.configured_lines, link.permit_line) if line]
     with gpiod.Chip(str(path)) as chip:
         for line, number in find_lines(chip, link.gpio_chip, wanted, LinkError).items():
             info = chip.get_line_info(number)

@@ -125,8 +125,9 @@ class Recovery:
         try:
             return self._next(now_s)
         except (LinkError, FaultError) as error:
+            cause = self._session.cause_of(error)
             self._session.off()
-            self._fail(error, now_s)
+            self._fail(cause, now_s)
             return False
 
     def _next(self, now_s: float) -> bool:
@@ -174,7 +175,7 @@ class Recovery:
         self._known = False
         self._armed_s = None
         if self.off_by_s == math.inf or isinstance(error, StillOn):
-            self.off_by_s = self._session.heartbeat_due_s + self._safe_s  # no frame was heard later than that
+            self.off_by_s = self._session.quiet_since_s + self._safe_s
         self.next_s = now_s + (self._pause_s if action is Action.RETRY else PERMIT_POLL_S)
         if action is Action.RETRY:
             self._pause_s = min(2 * self._pause_s, PAUSE_MAX_S)

@@ -17,7 +17,7 @@ from controller.device.fpga.exchange import DAMAGED, Exchange, FpgaReset
 from controller.device.fpga.links.link import Link
 from controller.device.fpga.registers import Control, State
 from controller.device.fpga.status import Status
-from controller.errors import FaultError, LinkError
+from controller.errors import ControllerError, FaultError, LinkError
 
 HEARTBEATS_PER_TIMEOUT: Final = 3
 CLOCK_TOLERANCE: Final = 0.005  # more than crystals and a slewed host clock can differ
@@ -107,6 +107,15 @@ class Supervision:
     def heartbeat_due_s(self) -> float:
         """When the next heartbeat is due, on the loop's clock."""
         return min([one.heartbeat_due_s for one in self.exchanges])
+
+    @property
+    def quiet_since_s(self) -> float:
+        """No FPGA has received a frame after this time, on the loop's clock."""
+        return max([one.heartbeat_due_s for one in self.exchanges])
+
+    def cause_of(self, error: ControllerError) -> ControllerError:
+        """What is behind an error that this session has raised; of several FPGAs another may have the cause."""
+        return error
 
     def wire_free_s(self) -> float:
         """When everything sent so far has left the wire, on the loop's clock."""

@@ -5,7 +5,7 @@ says how far they are apart; so what begins at a time begins in the same tick on
 pulse is given with the outputs off, in each bring-up, and proves the line as well.
 
 A fault of one shuts all by the wire, not by this host: the line of the run permit is low while one of them reports a fault, so that
-the others shut for NO_PERMIT. Raised is what the first one had.
+the others shut for NO_PERMIT. Raised is what the first one had, with the number of the FPGA, and only after all have been asked.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Final
 
 from controller.device.board.board import Board
 from controller.device.fpga.belief import BUSY
-from controller.device.fpga.exchange import Exchange, OutOfStep
+from controller.device.fpga.exchange import Exchange, OutOfStep, Refused
 from controller.device.fpga.frames import Play, Waveform, parted
 from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.registers import Fault, Register, Start, State
@@ -42,6 +42,8 @@ class WideSession(Session):
         self._resident: list[Waveform | None] = [None] * len(self._others)  # in place of waveforms that are there
         self._ahead_ticks = [0] * len(self._others)  # by which the ticks of each are ahead of the first one's
         self._emissions: list[int] = []  # of each when they last were at rest; empty: not known
+        self._all_asked: ControllerError | None = None  # the error that was raised when all had been asked last
+        self._of = [_Named(number) for number in range(len(boards))]
         super().__init__(links, boards[0], build_hash, now_s, bring_up=bring_up)
 
     @property
@@ -59,29 +61,35 @@ class WideSession(Session):
 
         Raises LinkError if the trigger line does not reach one of them.
         """
-        for one in self._others:
-            one.bring_up()
-        super().bring_up()
+        for named, one in zip(self._of[1:], self._others, strict=True):
+            with named:
+                one.bring_up()
+        with self._of[0]:
+            super().bring_up()
         self._compare_ticks()
 
     def arm(self) -> float:
         """As in `Session`, of all FPGAs; when the last ramp ends."""
         self._emissions = []
-        self.ramp_end_s = super().arm()
-        for one in self._others:
+        with self._of[0]:
+            self.ramp_end_s = super().arm()
+        for named, one in zip(self._of[1:], self._others, strict=True):
             one.counters, one.never_began = self.counters, self.never_began
-            self.ramp_end_s = max(self.ramp_end_s, one.arm())
+            with named:
+                self.ramp_end_s = max(self.ramp_end_s, one.arm())
         return self.ramp_end_s
 
     def disarm(self) -> float:
         """As in `Session`, of all FPGAs, also if one of them does not answer; when the last ramp ends."""
         ends_s, failed = [], []
-        for disarm in (super().disarm, *[one.disarm for one in self._others]):
+        for named, disarm in zip(self._of, (super().disarm, *[one.disarm for one in self._others]), strict=True):
             try:
-                ends_s.append(disarm())
+                with named:
+                    ends_s.append(disarm())
             except (LinkError, FaultError) as error:
                 failed.append(error)
-        _raise_first(failed)
+        if failed:
+            raise min(failed, key=_rank)
         self.ramp_end_s = max(ends_s)
         return self.ramp_end_s
 
@@ -96,13 +104,10 @@ class WideSession(Session):
 
         Raises OutOfStep if they have played different numbers of emissions.
         """
-        statuses, failed = [], []
-        for heartbeat in (super().heartbeat, *[one.heartbeat for one in self._others]):
-            try:
-                statuses.append(heartbeat())
-            except (LinkError, FaultError) as error:
-                failed.append(error)
-        _raise_first(failed)
+        statuses, failed = self._ask_all(super().heartbeat)
+        if failed:
+            self._all_asked = min(failed, key=_rank)
+            raise self._all_asked
         state = statuses[0].state
         for status in statuses[1:]:
             state = state & status.state | (state | status.state) & ANY
@@ -110,34 +115,44 @@ class WideSession(Session):
             self._compare_emissions([status.emissions for status in statuses])
         return statuses[0]._replace(state=state)
 
+    def cause_of(self, error: ControllerError) -> ControllerError:
+        """As in `Supervision`: all FPGAs are asked, before a fault of another than the one that was at work is cleared."""
+        if error is self._all_asked or not self.on_anywhere:
+            return error
+        _, failed = self._ask_all(super().heartbeat)
+        return min([error, *failed], key=_rank)
+
     def play(self, play: Play, *, stop: bool) -> None:
         """As in `Session`, on all FPGAs, or none."""
-        super().play(play, stop=stop)
+        with self._of[0]:
+            super().play(play, stop=stop)
         self._follow(play, self._resident, stop=stop)
 
     def upload(self, slot: int, waveform: Waveform) -> None:
         """As in `Session`, to all FPGAs."""
         first, *others = parted(waveform, 1 + len(self._others))
-        super().upload(slot, first)
-        for one, part in zip(self._others, others, strict=True):
-            one.upload(slot, part)
+        with self._of[0]:
+            super().upload(slot, first)
+        self._upload_others(slot, others)
 
     def upload_and_play(self, play: Play, waveform: Waveform, *, stop: bool) -> None:
         """As in `Session`, on all FPGAs, or none: nothing begins, or ends, before all have their waveform."""
         first, *others = parted(waveform, 1 + len(self._others))
         ahead = stop or play.start is Start.TIME
         if ahead:
-            for one, part in zip(self._others, others, strict=True):
-                one.upload(play.slot, part)
-        super().upload_and_play(play, first, stop=stop)
+            self._upload_others(play.slot, others)
+        with self._of[0]:
+            super().upload_and_play(play, first, stop=stop)
         self._follow(play, self._resident if ahead else others, stop=stop)
 
     def stop(self) -> None:
         """As in `Session`, on all FPGAs; between two of them a repetition may begin once more, on those that are yet to stop."""
         self._emissions = []
-        super().stop()
-        for one in self._others:
-            one.stop()
+        with self._of[0]:
+            super().stop()
+        for named, one in zip(self._of[1:], self._others, strict=True):
+            with named:
+                one.stop()
 
     def trigger(self) -> float:
         """As in `Session`: one edge starts what waits in all FPGAs."""
@@ -157,24 +172,48 @@ class WideSession(Session):
                 return False
         return True
 
+    def _ask_all(self, first: Callable[[], Status]) -> tuple[list[Status], list[LinkError | FaultError]]:
+        """A heartbeat to each FPGA, `first` that of the first one: their answers, and the errors of those that gave none."""
+        statuses, failed = [], []
+        for named, heartbeat in zip(self._of, (first, *[one.heartbeat for one in self._others]), strict=True):
+            try:
+                with named:
+                    statuses.append(heartbeat())
+            except (LinkError, FaultError) as error:
+                failed.append(error)
+        return statuses, failed
+
+    def _upload_others(self, slot: int, parts: Sequence[Waveform]) -> None:
+        for named, one, part in zip(self._of[1:], self._others, parts, strict=True):
+            with named:
+                one.upload(slot, part)
+
     def _follow(self, play: Play, waveforms: Sequence[Waveform | None], *, stop: bool) -> None:
         """Have the others accept what the first FPGA has accepted, with what they have to play unless it is resident.
 
-        It is withdrawn from all if one of them does not.
+        It is withdrawn from all if one of them does not. What has begun on the first one by then was not refused: a single emission
+        is left to end, a repetition is ended for good.
         """
         if stop:
             self._emissions = []  # as in `stop`
         try:
-            for one, ahead_ticks, waveform in zip(self._others, self._ahead_ticks, waveforms, strict=True):
+            for named, one, ahead_ticks, waveform in zip(
+                self._of[1:], self._others, self._ahead_ticks, waveforms, strict=True
+            ):
                 own = play._replace(when_ticks=play.when_ticks + ahead_ticks) if play.start is Start.TIME else play
-                if waveform is None:
-                    one.play(own, stop=stop)
-                else:
-                    one.upload_and_play(own, waveform, stop=stop)
-        except ControllerError:
+                with named:
+                    if waveform is None:
+                        one.play(own, stop=stop)
+                    else:
+                        one.upload_and_play(own, waveform, stop=stop)
+        except ControllerError as error:
             self._emissions = []  # what was to begin just now may have begun where it was accepted
             self.stop()
-            raise
+            if not isinstance(error, Refused) or play.start is not Start.TIME or not self._began(play._replace(emissions=1)):
+                raise
+            self.counters.misplaced += 1
+            if play.emissions != 1:
+                raise OutOfStep(f"a repetition has begun on FPGA 0 that another refused, and was ended: {error}") from error
 
     def _compare_ticks(self) -> None:
         """Pulse the trigger line, with nothing queued and the outputs off, and note how far the ticks are apart."""
@@ -200,10 +239,26 @@ class WideSession(Session):
         self._emissions = emissions
 
 
-def _raise_first(failed: list[LinkError | FaultError]) -> None:
-    """Raise what came first, if anything: a fault before an error of the link; NO_PERMIT, which the wire makes of it, last."""
-    if not failed:
-        return
-    faults = [error for error in failed if isinstance(error, FaultError)]
-    causes = [error for error in faults if Fault(error.faults) & ~Fault.NO_PERMIT]
-    raise (causes or faults or failed)[0]
+def _rank(error: ControllerError) -> int:
+    """Place of an error among those of all FPGAs: a fault of its own first, then an error of the link; what others cause last.
+
+    An FPGA that hears nothing while the host waits for another is HOST_SILENT; NO_PERMIT is what the wire makes of either.
+    """
+    if not isinstance(error, FaultError):
+        return 1
+    others = Fault(error.faults) & ~Fault.NO_PERMIT
+    return 3 if error.faults == Fault.NO_PERMIT else 2 if others == Fault.HOST_SILENT else 0
+
+
+class _Named:
+    """Says of which FPGA an error is that comes from within."""
+
+    def __init__(self, number: int) -> None:
+        self._of = f"FPGA {number}"
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, ControllerError) and not str(error).startswith("FPGA "):
+            error.args = (f"{self._of}: {error}", *error.args[1:])

@@ -138,6 +138,7 @@ class Outputs:
 
         Raises ControllerError: the same, if there is no recovery from it.
         """
+        error = self._session.cause_of(error)
         steady = self.on and now_s - self._on_since_s >= STEADY_S
         if self.on:
             self._off_since_s = now_s

@@ -13,7 +13,7 @@ from controller.device.board.lookup import data_folder, running_release
 from controller.device.board.worker import Worker
 from controller.device.fpga.bitstream_loader import BitstreamLoader
 from controller.device.fpga.build_hash import build_hash
-from controller.device.fpga.links.lazy_link import LazyLink
+from controller.device.fpga.links.lazy_link import LazyGroup, LazyLink
 from controller.device.fpga.links.link import Link
 from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.session import Session
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from controller.device.touch.recordings.recording import Recording
 
 NO_PANEL = "board {!r} has no touch panel: give its [touch] a kind, or replay a recording"
-ONLY_SIMULATED = "board {!r}: link.fpga: several FPGAs are only simulated yet: run it with --link model or rtl"
 OpenLink = Callable[[Board, Callable[[], float]], Link]  # of a board and the host's clock
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
 
@@ -43,16 +42,16 @@ def gateware_hash() -> int:
 
 
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:
-    """Link to a board's FPGA.
+    """Link to a board's FPGA; to several of them a `LinkGroup`.
 
     An `unhurried` link waits longer for answers over a serial port: for bring-up, not for the event loop. Raises ConfigError if it
     is simulated; LinkError if its device cannot be opened.
     """
-    if board.link.fpga:
-        raise ConfigError(ONLY_SIMULATED.format(board.name))
     if board.link.kind == "spi":
-        from controller.device.fpga.links.spi_link import SpiLink
+        from controller.device.fpga.links.spi_link import SpiLink, open_spi_links
 
+        if board.link.fpga:
+            return open_spi_links(board.link, [one.link for one in board.fpga_boards], now_s)
         return SpiLink(board.link, now_s)
     if board.link.kind == "serial":
         from controller.device.fpga.links.serial_link import LATENCY_S, SerialLink
@@ -62,9 +61,10 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
 
 
 def await_session(board: Board, now_s: Callable[[], float], open_fpga: OpenLink = open_link) -> tuple[Link, Session]:
-    """Link and session of an FPGA that may not be connected yet; nothing is sent before `bring_up`."""
+    """Link and session of an FPGA, or several, that may not be connected yet; nothing is sent before `bring_up`."""
     if board.link.fpga:
-        raise ConfigError(ONLY_SIMULATED.format(board.name))
+        group = LazyGroup(lambda: open_fpga(board, now_s), len(board.link.fpga), now_s)
+        return group, WideSession(group, board, gateware_hash(), now_s, bring_up=False)
     link = LazyLink(lambda: open_fpga(board, now_s), now_s)
     session = Session(link, board, gateware_hash(), now_s, bring_up=False)
     if board.gateware is not None:

@@ -125,7 +125,7 @@ def _lines(board: Board) -> Iterator[str]:
 def _bus_lines(board: Board) -> Iterator[str]:
     """On a Raspberry Pi, no line is a pin of a bus that is used."""
     touch, link, temperature = board.touch, board.link, board.temperature
-    devices = [("link.device", link.device if link.kind != "simulated" else "")]
+    devices = _devices(board) if link.kind != "simulated" else []
     if isinstance(touch, I2cTouch):
         devices.append(("touch.bus", touch.bus))
     elif isinstance(touch, SerialTouch):
@@ -145,9 +145,39 @@ def _named_lines(board: Board) -> list[tuple[str, str, str]]:
     found = []
     if link.kind == "spi":
         found += [(f"link.{key}", link.gpio_chip, getattr(link, key)) for key in ("trigger_line", "configured_line", "permit_line")]
+        found += [(f"link.fpga[{n}].configured_line", link.gpio_chip, one.configured_line) for n, one in enumerate(link.fpga)]
     if isinstance(touch, I2cTouch):
         found += [(f"touch.{key}", touch.interrupt_chip, getattr(touch, key)) for key in ("interrupt_line", "reset_line")]
     return [(key, chip, line) for key, chip, line in found if line]
+
+
+def _devices(board: Board) -> list[tuple[str, str]]:
+    """The device of each FPGA, with its key."""
+    each = [(f"link.fpga[{number}].device", one.device) for number, one in enumerate(board.link.fpga)]
+    return each or [("link.device", board.link.device)]
+
+
+@refuses("`link.fpga`: `device`, `configured_line`; `link.device`, `configured_line`")
+def _of_each(board: Board) -> Iterator[str]:
+    """Each of several FPGAs on SPI has a chip select of its own; they share a `configured_line`, or each has one."""
+    link = board.link
+    if link.kind != "spi" or not link.fpga:
+        return
+    first: dict[str, str] = {}
+    for key, device in _devices(board):
+        if first.setdefault(device, key) != key:
+            yield f"{key} = {device!r} is {first[device]} already: each FPGA needs a chip select of its own"
+    if link.device:
+        yield f"link.device = {link.device!r} is not used, as each link.fpga has its own: take it out"
+    without = [number for number, one in enumerate(link.fpga) if not one.configured_line]
+    if len(without) < len(link.fpga):
+        if without:
+            yield f"link.fpga[{without[0]}].configured_line is missing: give one to each FPGA, or to none"
+        elif link.configured_line:
+            yield (
+                f"link.configured_line = {link.configured_line!r} is of all FPGAs, and link.fpga gives one to each: take the one"
+                " or the others out"
+            )
 
 
 def _number(chip: str, line: str) -> str:

@@ -1,10 +1,12 @@
-"""A link whose device may be absent when the service starts: the first message that finds the device opens it."""
+"""Links whose device may be absent when the service starts: the first message that finds the device opens it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from controller.device.fpga.links.link import Link
+from controller.device.fpga.links.link_group import LinkGroup
 from controller.errors import LinkError
 
 
@@ -60,3 +62,27 @@ class LazyLink:
         """Release the device, if it was opened."""
         if self._link is not None:
             self._link.close()
+
+
+class LazyGroup(LinkGroup):
+    """`LinkGroup` to so many FPGAs, which are opened together by the first exchange for which all are there.
+
+    `open_links` returns the open links, or raises LinkError.
+    """
+
+    def __init__(self, open_links: Callable[[], Link], fpgas: int, now_s: Callable[[], float]) -> None:
+        self._open = open_links
+        self._group: LinkGroup | None = None
+        super().__init__([LazyLink(partial(self._opened, number), now_s) for number in range(fpgas)])
+
+    def close(self) -> None:
+        """Release the devices, if they were opened."""
+        if self._group is not None:
+            self._group.close()
+
+    def _opened(self, number: int) -> Link:
+        if self._group is None:
+            group = self._open()
+            assert isinstance(group, LinkGroup)
+            self._group = group
+        return self._group.links[number]

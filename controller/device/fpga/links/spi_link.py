@@ -21,6 +21,7 @@ import spidev
 
 from controller.device.board.devices import LinkSettings, divided_hz
 from controller.device.fpga.links.gpio_lines import GpioLines
+from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.links.spi_messages import SpiMessages
 from controller.errors import LinkError
 
@@ -45,11 +46,13 @@ def read_bufsiz() -> int:
 class SpiLink:
     """`Link` to an FPGA on SPI, with its trigger and permit lines.
 
-    `settings` is of kind "spi". Raises LinkError if the device or a line is absent, in use or unsuitable, or the FPGA is not
-    configured.
+    `settings` is of kind "spi". One of several FPGAs, not `alone`, is given the `lines` that they share before it is used. Raises
+    LinkError if the device or a line is absent, in use or unsuitable, or the FPGA is not configured.
     """
 
-    def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
+    lines: GpioLines
+
+    def __init__(self, settings: LinkSettings, now_s: Callable[[], float], *, alone: bool = True) -> None:
         self.bytes_sent = 0
         self.wire_ns = 0  # wire_ns, blocked_ns: both are the time spent in the kernel, which returns after the last bit
         self.blocked_ns = 0
@@ -63,25 +66,25 @@ class SpiLink:
         self._free_s = now_s()
         self._messages: SpiMessages | None = None
         self._spi: spidev.SpiDev | None = self._opened()
+        self._failed = False
+        if not alone:
+            return
         try:
             self.lines = GpioLines(settings, now_s)
         except LinkError:
-            self._spi.close()
+            self.release()
             raise
-        if not self.lines.configured():
+        try:
+            self.lines.begin()
+        except LinkError:
             self.close()
-            raise LinkError(
-                f"the FPGA is not configured: its line {settings.configured_line!r} is low;"
-                " load the gateware, or look at its supply and its clock"
-            )
-        self.lines.permit(given=True)
-        self._permitted = True
+            raise
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames and store the answers; parameters as in `Link.exchange`.
 
-        Raises LinkError if the bus fails, or the device was removed; the next call opens it again. The run permit is withdrawn
-        until a message succeeds, since nothing else may reach the FPGA.
+        Raises LinkError if the bus fails, or the device was removed; the next call opens it again. The run permit, that of all
+        FPGAs, is withdrawn until a message succeeds, since nothing else may reach the FPGA.
         """
         messages = self._messages
         if messages is None or messages.sent is not sent or messages.received is not received:
@@ -95,9 +98,9 @@ class SpiLink:
             for request, transfers, size in pieces:
                 fcntl.ioctl(fd, request, transfers)
                 self.bytes_sent += size
-            if not self._permitted:
-                self.lines.permit(given=True)
-                self._permitted = True
+            if self._failed:
+                self.lines.works(self._settings.device)
+                self._failed = False
         except OSError as error:
             raise self._failure(error) from error
         finally:
@@ -138,6 +141,10 @@ class SpiLink:
     def close(self) -> None:
         """Withdraw the run permit and release the device."""
         self.lines.close()
+        self.release()
+
+    def release(self) -> None:
+        """Release the device alone."""
         if self._spi is not None:
             self._spi.close()
             self._spi = None
@@ -196,9 +203,8 @@ class SpiLink:
     def _failure(self, error: OSError) -> LinkError:
         """The error to raise for a failed system call; releases a device that was removed."""
         device = self._settings.device
-        with contextlib.suppress(LinkError):
-            self.lines.permit(given=False)
-        self._permitted = False
+        self.lines.failed(self._settings.device)
+        self._failed = True
         if error.errno in REMOVED:
             if self._spi is not None:
                 with contextlib.suppress(OSError):
@@ -214,6 +220,28 @@ class SpiLink:
                 f"{device}: a message does not fit spidev's buffer: was bufsiz changed? It was {self.bufsiz} when opened"
             )
         return LinkError(f"{device} failed ({error.strerror}): look into the kernel's log (dmesg)")
+
+
+def open_spi_links(settings: LinkSettings, of_each: Sequence[LinkSettings], now_s: Callable[[], float]) -> LinkGroup:
+    """Links to several FPGAs on shared lines, all of them or none: the permit is given when each is open and configured.
+
+    `settings` are those of all, `of_each` those of each by itself. Raises LinkError as `SpiLink`, or if two are one device.
+    """
+    links: dict[str, SpiLink] = {}
+    with contextlib.ExitStack() as opened:
+        for one in of_each:
+            path = os.path.realpath(one.device)
+            if path in links:
+                raise LinkError(f"{one.device} is {path}, as is that of another FPGA: each needs a chip select of its own")
+            links[path] = SpiLink(one, now_s, alone=False)
+            opened.callback(links[path].release)
+        lines = GpioLines(settings, now_s)
+        opened.callback(lines.close)
+        for link in links.values():
+            link.lines = lines
+        lines.begin()
+        opened.pop_all()
+    return LinkGroup(list(links.values()))
 
 
 def _bus_and_select(device: str) -> tuple[int, int]:
