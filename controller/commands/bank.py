@@ -23,7 +23,7 @@ from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.paths import bank_files, bank_path, build_line, is_there
+from controller.device.board.paths import bank_path, build_line, fpga_files, is_there
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
 from controller.errors import BankError, UsageError
@@ -197,7 +197,7 @@ def bank_verify(options: argparse.Namespace) -> int:
     path = _bank_file(options).path
     fpgas = 0 if options.file else len(load_board(find_board(options.board), several=True).link.fpga)
     try:
-        found = [verify_bank(file, progress_bar("bytes")) for file in bank_files(path, fpgas)]
+        found = [verify_bank(file, progress_bar("bytes")) for file in fpga_files(path, fpgas)]
     except BankError as error:
         raise BankError(f"FAIL: {error}") from error
     show(options, found[0] | {"bytes": sum(one["bytes"] for one in found)}, _verify_table)

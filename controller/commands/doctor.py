@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from controller.clocks import MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import announced_chirps, fpga_link, touch_panel_of
+from controller.clocks import Clock, MonotonicClock, VirtualClock
+from controller.commands.common.fpga_link import announced_chirps, fpga_link, fpga_links, touch_panel_of
 from controller.commands.common.output import progress_bar, show
-from controller.device.board.board import load_board
+from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board, own_board
 from controller.device.doctor.doctor import look
 from controller.device.doctor.finding import Finding
 from controller.device.doctor.link_examination import LinkExamined, examine_link
+from controller.device.doctor.several_fpgas import examine_links
 from controller.device.doctor.way import WayStep, in_lines, way
-from controller.device.service.drivers import open_session
+from controller.device.service.drivers import open_session, open_wide_session
 from controller.device.service.installation import is_installed
 from controller.errors import ControllerError
 
@@ -46,25 +48,15 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def examine(options: argparse.Namespace) -> int:
     """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
-    board = load_board(find_board(options.board or own_board()))
+    board = load_board(find_board(options.board or own_board()), several=True)
     real = MonotonicClock()
     findings = look(board, real.now_s, touch_panel_of(board)) + _releases()
     figures: dict[str, Any] = {}
     if options.link:
-        clock = VirtualClock() if board.link.kind == "simulated" else real
-        channels = [] if options.no_chirps else sorted(actuator.channel for actuator in board.actuators)
-        chirps = announced_chirps(board, channels, options.pause_s)
         try:
-            link, take_capture = fpga_link(board, clock.now_s)
+            examined = _link(options, board, VirtualClock() if board.link.kind == "simulated" else real)
         except ControllerError as error:
             examined = LinkExamined([Finding("link", False, str(error))], {})
-        else:
-            progress = progress_bar("link") if not options.json else lambda *_: None
-            try:
-                opened = partial(open_session, link, board, clock.now_s)
-                examined = examine_link(board, link, opened, clock, options.bits, chirps, progress, take_capture)
-            finally:
-                link.close()
         findings += examined.findings
         figures = examined.figures
     good = all(finding.good for finding in findings)
@@ -72,6 +64,31 @@ def examine(options: argparse.Namespace) -> int:
     said = [asdict(finding) for finding in findings]
     show(options, {"board": board.name, "good": good, "findings": said, **figures, "way": steps}, _table)
     return 0 if good else 1
+
+
+def _link(options: argparse.Namespace, board: Board, clock: Clock) -> LinkExamined:
+    """The link examined, or those of several FPGAs; raises ControllerError if it cannot be opened."""
+    channels = [] if options.no_chirps else sorted(actuator.channel for actuator in board.actuators)
+    chirps = announced_chirps(board, channels, options.pause_s)
+    progress = progress_bar("link") if not options.json else lambda *_: None
+    if not board.link.fpga:
+        link, take_capture = fpga_link(board, clock.now_s)
+        with closing(link):
+            opened = partial(open_session, link, board, clock.now_s)
+            return examine_link(board, link, opened, clock, options.bits, chirps, progress, take_capture)
+    links, captures = fpga_links(board, clock.now_s)
+    with closing(links):
+        return examine_links(
+            board,
+            links.links,
+            partial(open_wide_session, links, board, clock.now_s),
+            lambda link, one: open_session(link, one, clock.now_s),
+            clock,
+            options.bits,
+            chirps,
+            progress,
+            captures,
+        )
 
 
 def _releases() -> list[Finding]:
@@ -85,13 +102,16 @@ def _releases() -> list[Finding]:
 
 
 def _table(figures: dict[str, Any]) -> str:
-    lines = [f"{_verdict(finding):<8}{finding['about']:<24}{finding['said']}" for finding in figures["findings"]]
-    for speed in figures.get("sweep", ()):
-        said = speed["trouble"] or f"{speed['errors']} errors in {speed['bits']:,} bits"
-        lines.append(f"{'':<8}{speed['sck_hz'] / 1e6:>8.4g} MHz            {said}")
-    if "sck_measured_hz" in figures:
-        unknown = "; SCK could not be measured" if figures["sck_measured_hz"] is None else ""
-        lines.append(f"{'':<8}{figures['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel{unknown}")
+    width = max(24, *(len(finding["about"]) + 2 for finding in figures["findings"]))
+    lines = [f"{_verdict(finding):<8}{finding['about']:<{width}}{finding['said']}" for finding in figures["findings"]]
+    for number, link in enumerate(figures.get("fpgas", (figures,))):
+        of = f"FPGA {number}: " if "fpgas" in figures else ""
+        for speed in link.get("sweep", ()):
+            said = speed["trouble"] or f"{speed['errors']} errors in {speed['bits']:,} bits"
+            lines.append(f"{'':<8}{speed['sck_hz'] / 1e6:>8.4g} MHz            {of}{said}")
+        if "sck_measured_hz" in link:
+            unknown = "; SCK could not be measured" if link["sck_measured_hz"] is None else ""
+            lines.append(f"{'':<8}{of}{link['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel{unknown}")
     if any(step["done"] is False for step in figures["way"]):
         lines += [
             "",

@@ -22,8 +22,8 @@ from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.model import GatewareModel
-from controller.workshop.gateware.wired_fpgas import WiredFpgas
 from controller.workshop.gateware.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
+from controller.workshop.gateware.wired_fpgas import WiredFpgas
 
 HEADER = struct.Struct("<IIII")  # of labdev: speed in Hz, bytes, mode, whether chip select rises behind it
 REQUEST_BYTES = 1 << 16

@@ -42,9 +42,7 @@ LINK = LinkSettings(
         LinkedFpga(device="/dev/spidev0.1", configured_line="CONFIGURED1"),
     ),
 )
-BOARD = msgspec.structs.replace(
-    SIMULATED, link=LINK, limits=msgspec.structs.replace(SIMULATED.limits, heartbeat_timeout_ms=250.0)
-)
+BOARD = msgspec.structs.replace(SIMULATED, link=LINK, limits=msgspec.structs.replace(SIMULATED.limits, heartbeat_timeout_ms=250.0))
 PARTS = [np.random.default_rng(seed).integers(0, 1 << 32, 1000, dtype=np.uint32).tobytes() for seed in (7, 8)]
 WORDS = joined([memoryview(part) for part in PARTS])
 

@@ -10,6 +10,7 @@ from controller.device.board.board import Board
 from controller.device.doctor.bring_up import CHIRP_REPETITIONS, Chirps, chirp_in_words, chirp_period_s
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.links.link import Link
+from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.service.drivers import OpenLink, open_link, open_panel
 from controller.device.touch.event_reader import EventReader
 
@@ -21,9 +22,9 @@ def open_fpga_of(board: Board) -> OpenLink:
     """What opens the link to the FPGA of `board`."""
     if board.link.kind != "simulated":
         return open_link
-    from controller.workshop.gateware.simulated_link import open_simulated
+    from controller.workshop.gateware.wired_fpgas import open_simulated_panel
 
-    return open_simulated
+    return open_simulated_panel
 
 
 def touch_panel_of(board: Board) -> Callable[[Board], EventReader]:
@@ -48,6 +49,20 @@ def fpga_link(
 
     link = open_simulated(board, now_s, gateware) if gateware else open_simulated(board, now_s)
     return link, link.take_capture
+
+
+def fpga_links(
+    board: Board, now_s: Callable[[], float], gateware: GatewareFactory | None = None
+) -> tuple[LinkGroup, list[Callable[[], Capture]]]:
+    """As `fpga_link`, of a board of several FPGAs: of simulated ones, what the pins of each did."""
+    if board.link.kind != "simulated":
+        links = open_link(board, now_s, unhurried=True)
+        assert isinstance(links, LinkGroup)
+        return links, []
+    from controller.workshop.gateware.wired_fpgas import SimulatedFpgas
+
+    simulated = SimulatedFpgas(board, now_s, gateware) if gateware else SimulatedFpgas(board, now_s)
+    return simulated, [link.take_capture for link in simulated.timed]
 
 
 def announced_chirps(board: Board, channels: Sequence[int], pause_s: float) -> Chirps:

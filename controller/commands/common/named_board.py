@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
+
 from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 from controller.device.board.relations.checked import judge
+from controller.errors import UsageError
 from controller.log import Priority
 
 
@@ -18,3 +21,16 @@ def named_board(name: str, *, several: bool = False) -> Board:
     for odd in judge(board).odd:
         tell(f"{board.folder / 'board.toml'}: {odd}", Priority.WARNING)
     return board
+
+
+def add_fpga(step: argparse.ArgumentParser) -> None:
+    """Declare --fpga."""
+    step.add_argument("--fpga", type=int, default=0, metavar="N", help="of several FPGAs, which one (default: 0, the first)")
+
+
+def with_one_fpga(board: Board, number: int) -> Board:
+    """The board as its FPGA of this number drives it; raises UsageError if there is none."""
+    boards = board.fpga_boards
+    if not 0 <= number < len(boards):
+        raise UsageError(f"--fpga: board {board.name!r} has no FPGA {number}: they are counted from 0 to {len(boards) - 1}")
+    return boards[number]

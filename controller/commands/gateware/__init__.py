@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from controller.clocks import MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import announced_chirps, fpga_link
+from controller.clocks import Clock, MonotonicClock, VirtualClock
+from controller.commands.common.fpga_link import announced_chirps, fpga_link, fpga_links
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import check_table
 from controller.commands.gateware import build as gateware_build
@@ -20,7 +21,12 @@ from controller.commands.gateware import waves as gateware_waves
 from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
+from controller.device.doctor import bring_up
+from controller.device.doctor.bring_up import Chirps
+from controller.device.doctor.several_fpgas import chirps_of
 from controller.device.fpga import configuration
+from controller.device.fpga.capture import Capture
+from controller.device.fpga.links.link import Link
 from controller.device.fpga.registers import IDENTITY_MAGIC, PROTOCOL_VERSION, Register
 from controller.device.service.drivers import gateware_hash, open_session
 from controller.errors import ConfigError
@@ -64,29 +70,58 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def gateware_check(options: argparse.Namespace) -> int:
     """Check an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
-    from controller.device.doctor import bring_up
-
-    board = load_board(find_board(options.board))
+    board = load_board(find_board(options.board), several=True)
     if options.device:
+        if board.link.fpga:
+            raise ConfigError("--device: a board of several FPGAs plays over SPI alone: leave it out")
         serial = msgspec.structs.replace(board.link, kind="serial", device=options.device, baud=options.baud)
         board = msgspec.structs.replace(board, link=serial)
-    channels = _channels(options, board)
+    chirps = announced_chirps(board, _channels(options, board), options.pause_s)
     simulated = board.link.kind == "simulated"
     clock = VirtualClock() if simulated else MonotonicClock()
-    link, take_capture = fpga_link(board, clock.now_s, gateware_factory(options)[0] if simulated else None)
+    factory = gateware_factory(options)[0] if simulated else None
+    if not board.link.fpga:
+        link, take_capture = fpga_link(board, clock.now_s, factory)
+        figures = _checked(options, link, board, clock, chirps, take_capture)
+        link.close()
+        show(options, figures, check_table)
+        complaints = figures["complaints"]
+    else:
+        links, captures = fpga_links(board, clock.now_s, factory)
+        open_session(links, board, clock.now_s)  # all: a fault of one takes the permit from the others
+        each = [
+            _checked(options, link, one, clock, chirps_of(number, chirps), captures[number] if captures else None)
+            for number, (link, one) in enumerate(zip(links.links, board.fpga_boards, strict=True))
+        ]
+        links.close()
+        complaints = [f"FPGA {number}: {said}" for number, figures in enumerate(each) for said in figures["complaints"]]
+        show(options, {"fpgas": each, "complaints": complaints, "good": not complaints}, _several_table)
+    for complaint in complaints:
+        tell(complaint)
+    return 1 if complaints else 0
+
+
+def _checked(
+    options: argparse.Namespace,
+    link: Link,
+    board: Board,
+    clock: Clock,
+    chirps: Chirps,
+    take_capture: Callable[[], Capture] | None,
+) -> dict[str, Any]:
+    """Figures of one FPGA, with what is wrong with it as `complaints`."""
     session = open_session(link, board, clock.now_s)
-    chirps = announced_chirps(board, channels, options.pause_s)
     done = bring_up.check(session, board, clock, options.bits, chirps, progress_bar("bits"), take_capture)
-    link.close()
     expected = _expected(board)
     complaints = [
         f"{name} is {done.registers[name]}, not {value}" for name, value in expected.items() if done.registers[name] != value
     ]
     complaints += done.complaints
-    show(options, asdict(done) | {"expected": expected, "complaints": complaints, "good": not complaints}, check_table)
-    for complaint in complaints:
-        tell(complaint)
-    return 1 if complaints else 0
+    return asdict(done) | {"expected": expected, "complaints": complaints, "good": not complaints}
+
+
+def _several_table(figures: dict[str, Any]) -> str:
+    return "\n\n".join(f"FPGA {number}\n{check_table(one)}" for number, one in enumerate(figures["fpgas"]))
 
 
 def _expected(board: Board) -> dict[str, int]:

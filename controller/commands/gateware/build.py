@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from controller.commands.common.named_board import named_board
+from controller.commands.common.named_board import add_fpga, named_board, with_one_fpga
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.lookup import find_board
@@ -26,12 +26,13 @@ if TYPE_CHECKING:
 
 def add(step: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
+    add_fpga(step)
     step.add_argument("--top", metavar="B", help="board whose top.v and pins are built (default: the board itself)")
     step.add_argument("--device", metavar="D", help="size of the FPGA, such as 85k (default: the first of fpga.toml)")
     which = step.add_mutually_exclusive_group()
     which.add_argument("--seed", type=int, metavar="N", help="of the placement (default: that of fpga.toml)")
     which.add_argument("--seeds", type=int, metavar="N", help="place with each seed from 1 to N, and keep the fastest")
-    step.add_argument("--out", metavar="F", help="the bitstream (default: build/BOARD.bit)")
+    step.add_argument("--out", metavar="F", help="the bitstream (default: build/BOARD.bit; of a further FPGA BOARD.fpgaN.bit)")
     step.add_argument("--work", metavar="FOLDER", help="keep netlist, placement and reports of the tools there")
     step.add_argument("--unproven", action="store_true", help="do not prove the safety island with these limits before")
     step.set_defaults(command=gateware_build)
@@ -44,7 +45,7 @@ def gateware_build(options: argparse.Namespace) -> int:
     from controller.workshop.gateware.island_proof import prove_island
 
     folder = find_board(options.board)
-    board = named_board(options.board)
+    board = with_one_fpga(named_board(options.board, several=True), options.fpga)
     top, part = find_part(folder, options.top)
     check_top(board, top, part.constraints)
     device = options.device or part.devices[0]
@@ -53,7 +54,8 @@ def gateware_build(options: argparse.Namespace) -> int:
     seeds = [part.seed if options.seed is None else options.seed] if options.seeds is None else list(range(1, options.seeds + 1))
     if not seeds or min(seeds) < 1:
         raise UsageError("--seed and --seeds: a whole number from 1")
-    out = Path(options.out or f"build/{board.key}{'' if device == part.devices[0] else f'-{device}'}.bit")
+    of = f".fpga{options.fpga}" if options.fpga else ""
+    out = Path(options.out or f"build/{board.key}{'' if device == part.devices[0] else f'-{device}'}{of}.bit")
     _must_be_writable(out)
     design = FpgaDesign.of(board, top, part, device)
     if not options.unproven:

@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from controller.commands.common.named_board import add_fpga, with_one_fpga
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board, load_board
@@ -22,6 +23,7 @@ def add(step: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     step.add_argument("file", metavar="FILE", help="the bitstream")
     step.add_argument("--board", metavar="B", help="board that it is compared with (default: the one that it was built for)")
+    add_fpga(step)
     step.add_argument("--json", action="store_true", help="print one JSON object and nothing else on stdout")
     step.set_defaults(command=gateware_info)
 
@@ -30,7 +32,8 @@ def gateware_info(options: argparse.Namespace) -> int:
     """Print what a bitstream says of itself; 1 if the board would refuse it, or if it is not whole."""
     file = Path(options.file)
     identity, figures = read_identity(file), read_figures(file)
-    board = _board_to_compare(options.board, identity)
+    found = _board_to_compare(options.board, identity)
+    board = None if found is None else with_one_fpga(found, options.fpga)
     complaints = [] if board is None else differences(identity, board, gateware_hash())
     shown = ("clock_mhz", "fmax_mhz", "longest_path", "miso_ns")
     reported = {
@@ -53,12 +56,12 @@ def gateware_info(options: argparse.Namespace) -> int:
 def _board_to_compare(named: str | None, identity: Identity) -> Board | None:
     """The board that was named; else that of the bitstream, None if this computer does not have it."""
     if named:
-        return load_board(find_board(named))
+        return load_board(find_board(named), several=True)
     try:
         folder = find_board(identity.board)
     except ConfigError:
         return None
-    return load_board(folder)
+    return load_board(folder, several=True)
 
 
 def _table(reported: dict[str, Any]) -> str:

@@ -18,7 +18,7 @@ from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.response_entries import ResponseEntries
 from controller.device.bank.tables import read_tables
 from controller.device.board.board import Board
-from controller.device.board.paths import bank_files, build_line
+from controller.device.board.paths import build_line, fpga_files
 from controller.errors import BankError
 from controller.regular_file import open_regular
 
@@ -85,7 +85,7 @@ class Bank:
         """The banks of several FPGAs, as the first one's, with the others behind it; all have the same cells."""
         opened: list[Bank] = []
         try:
-            for one, file in zip(board.fpga_boards, bank_files(path, len(board.link.fpga)), strict=True):
+            for one, file in zip(board.fpga_boards, fpga_files(path, len(board.link.fpga)), strict=True):
                 opened.append(cls.open(file, one))
                 if (opened[-1].grid, opened[-1].samples) != (opened[0].grid, opened[0].samples) or (
                     opened[-1].file.tables.entries != opened[0].file.tables.entries

@@ -194,7 +194,7 @@ def load_board(path: Path, without: Collection[Relation] = (), *, several: bool 
     if board.link.fpga and not several:
         raise ConfigError(
             f"{file}: link.fpga: this serves boards of one FPGA; with {len(board.link.fpga)} there are board check, bank build,"
-            " bank info, bank verify, doctor, gateware build, gateware check and run"
+            " bank info, bank verify, doctor, gateware build, check and info, and run"
         )
     return msgspec.structs.replace(board, folder=file.parent)
 

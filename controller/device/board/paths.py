@@ -62,8 +62,8 @@ def bank_path(board: Board, pitch_m: float | None = None) -> Path:
     return state_folder(board) / "banks" / f"{name}.v{BANK_FORMAT}.bank"
 
 
-def bank_files(path: Path, fpgas: int) -> list[Path]:
-    """Files of the bank at `path`: one for each FPGA, the first at `path` itself."""
+def fpga_files(path: Path, fpgas: int) -> list[Path]:
+    """Files of the bank, or the bitstream, at `path`: one for each FPGA, the first at `path` itself."""
     return [path, *(path.with_name(f"{path.stem}.fpga{number}{path.suffix}") for number in range(1, fpgas))]
 
 

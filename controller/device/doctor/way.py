@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Final, NamedTuple
 
 from controller.device.board.board import Board
+from controller.device.board.paths import fpga_files
 from controller.device.doctor.finding import Finding
 from controller.device.fpga.bitstream import differences, read_identity
 from controller.device.service.drivers import gateware_hash
 from controller.errors import ControllerError
 
 DRAWN_MM: Final = 0.1  # axes in whole tenths are drawn; measured ones have three digits
+OF_FPGA: Final = re.compile(r"^FPGA \d: ")
 MARKS: Final = {True: "[x]", False: "[ ]", None: "[?]"}
 
 
@@ -25,12 +29,23 @@ class WayStep(NamedTuple):
 
 def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
     """Steps of the page "A panel of your own", for a board and what `doctor` has found; nothing found: what the folder shows."""
-    found = {finding.about: finding for finding in findings}
+    found: dict[str, Finding] = {}
+    for finding in findings:
+        about = OF_FPGA.sub("", finding.about)
+        if about not in found or found[about].good:  # of several FPGAs, the first that is not
+            found[about] = finding
 
     def good(about: str, *, warned: bool = True) -> bool | None:
         return found[about].good and (warned or not found[about].warns) if about in found else None
 
-    command, bitstream = "haptic-panel {} --board " + board.called, board.folder / board.bitstream
+    command, bitstreams = (
+        "haptic-panel {} --board " + board.called,
+        fpga_files(board.folder / board.bitstream, len(board.fpga_boards)),
+    )
+    built = [f"{command.format('gateware build')}{f' --fpga {n}' * (n > 0)} --out {file}" for n, file in enumerate(bitstreams)]
+    load = f"{command.format('gateware load')} --flash"
+    if board.link.fpga:
+        load = "each into its flash, by the tool of its board, such as openFPGALoader"
     calibrated = [
         f"{command.format('calibrate plan')} --out points.csv",
         f"{command.format('calibrate measure measured')} --points points.csv",
@@ -38,8 +53,8 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
     ]
     return [
         WayStep("board.toml and its scene are valid", f"haptic-panel board check {board.called}", good("scene") is not False),
-        WayStep("the bitstream has this board's limits", f"{command.format('gateware build')} --out {bitstream}", _built(board)),
-        WayStep("the FPGA is loaded with it", f"{command.format('gateware load')} --flash", good("identity and settings")),
+        WayStep("the bitstream has this board's limits", ", ".join(built), _built(board, bitstreams)),
+        WayStep("the FPGA is loaded with it", load, good("identity and settings")),
         WayStep("its link carries every bit", command.format("doctor --link"), good("bits")),
         WayStep("the bank fits board and scene", command.format("bank build"), good("bank")),
         WayStep("the touch panel answers", command.format("doctor"), good("touch panel")),
@@ -50,9 +65,11 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
     ]
 
 
-def _built(board: Board) -> bool:
+def _built(board: Board, bitstreams: Iterable[Path]) -> bool:
     try:
-        return not differences(read_identity(board.folder / board.bitstream), board, gateware_hash())
+        return not any(
+            differences(read_identity(file), one, gateware_hash()) for one, file in zip(board.fpga_boards, bitstreams, strict=True)
+        )
     except (ControllerError, OSError):
         return False
 

@@ -40,7 +40,7 @@ class WideSession(Session):
             Session(link, one, build_hash, now_s, bring_up=False) for link, one in zip(links.links[1:], boards[1:], strict=True)
         ]
         self._resident: list[Waveform | None] = [None] * len(self._others)  # in place of waveforms that are there
-        self._ahead_ticks = [0] * len(self._others)  # by which the ticks of each are ahead of the first one's
+        self.ahead_ticks = [0] * len(self._others)  # by which the ticks of each are ahead of the first one's
         self._emissions: list[int] = []  # of each when they last were at rest; empty: not known
         self._all_asked: ControllerError | None = None  # the error that was raised when all had been asked last
         self._of = [_Named(number) for number in range(len(boards))]
@@ -66,7 +66,7 @@ class WideSession(Session):
                 one.bring_up()
         with self._of[0]:
             super().bring_up()
-        self._compare_ticks()
+        self.compare_ticks()
 
     def arm(self) -> float:
         """As in `Session`, of all FPGAs; when the last ramp ends."""
@@ -172,6 +172,23 @@ class WideSession(Session):
                 return False
         return True
 
+    def compare_ticks(self) -> None:
+        """Pulse the trigger line, with nothing queued and the outputs off, and note how far the ticks are apart.
+
+        Raises LinkError if it does not reach one of the FPGAs, or that does not answer.
+        """
+        sessions = (self, *self._others)
+        before = [one.exchange.read(Register.TRIGGERS) for one in sessions]
+        self.link.trigger()
+        ticks = []
+        for number, (one, count) in enumerate(zip(sessions, before, strict=True)):
+            seen = one.exchange.read(Register.TRIGGERS) - count & 0xFFFFFFFF
+            if seen != 1:
+                raise LinkError(f"FPGA {number} saw {seen} edges of the trigger line and not one: is the line wired to each FPGA?")
+            low = one.exchange.read(Register.TRIGGER_TIME_LOW)
+            ticks.append(one.exchange.read(Register.TRIGGER_TIME_HIGH) << 32 | low)
+        self.ahead_ticks = [tick - ticks[0] for tick in ticks[1:]]
+
     def _ask_all(self, first: Callable[[], Status]) -> tuple[list[Status], list[LinkError | FaultError]]:
         """A heartbeat to each FPGA, `first` that of the first one: their answers, and the errors of those that gave none."""
         statuses, failed = [], []
@@ -197,9 +214,7 @@ class WideSession(Session):
         if stop:
             self._emissions = []  # as in `stop`
         try:
-            for named, one, ahead_ticks, waveform in zip(
-                self._of[1:], self._others, self._ahead_ticks, waveforms, strict=True
-            ):
+            for named, one, ahead_ticks, waveform in zip(self._of[1:], self._others, self.ahead_ticks, waveforms, strict=True):
                 own = play._replace(when_ticks=play.when_ticks + ahead_ticks) if play.start is Start.TIME else play
                 with named:
                     if waveform is None:
@@ -214,20 +229,6 @@ class WideSession(Session):
             self.counters.misplaced += 1
             if play.emissions != 1:
                 raise OutOfStep(f"a repetition has begun on FPGA 0 that another refused, and was ended: {error}") from error
-
-    def _compare_ticks(self) -> None:
-        """Pulse the trigger line, with nothing queued and the outputs off, and note how far the ticks are apart."""
-        sessions = (self, *self._others)
-        before = [one.exchange.read(Register.TRIGGERS) for one in sessions]
-        self.link.trigger()
-        ticks = []
-        for number, (one, count) in enumerate(zip(sessions, before, strict=True)):
-            seen = one.exchange.read(Register.TRIGGERS) - count & 0xFFFFFFFF
-            if seen != 1:
-                raise LinkError(f"FPGA {number} saw {seen} edges of the trigger line and not one: is the line wired to each FPGA?")
-            low = one.exchange.read(Register.TRIGGER_TIME_LOW)
-            ticks.append(one.exchange.read(Register.TRIGGER_TIME_HIGH) << 32 | low)
-        self._ahead_ticks = [tick - ticks[0] for tick in ticks[1:]]
 
     def _compare_emissions(self, emissions: list[int]) -> None:
         """Compare how many emissions each FPGA has had since they were last at rest, as they are now."""

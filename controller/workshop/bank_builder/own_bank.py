@@ -18,7 +18,7 @@ from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.board.paths import bank_files, bank_path, build_line
+from controller.device.board.paths import bank_path, build_line, fpga_files
 from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
@@ -69,8 +69,8 @@ class Order:
         `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`. Raises
         ConfigError or BankError.
         """
-        files = bank_files(path, len(self.board.link.fpga))
-        own = bank_files(self.own_path, len(self.board.link.fpga))
+        files = fpga_files(path, len(self.board.link.fpga))
+        own = fpga_files(self.own_path, len(self.board.link.fpga))
         reports = [self.build_one(*each, cells, **how) for each in zip(self.board.fpga_boards, files, own, strict=True)]
         return reports[0]
 
@@ -142,7 +142,7 @@ def own_bank(board: Board, scene: Scene, scene_file: Path) -> Bank:
     Raises BankError if it does not suit and was measured, or cannot be built.
     """
     path, fpgas = find_bank(board).path, len(board.link.fpga)
-    for one, file, to in zip(board.fpga_boards, bank_files(path, fpgas), bank_files(bank_path(board), fpgas), strict=True):
+    for one, file, to in zip(board.fpga_boards, fpga_files(path, fpgas), fpga_files(bank_path(board), fpgas), strict=True):
         if _renewed(one, scene, scene_file, file, to):
             path = bank_path(board)
     return Bank.open(path, board)

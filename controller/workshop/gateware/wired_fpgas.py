@@ -162,12 +162,12 @@ class SimulatedFpgas(LinkGroup):
         built = [gateware_of(one, gateware_hash()) for one in board.fpga_boards]
         self.panel = WiredFpgas([EmptyFpga() if one is None else gateware(one) for one in built], ready_ticks)
         bus = Bus(now_s(), max(self.panel.ready_ticks) + READY_TICKS)
-        self._timed = [
+        self.timed = [
             SimulatedLink(one.link, now_s, member, bus) for one, member in zip(board.fpga_boards, self.panel.members, strict=True)
         ]
-        super().__init__(self._timed)
+        super().__init__(self.timed)
         self.clock_hz = board.link.clock_hz
-        self.tick, self.time_s = self._timed[0].tick, self._timed[0].time_s
+        self.tick, self.time_s = self.timed[0].tick, self.timed[0].time_s
 
     @property
     def speed(self) -> float:
@@ -176,7 +176,7 @@ class SimulatedFpgas(LinkGroup):
 
     def take_captures(self) -> list[Capture]:
         """Changes of the output pins of each FPGA since the last call."""
-        return [link.take_capture() for link in self._timed]
+        return [link.take_capture() for link in self.timed]
 
 
 def open_simulated_panel(

@@ -103,13 +103,8 @@ JUST = {
         {"actuators": patch(31, channel=64), "link__fpga": TWO},
     ),
     "_together": (
-        {"link__fpga": (LinkedFpga(device="/dev/spidev0.0"),) * 2, "gateware": None, "patches": None},
-        {
-            "link__fpga": (LinkedFpga(device="/dev/spidev0.0"),) * 2,
-            "gateware": None,
-            "patches": None,
-            "compose": Compose(method="auto"),
-        },
+        {"link__fpga": TWO, "gateware": None, "patches": None},
+        {"link__fpga": TWO, "gateware": None, "patches": None, "compose": Compose(method="auto")},
     ),
     "_on_plate": ({"actuators": patch(0, x_mm=2.3)}, {"actuators": patch(0, x_mm=2.29)}),
     "_apart": ({"actuators": patch(0, x_mm=31.5 - 4.6)}, {"actuators": patch(0, x_mm=31.5 - 4.59)}),
@@ -190,6 +185,7 @@ JUST = {
         {"touch__no_finger_mm": ((210.1, 0.0, 10.0, 148.0),)},
     ),
     "_lines": ({"link__permit_line": "GPIO26"}, {"link__permit_line": "GPIO25"}),
+    "_of_each": ({"link__device": "", "link__fpga": TWO}, {"link__device": "", "link__fpga": (TWO[0],) * 2}),
     "_bus_lines": ({"link__permit_line": "GPIO7"}, {"link__permit_line": "GPIO8"}),
     "_ports": (
         {"link__kind": "serial", "link__device": "/dev/ttyUSB0", "touch": ON_SERIAL},
@@ -300,6 +296,40 @@ def test_a_line_is_known_by_number_too_and_only_on_one_chip():
     assert "touch.reset_line = 'GPIO25' is link.trigger_line already, on pinctrl-bcm2711" in refused
     elsewhere = msgspec.structs.replace(shared, interrupt_chip="another")
     assert judge(changed(BOARD, touch=elsewhere)).refused == ()
+
+
+@each_row(
+    ("first", "second", "link", "said"),
+    [
+        ({}, {"device": "/dev/spidev0.0"}, {}, "link.fpga[1].device = '/dev/spidev0.0' is link.fpga[0].device already"),
+        ({}, {}, {"device": "/dev/spidev0.0"}, "link.device = '/dev/spidev0.0' is not used, as each link.fpga has its own"),
+        ({"configured_line": "GPIO5"}, {}, {}, "link.fpga[1].configured_line is missing: give one to each FPGA, or to none"),
+        (
+            {"configured_line": "GPIO5"},
+            {"configured_line": "GPIO6"},
+            {"configured_line": "GPIO27"},
+            "link.configured_line = 'GPIO27' is of all FPGAs, and link.fpga gives one to each",
+        ),
+        (
+            {"configured_line": "GPIO5"},
+            {"configured_line": "GPIO23"},
+            {},
+            "link.fpga[1].configured_line = 'GPIO23' is link.permit_line already, on pinctrl-bcm2711: the run permit would follow",
+        ),
+        (
+            {"configured_line": "GPIO5"},
+            {"configured_line": "GPIO7"},
+            {},
+            "link.fpga[1].configured_line = 'GPIO7' is a pin of link.fpga[1].device = '/dev/spidev0.1'",
+        ),
+    ],
+)
+def test_what_fpgas_have_of_their_own_and_what_they_share_does_not_collide(first, second, link, said):
+    fpga = tuple(msgspec.structs.replace(one, **keys) for one, keys in zip(TWO, (first, second), strict=True))
+    keys = {f"link__{key}": value for key, value in {"device": "", "configured_line": "", **link}.items()}
+    board = changed(BOARD, link__fpga=fpga, actuators=patch(31, channel=32), gateware=None, patches=None, **keys)
+    (refused,) = judge(board).refused
+    assert said in refused
 
 
 @each_row(("line", "of"), [("GPIO3", "touch.bus"), ("GPIO10", "link.device"), ("11", "link.device")])

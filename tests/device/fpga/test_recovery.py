@@ -358,7 +358,9 @@ def test_pauses_between_attempts_double_up_to_two_seconds_and_are_short_again_af
     def unplugged():
         raise LinkError("unplugged")
 
-    recovery = Recovery(SimpleNamespace(off=lambda: None, bring_up=unplugged, cause_of=lambda error: error, quiet_since_s=0.0), BOARD)
+    recovery = Recovery(
+        SimpleNamespace(off=lambda: None, bring_up=unplugged, cause_of=lambda error: error, quiet_since_s=0.0), BOARD
+    )
     safe_s = TIMEOUT_S + BOARD.limits.ramp_ms * 1e-3
     for lost_s in (10.0, 100.0):
         recovery.begin(LinkError("unplugged"), lost_s)

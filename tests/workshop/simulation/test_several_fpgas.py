@@ -10,7 +10,7 @@ from scripted_evemu import evemu
 from controller.cli import main
 from controller.device.bank.reader import Bank
 from controller.device.board.devices import LinkedFpga
-from controller.device.board.paths import bank_files, bank_path
+from controller.device.board.paths import bank_path, fpga_files
 from controller.device.scene.scene import load_scene
 from controller.device.touch.recordings.recording import Recording
 from controller.errors import BankError
@@ -65,7 +65,7 @@ def test_a_panel_split_between_two_fpgas_plays_as_one(board, split, tmp_path, mo
 
 def refused_without_the_others(split, path):
     """A bank is that of all FPGAs, or none."""
-    first, second = bank_files(path, 2)
+    first, second = fpga_files(path, 2)
     Bank.open(path, split).close()
     shutil.copy(first, second)
     with pytest.raises(BankError, match="was built for another board"):

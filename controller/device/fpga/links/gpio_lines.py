@@ -97,7 +97,7 @@ class GpioLines:
 
         Raises LinkError if the line fails.
         """
-        return all([self._high(line) for line in self._configured])
+        return all(self._high(line) for line in self._configured)
 
     def _high(self, line: str) -> bool:
         try:
