@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from restarting_gateware import RestartingGateware
 from tables import each_row
 
 from controller.clocks import VirtualClock
@@ -13,7 +14,7 @@ from controller.device.fpga.recovery import Action, Recovery, action_for
 from controller.device.fpga.registers import Control, Fault, Result, Start, State
 from controller.device.fpga.session import Session
 from controller.device.fpga.wide_session import WideSession
-from controller.device.service.drivers import open_session
+from controller.device.service.drivers import await_session, open_session
 from controller.errors import FaultError, LinkError
 from controller.workshop.gateware.actual_panel import gateware_of
 from controller.workshop.gateware.gateware import Permit
@@ -135,13 +136,7 @@ def test_a_host_that_is_silent_to_one_of_them_shuts_both_and_may_arm_again(panel
     first, second = panel.off_ticks()
     assert second < first <= second + LINE_TICKS + 8 <= second + SHUT_TICKS
     assert silent.may_be_on is False
-    recovery = Recovery(panel.session, BOARD)
-    recovery.begin(said.value, panel.clock.now_s())
-    for _ in range(20):
-        panel.clock._now_s = max(panel.clock.now_s(), recovery.next_s)
-        if recovery.step(panel.clock.now_s()):
-            return
-    pytest.fail(f"not armed again: {recovery.cause}")
+    recovered(panel, said.value)
 
 
 def test_a_trigger_line_that_does_not_reach_one_of_them_is_found_before_anything_is_armed():
@@ -150,6 +145,119 @@ def test_a_trigger_line_that_does_not_reach_one_of_them_is_found_before_anything
     link.panel.gatewares[1].trigger = lambda *_: None
     with pytest.raises(LinkError, match=r"FPGA 1 saw 0 edges of the trigger line and not one"):
         open_session(link, BOARD, clock.now_s)
+
+
+def test_a_fault_of_another_is_the_cause_also_where_the_first_one_was_at_work(panel):
+    panel.session.upload(1, WORDS)
+    at = panel.link.panel.now + 1000
+    panel.link.panel.permit(1, at, level=False, which=Permit.TEMPERATURE)
+    panel.wait(1e-3)
+    with pytest.raises(FaultError) as said:
+        panel.session.play(Play(1), stop=False)
+    assert (said.value.faults, str(said.value)[:7]) == (Fault.NO_PERMIT, "FPGA 0:")
+    cause = panel.session.cause_of(said.value)
+    assert (cause.faults, str(cause)[:7]) == (Fault.OVER_TEMPERATURE, "FPGA 1:")
+    assert not panel.session.on_anywhere
+
+
+def recovered(panel, error):
+    """Recovery until all are on again."""
+    recovery = Recovery(panel.session, BOARD)
+    recovery.begin(error, panel.clock.now_s())
+    for _ in range(20):
+        panel.clock._now_s = max(panel.clock.now_s(), recovery.next_s)
+        if recovery.step(panel.clock.now_s()):
+            return
+    pytest.fail(f"not armed again: {recovery.cause}")
+
+
+def test_one_that_does_not_answer_ends_with_all_off_and_that_it_was(panel):
+    deaf, receive = panel.link.links[1], panel.link.links[1].exchange
+
+    def silent(sent, lengths, received):
+        receive(sent, lengths, received)
+        received[:] = bytes(len(received))
+
+    deaf.exchange = silent
+    with pytest.raises(LinkError, match="^FPGA 1: only zeros came back") as said:
+        panel.session.heartbeat()
+    recovery = Recovery(panel.session, BOARD)
+    recovery.begin(said.value, panel.clock.now_s())
+    heard_s = max(one.exchange.heartbeat_due_s for one in (panel.session, panel.session._others[0]))
+    assert recovery.off_by_s == heard_s + (BOARD.limits.heartbeat_timeout_ms + BOARD.limits.ramp_ms) * 1e-3
+    panel.clock._now_s = recovery.off_by_s
+    panel.off_ticks()
+    del deaf.exchange
+    recovered(panel, said.value)
+
+
+def test_one_that_is_reset_shuts_the_others_by_the_wire_and_all_play_in_step_again():
+    made = []
+
+    def restarting(parameters):
+        made.append(RestartingGateware(GatewareModel, parameters))
+        return made[-1]
+
+    panel = Panel(restarting)
+    wires = panel.link.panel
+    at = wires.now + 1000
+    wires.advance(at)
+    made[1].restart(wires.now - wires.ready_ticks[1], 1000)
+    wires.advance(wires.now + 1)
+    panel.wait(1e-3)
+    with pytest.raises(LinkError, match="^FPGA 1: the FPGA was reset") as said:
+        panel.session.heartbeat()
+    first, second = panel.off_ticks()
+    assert second < first <= second + SHUT_TICKS
+    recovered(panel, said.value)
+    panel.link.take_captures()
+    when = panel.session.heartbeat().timestamp_ticks + HZ // 100
+    panel.session.upload_and_play(Play(1, start=Start.TIME, when_ticks=when), WORDS, stop=False)
+    panel.wait(15e-3)
+    foci = [capture.focus_ticks.tolist() for capture in panel.captures()]
+    assert foci == [[when + BOARD.emission_ticks]] * 2
+
+
+@each_row("emissions", [1, 3])
+def test_what_has_begun_on_one_is_not_refused_since_another_refuses_it(emissions):
+    panel = Panel(GatewareModel)
+    session = panel.session
+    session.upload(1, WORDS)
+    session.ahead_ticks = [session.ahead_ticks[0] - HZ // 1000]  # that of the second one has passed
+    when = session.heartbeat().timestamp_ticks + HZ // 12_500  # 80 us: while the second one is asked
+    play = Play(1, start=Start.TIME, when_ticks=when, emissions=emissions, period_ticks=BOARD.emission_ticks)
+    if emissions == 1:
+        session.play(play, stop=False)
+    else:
+        with pytest.raises(OutOfStep, match=r"a repetition has begun on FPGA 0 .*: FPGA 1: the FPGA refused"):
+            session.play(play, stop=False)
+    assert session.counters.misplaced == 1
+    panel.wait(10e-3)
+    assert [len(capture.focus_ticks) for capture in panel.captures()] == [1, 0]
+
+
+def test_all_are_opened_by_the_first_message_for_which_they_are_there():
+    clock = VirtualClock()
+    opened = []
+
+    def open_fpga(board, now_s):
+        if not opened:
+            raise LinkError("there is no /dev/spidev0.1")
+        opened.append(SimulatedFpgas(board, now_s))
+        return opened[-1]
+
+    link, session = await_session(BOARD, clock.now_s, open_fpga)
+    recovery = Recovery(session, BOARD)
+    assert not recovery.step(clock.now_s())
+    assert recovery.cause.endswith("there is no /dev/spidev0.1")
+    opened.append(None)
+    for _ in range(20):
+        clock._now_s = max(clock.now_s(), recovery.next_s)
+        if recovery.step(clock.now_s()):
+            break
+    session.require_armed()
+    assert len(opened) == 2
+    assert link.bytes_sent == opened[1].bytes_sent > 0
 
 
 def test_what_one_of_them_refuses_none_plays(panel):

@@ -76,7 +76,7 @@ def refused_without_the_others(split, path):
 
 
 def test_commands_for_one_fpga_refuse_a_board_of_several_in_one_line(capsys):
-    for command in (["focus", "--at", "100", "70"], ["doctor"], ["calibrate", "plan"], ["serve", "/nowhere/socket"]):
+    for command in (["focus", "--at", "100", "70"], ["gateware", "load"], ["calibrate", "plan"], ["serve", "/nowhere/socket"]):
         assert main([*command, "--board", "simulated_64"]) == 78, command
         out, err = capsys.readouterr()
         assert not out
