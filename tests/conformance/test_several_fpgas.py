@@ -179,7 +179,7 @@ def test_one_that_does_not_answer_ends_with_all_off_and_that_it_was(panel):
         received[:] = bytes(len(received))
 
     deaf.exchange = silent
-    with pytest.raises(LinkError, match="^FPGA 1: only zeros came back") as said:
+    with pytest.raises(LinkError, match=r"^FPGA 1: only zeros came back") as said:
         panel.session.heartbeat()
     recovery = Recovery(panel.session, BOARD)
     recovery.begin(said.value, panel.clock.now_s())
@@ -205,7 +205,7 @@ def test_one_that_is_reset_shuts_the_others_by_the_wire_and_all_play_in_step_aga
     made[1].restart(wires.now - wires.ready_ticks[1], 1000)
     wires.advance(wires.now + 1)
     panel.wait(1e-3)
-    with pytest.raises(LinkError, match="^FPGA 1: the FPGA was reset") as said:
+    with pytest.raises(LinkError, match=r"^FPGA 1: the FPGA was reset") as said:
         panel.session.heartbeat()
     first, second = panel.off_ticks()
     assert second < first <= second + SHUT_TICKS

@@ -4,6 +4,10 @@ The gateware's model is at both far ends, on the wires of boards/simulated_64: o
 """
 
 import contextlib
+import json
+import re
+import subprocess
+import sys
 import time
 from functools import cache
 from pathlib import Path
@@ -11,13 +15,18 @@ from pathlib import Path
 import gpiod
 import msgspec
 import numpy as np
+from evdev import AbsInfo, UInput
+from evdev import ecodes as e
 from far_end_spi import FarEnd
 from gpio_lines import GpioLines
 from guest_link import BIND, CLOCK, SLOWNESS, TIMEOUT_MS, refusal
+from panel_board import table
 
+from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import LinkedFpga, LinkSettings
 from controller.device.board.lookup import find_board
+from controller.device.board.paths import fpga_files
 from controller.device.doctor.doctor import look
 from controller.device.fpga.exchange import FpgaReset, OutOfStep
 from controller.device.fpga.frames import Play, joined
@@ -26,6 +35,8 @@ from controller.device.loop.context import LoopContext
 from controller.device.loop.outputs import Outputs
 from controller.device.service.drivers import await_session, open_link
 from controller.errors import ControllerError, FaultError, LinkError
+from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.request import BankRequest
 
 NAMES = ["TRIGGER", "PERMIT", "CONFIGURED0", "CONFIGURED1"]
 SIMULATED = load_board(find_board("simulated_64"), several=True)
@@ -258,3 +269,91 @@ def test_the_doctor_looks_at_each_chip_select_and_at_all_lines():
         findings = {finding.about: finding for finding in look(BOARD, CLOCK.now_s)}
     assert findings["SPI device of FPGA 0"].good
     assert "there is no /dev/spidev0.1" in findings["SPI device of FPGA 1"].said
+
+
+SERVED = Path("/run/served")
+SERVED_LINK = """kind = "spi"
+clock_hz = 10_000_000
+sck_hz = 2_500_000
+slots = 4
+gpio_chip = "pair"
+trigger_line = "TRIGGER"
+permit_line = "PERMIT"
+
+[[link.fpga]]
+device = "/dev/spidev0.0"
+configured_line = "CONFIGURED0"
+
+[[link.fpga]]
+device = "/dev/spidev0.1"
+configured_line = "CONFIGURED1"
+
+[realtime]
+priority = 0
+lock_memory = false
+"""
+TOUCH = (
+    f'kind = "linux_input"\ndevice = "{NAMES[0]} panel"\nx_mm_from_axes = [210.0, 0.0, 0.0]\ny_mm_from_axes = [0.0, 148.0, 0.0]\n'
+)
+CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
+
+
+def served_board():
+    """The board of SERVED, with a bank of few cells for each FPGA; the place of one of them in m, and its entry of each."""
+    SERVED.mkdir()
+    text = re.sub(r"\n\[\[link\.fpga\]\].*\n", "\n", (SIMULATED.folder / "board.toml").read_text())
+    text = table(table(text, "touch", TOUCH), "link", SERVED_LINK)
+    text = text.replace("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 250.0").replace("../simulated/scene", "scene")
+    (SERVED / "board.toml").write_text(text)
+    (SERVED / "scene.toml").write_text(CLICK)
+    board, bank = load_board(SERVED, several=True), SERVED / "served.bank"
+    for one, path in zip(board.fpga_boards, fpga_files(bank, 2), strict=True):
+        build_bank(BankRequest(one, path, 70e-3))
+    with Bank.open(bank, board) as opened:
+        entries = [bytes(of.drive.words(1)) for of in (opened, *opened.others)]
+        return board, opened.grid.place(1), entries
+
+
+def test_run_plays_what_a_finger_feels_on_both_and_ends_with_all_off():
+    board, (x_m, y_m), entries = served_board()
+    finger = UInput(
+        {e.EV_KEY: [e.BTN_TOUCH], e.EV_ABS: [(axis, AbsInfo(0, 0, 10_000, 0, 0, 0)) for axis in (e.ABS_X, e.ABS_Y)]},
+        name=f"{NAMES[0]} panel",
+        input_props=[e.INPUT_PROP_DIRECT],
+    )
+    far_end = FarEnd(board, NAMES)
+    command = [
+        sys.executable,
+        "-m",
+        "controller.cli",
+        "run",
+        "--board",
+        str(SERVED),
+        "--bank",
+        str(SERVED / "served.bank"),
+        "--json",
+    ]
+    service = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        while [far_end.pins(number)["hv"] for number in range(2)] != [1, 1]:
+            assert service.poll() is None, service.communicate()
+        felt = [False, False]
+        while not all(felt):
+            assert service.poll() is None, service.communicate()
+            for down in (1, 0):
+                finger.write(e.EV_ABS, e.ABS_X, round(x_m / 0.21 * 10_000))
+                finger.write(e.EV_ABS, e.ABS_Y, round(y_m / 0.148 * 10_000))
+                finger.write(e.EV_KEY, e.BTN_TOUCH, down)
+                finger.syn()
+                time.sleep(0.1)
+            felt = [
+                seen or entry in far_end.emissions(number) for number, (seen, entry) in enumerate(zip(felt, entries, strict=True))
+            ]
+    finally:
+        service.terminate()
+        out, err = service.communicate()
+    assert service.returncode == 0, err
+    assert json.loads(out)["emissions"] >= 1
+    assert [far_end.pins(number)["hv"] for number in range(2)] == [0, 0]
+    assert lines().value("PERMIT") == 0
+    far_end.close()
