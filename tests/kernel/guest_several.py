@@ -323,7 +323,7 @@ def test_run_plays_what_a_finger_feels_on_both_and_ends_with_all_off():
     )
     far_end = FarEnd(board, NAMES)
     command = ["run", "--board", str(SERVED), "--bank", str(SERVED / "served.bank"), "--json"]
-    interpreter = [sys.executable, "-m", "controller.cli"]
+    interpreter = [sys.executable, "-m", "controller"]
     service = subprocess.Popen([*interpreter, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         while [far_end.pins(number)["hv"] for number in range(2)] != [1, 1]:

@@ -349,6 +349,13 @@ def test_a_pitch_that_is_chosen_for_the_scene_is_not_looked_at():
     assert judge(auto) == ((), ())
 
 
+def test_an_fpga_hears_nothing_while_the_others_get_their_uploads():
+    slow = {"link__fpga": (*TWO, LinkedFpga(device="/dev/spidev1.0")), "limits__heartbeat_timeout_ms": 100.0}
+    assert not list(NAMED["_heartbeat"].broken(changed(BOARD, **slow, link__sck_hz=1_320_000)))
+    (said,) = NAMED["_heartbeat"].broken(changed(BOARD, **slow, link__sck_hz=1_300_000))
+    assert "is less than twice the 50.4 ms that the uploads to the other FPGAs take at link.sck_hz = 1300000" in said
+
+
 def test_a_serial_link_has_the_times_of_its_baud_rate():
     serial = {"link__kind": "serial", "link__device": "/dev/ttyUSB0", "limits__heartbeat_timeout_ms": 250.0}
     assert not list(NAMED["_heartbeat"].broken(changed(BOARD, **serial, link__baud=41_000)))

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from controller.device.board.board import Board
 
 MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_BYTES
+FRAME_SAMPLES = 125  # of an upload, in one frame
 MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
 BIT_CLOCK_HZ = (100_000, 2_000_000)  # registers.BIT_CLOCK_HZ_MIN and _MAX
 GLASS_PER_K = 1e-3  # the frequencies of glass change by 1e-5 to 3e-4 a kelvin
@@ -109,14 +110,14 @@ def _coefficient(board: Board) -> Iterator[str]:
 
 @refuses("`limits.heartbeat_timeout_ms`, `link.sck_hz` or `baud`")
 def _heartbeat(board: Board) -> Iterator[str]:
-    """It is twice as long as a frame on the wire."""
+    """It is twice as long as a frame on the wire; of several FPGAs, as the uploads to the others."""
     link, timeout_ms = board.link, board.limits.heartbeat_timeout_ms
-    frame_ms = link.wire_s(MAX_FRAME_BYTES) * 1e3
-    if frame_ms > timeout_ms / 2:
+    to_others = (len(link.fpga) - 1) * -(-board.waveform.samples // FRAME_SAMPLES) if link.fpga else 0
+    quiet_ms = link.wire_s(max(to_others, 1) * MAX_FRAME_BYTES) * 1e3
+    if quiet_ms > timeout_ms / 2:
         at = f"link.baud = {link.baud}" if link.kind == "serial" else f"link.sck_hz = {link.sck_hz}"
-        yield (
-            f"limits.heartbeat_timeout_ms = {timeout_ms:g} is less than twice the {frame_ms:.3g} ms that one frame takes at {at}"
-        )
+        taken = "the uploads to the other FPGAs take" if to_others else "one frame takes"
+        yield f"limits.heartbeat_timeout_ms = {timeout_ms:g} is less than twice the {quiet_ms:.3g} ms that {taken} at {at}"
 
 
 @warns("`limits.heartbeat_timeout_ms`")
