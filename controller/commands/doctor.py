@@ -18,7 +18,7 @@ from controller.device.doctor.finding import Finding
 from controller.device.doctor.link_examination import LinkExamined, examine_link
 from controller.device.doctor.several_fpgas import examine_links
 from controller.device.doctor.way import WayStep, in_lines, way
-from controller.device.service.drivers import open_session, open_wide_session
+from controller.device.service.drivers import open_session
 from controller.device.service.installation import is_installed
 from controller.errors import ControllerError
 
@@ -80,8 +80,7 @@ def _link(options: argparse.Namespace, board: Board, clock: Clock) -> LinkExamin
     with closing(links):
         return examine_links(
             board,
-            links.links,
-            partial(open_wide_session, links, board, clock.now_s),
+            links,
             lambda link, one: open_session(link, one, clock.now_s),
             clock,
             options.bits,

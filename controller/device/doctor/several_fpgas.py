@@ -16,6 +16,7 @@ from controller.device.doctor.finding import Finding
 from controller.device.doctor.link_examination import LinkExamined, examine_link
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.links.link import Link
+from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.session import Session
 from controller.device.fpga.wide_session import WideSession
 from controller.errors import ControllerError
@@ -23,14 +24,11 @@ from controller.errors import ControllerError
 APART_S = 0.2  # between two pulses of the trigger: crystals that differ by 50 ppm are 10 us apart by then
 APART_TICKS = 2  # by which PLLs on one oscillator may differ
 
-OpenSession = Callable[[Link, Board], Session]
-
 
 def examine_links(
     board: Board,
-    links: Sequence[Link],  # of each FPGA, open
-    open_wide: Callable[[], WideSession],  # brings up all
-    open_one: OpenSession,  # brings up one of them
+    links: LinkGroup,  # open
+    open_session: Callable[[Link, Board], Session],  # brings up all of them, or one
     clock: Clock,
     bits: float,
     chirps: Chirps,  # of the channels of all
@@ -41,14 +39,14 @@ def examine_links(
 
     Nothing chirps unless all have been brought up: a fault of one takes the permit from all.
     """
-    shared = _shared(open_wide, clock)
+    shared = _shared(partial(open_session, links, board), clock)
     findings = [shared]
     figures: list[dict[str, Any]] = []
-    for number, (one, link) in enumerate(zip(board.fpga_boards, links, strict=True)):
+    for number, (one, link) in enumerate(zip(board.fpga_boards, links.links, strict=True)):
         examined = examine_link(
             one,
             link,
-            partial(open_one, link, one),
+            partial(open_session, link, one),
             clock,
             bits,
             chirps_of(number, chirps) if shared.good else Chirps([]),
@@ -67,11 +65,12 @@ def chirps_of(number: int, chirps: Chirps) -> Chirps:
     return Chirps(own, chirps.pause_s, lambda channel: chirps.announce(channel + first))
 
 
-def _shared(open_wide: Callable[[], WideSession], clock: Clock) -> Finding:
+def _shared(open_session: Callable[[], Session], clock: Clock) -> Finding:
     """Whether all see the trigger, and count the ticks of one clock."""
     about = "trigger and clock"
     try:
-        session = open_wide()
+        session = open_session()
+        assert isinstance(session, WideSession)
         before = session.ahead_ticks
         with selectors.DefaultSelector() as selector:
             until_s = clock.now_s() + APART_S

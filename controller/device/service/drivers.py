@@ -85,13 +85,8 @@ def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Sessio
     Raises LinkError if it does not answer, or runs another gateware.
     """
     if isinstance(link, LinkGroup):
-        return open_wide_session(link, board, now_s)
+        return WideSession(link, board, gateware_hash(), now_s)
     return Session(link, board, gateware_hash(), now_s)
-
-
-def open_wide_session(links: LinkGroup, board: Board, now_s: Callable[[], float]) -> WideSession:
-    """As `open_session`, of several FPGAs."""
-    return WideSession(links, board, gateware_hash(), now_s)
 
 
 def open_panel(board: Board) -> EventReader:

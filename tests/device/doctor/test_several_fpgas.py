@@ -1,7 +1,5 @@
 """`doctor --link` and `gateware check` of several FPGAs: what they share is looked at first, then each by itself."""
 
-from functools import partial
-
 import msgspec
 from tables import each_row
 
@@ -11,7 +9,7 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.doctor.bring_up import Chirps
 from controller.device.doctor.several_fpgas import examine_links
-from controller.device.service.drivers import open_session, open_wide_session
+from controller.device.service.drivers import open_session
 from controller.workshop.gateware.wired_fpgas import SimulatedFpgas
 
 WHOLE = load_board(find_board("simulated_64"), several=True)
@@ -32,8 +30,7 @@ class Examined:
         self.chirped = []
         done = examine_links(
             BOARD,
-            links.links,
-            partial(open_wide_session, links, BOARD, clock.now_s),
+            links,
             lambda link, one: open_session(link, one, clock.now_s),
             clock,
             1e3,
