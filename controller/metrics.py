@@ -165,7 +165,7 @@ class LinkCounters:
     plays_stale: int = 0  # plays found waiting after they should have begun: removed
     plays_missed: int = 0  # emissions at a time that the FPGA let pass
     emissions_unexpected: int = 0  # emissions that nobody here started
-    misplaced: int = 0  # emissions that played what the slot had held before, since an upload was damaged
+    misplaced: int = 0  # emissions that played what the slot had held before, or on some FPGAs and not on all
     emissions_lost: int = 0  # emissions counted as played that never began, of all causes
 
 
