@@ -22,9 +22,13 @@ def open_fpga_of(board: Board) -> OpenLink:
     """What opens the link to the FPGA of `board`."""
     if board.link.kind != "simulated":
         return open_link
-    from controller.workshop.gateware.wired_fpgas import open_simulated_panel
+    if board.link.fpga:
+        from controller.workshop.gateware.wired_fpgas import open_simulated_panel
 
-    return open_simulated_panel
+        return open_simulated_panel
+    from controller.workshop.gateware.simulated_link import open_simulated
+
+    return open_simulated
 
 
 def touch_panel_of(board: Board) -> Callable[[Board], EventReader]:
