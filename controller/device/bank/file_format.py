@@ -23,11 +23,11 @@ from controller.device.kernel.crc import intact, sealed
 from controller.errors import BankError
 
 MAGIC = b"HPNLBANK"
-VERSION = 4
-COMPACT_VERSION = 6  # of compact banks
+VERSION = 7
+COMPACT_VERSION = 8  # of compact banks
 PAGE = 4096
 LINE = 64  # responses start on a cache line
-REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean
+REST_SAMPLES = 2  # of which the rest of a response, outside the band, is kept as the mean
 LEAST_WAVE_SCALE = 1e-3  # 10 um
 LARGEST_UM = 1e4
 SAMPLES_MAX = 1000  # what LOAD frames can carry
@@ -123,6 +123,12 @@ class Header:
         """What gives back to a response between cells what interpolation takes from it (`kernel.bank_twin`); 0, if not given."""
         reported: object = self.parameters.get("equaliser")
         return float(reported) if isinstance(reported, int | float) and 0 <= reported <= LARGEST_EQUALISER else 0.0
+
+    @property
+    def band_lost(self) -> float:
+        """What interpolation takes from a response in spite of the equaliser (`kernel.bank_twin`); 0, if not given."""
+        reported: object = self.parameters.get("band_lost")
+        return float(reported) if isinstance(reported, int | float) and 0 <= reported <= 1 else 0.0
 
     @property
     def amplitude_um(self) -> tuple[float, float, float] | None:

@@ -66,7 +66,7 @@ class Solution:
         for lowering in range(MAX_LOWERINGS + 1):
             bits, threshold = self._weigh(weights, again=True)
             if not measured:
-                measured, _ = self._points.measured(bits, self._divisors)
+                measured = self._points.measured(bits, self._divisors)
             near = self._points.near(self._sum, self._strength, threshold)
             most = self._flip(bits, near, wanted, measured)
             if most <= TOO_MUCH or lowering == MAX_LOWERINGS:
@@ -82,7 +82,7 @@ class Solution:
         gain, least = 0.0, math.inf
         for turn in range(MAX_ROUNDS):
             bits, _ = self._weigh(weights, again=turn > 0)
-            measured, _ = self._points.measured(bits, self._divisors)
+            measured = self._points.measured(bits, self._divisors)
             errors = [(want - got) / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True)]
             squares = product(errors, errors)
             if not turn or squares < least:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from controller.device.kernel import compact_twin
 from controller.device.kernel.compact_twin import CompactTables
-from controller.device.kernel.polarity_twin import SKETCH_STEP
 
 Numbers = NDArray[Any]
 
@@ -23,7 +22,7 @@ Cells = list[tuple[int, int]]  # number and weight of each
 
 
 class PlaceCells(NamedTuple):
-    """What serves a place: responses, and cells of a compact bank's rest, with their weights."""
+    """What serves a place: responses, and for the rest outside the band the same or cells of a compact bank, with their weights."""
 
     responses: Cells
     rest: Cells
@@ -31,20 +30,23 @@ class PlaceCells(NamedTuple):
 
 
 CHANNELS: Final = 32
-REST_SAMPLES: Final = 4  # samples to a row of the rest outside the band
+REST_SAMPLES: Final = 2  # samples to a row of the rest outside the band
 GROUP_SAMPLES: Final = 8  # of which blocks consist
 MAX_FOCI: Final = 10
 MAX_SAMPLES: Final = 2000  # so that sums of absolute values stay below 2^31
 MAX_BLOCK_SAMPLES: Final = 256
+SKETCHED_PER_BLOCK: Final = 16  # samples of a response that are in its sketch: every third of the shipped boards'
 STEPS_PER_BLOCK: Final = 12  # steps of 8 us: between the taps of an equaliser, and between times near T
 LARGEST_EQUALISER: Final = 0.5  # so that an equalised response is within 16 bits
 TAP_BITS: Final = 15  # behind the point of a product with a tap
 LARGEST: Final = (1 << 31) - 1
+WITHIN: Final = (-(1 << 15), (1 << 15) - 1)  # 16 bits
 WEIGHT_SUM: Final = 256  # of the cells around a point: four roundings may add 2, and 258 * 127 is still within 16 bits
 
 # What a composition needs to know of bank and board: samples, bytes from one response to the next, cells along x and y,
-# responses, idle word, samples of a block; pitch, x and y of cell 0 in m; and the equaliser (`Responses.equalised`).
-PLAN: Final = struct.Struct("<7q4d")
+# responses, idle word, samples of a block; pitch, x and y of cell 0 in m; the equaliser (`Responses.equalised`), and what it leaves
+# lost of the band half-way between cells, over x (1 - x) + y (1 - y): the rest outside the band is taken for as much less.
+PLAN: Final = struct.Struct("<7q5d")
 ENTRY: Final = struct.Struct("=i")
 SCALE: Final = struct.Struct("=f")
 
@@ -56,7 +58,7 @@ class BankBuffers(NamedTuple):
     entries: Readable  # for each cell the number of its response; below 0 for none
     scales: Readable  # m per V of one level of each response
     good: Readable  # for each response whether it may be used; zero if not yet
-    response: Readable  # the responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each
+    response: Readable  # the responses: levels of 8 bits, then those of the rest outside the band, a mean over 2 samples each
     tables: Readable = b""  # of a compact bank, whose responses are weights (`compact_twin`): what all of them have in common
 
 
@@ -67,9 +69,9 @@ def room_bytes(samples: int) -> int:
     """
     if not 1 <= samples <= MAX_SAMPLES:
         raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
-    # 32 bits for each value of the points' responses, of their sum, and five more in what follows
-    # and 64 bits for each of their sketches, of the sum of these and two more
-    of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP)
+    # 32 bits for each value of the points' responses, alone and with all that bits do, of their sum, and five more in what follows;
+    # and at most as much for their sketches, the sum of these and two more
+    of_sketches = (MAX_FOCI + 2) * (samples + GROUP_SAMPLES)
     of_nulls = 27 * (samples + rest_rows(samples) + MAX_BLOCK_SAMPLES)  # 16 bits for each value of five sums at four pads, and more
     of_points = (MAX_FOCI + 2) * (samples + rest_rows(samples)) + 5 * (samples + MAX_BLOCK_SAMPLES)
     return 4 * CHANNELS * (of_points + of_sketches) + 2 * CHANNELS * of_nulls
@@ -99,7 +101,7 @@ class Responses:
         plan, entries, scales, good, response, tables = bank
         if memoryview(plan).nbytes != PLAN.size:
             raise ValueError(f"a plan has {PLAN.size} bytes, not {memoryview(plan).nbytes}")
-        samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m, equaliser = PLAN.unpack(plan)
+        samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m, equaliser, band_lost = PLAN.unpack(plan)
         if not 1 <= samples <= MAX_SAMPLES:
             raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
         if not GROUP_SAMPLES <= block <= MAX_BLOCK_SAMPLES or block % GROUP_SAMPLES:
@@ -119,6 +121,7 @@ class Responses:
             and math.isfinite(x0_m)
             and math.isfinite(y0_m)
             and 0 <= equaliser <= LARGEST_EQUALISER
+            and 0 <= band_lost <= 1
         ):
             raise ValueError("a number of the plan is beyond its range")
         self.entries, self.scales = memoryview(entries).cast("B"), memoryview(scales).cast("B")
@@ -127,8 +130,9 @@ class Responses:
             raise ValueError("the tables are too short for the plan")
         self.samples, self.block_samples, self.idle_word, self.count = samples, block, idle_word, count
         self.stride, self.values, self.nx, self.ny = stride, values, nx, ny
-        self.pitch_m, self.x0_m, self.y0_m, self._equaliser = pitch_m, x0_m, y0_m, equaliser
-        self.step = max(block // STEPS_PER_BLOCK, 1)
+        self.pitch_m, self.x0_m, self.y0_m = pitch_m, x0_m, y0_m
+        self._equaliser, self._band_lost = equaliser, band_lost
+        self.step, self.sketch_step = max(block // STEPS_PER_BLOCK, 1), max(block // SKETCHED_PER_BLOCK, 1)
 
     def patch(self, x_m: float, y_m: float) -> tuple[PlaceCells, int]:
         """Responses around a point that have a weight, with their weights; and -1, or the first cell without one."""
@@ -153,9 +157,12 @@ class Responses:
             shares.append(share * scale)
             total += share * scale
         if len(cells) == 1:
-            return PlaceCells([(numbers[0], WEIGHT_SUM)], []), -1
-        tap = round(self._equaliser * (right * (1 - right) + up * (1 - up)) * (1 << TAP_BITS - 1))
-        return PlaceCells(_whole(numbers, shares, WEIGHT_SUM / total if total > 0 else 0.0), [], tap), -1
+            alone = [(numbers[0], WEIGHT_SUM)]
+            return PlaceCells(alone, alone), -1
+        between, unit = right * (1 - right) + up * (1 - up), WEIGHT_SUM / total if total > 0 else 0.0
+        tap = round(self._equaliser * between * (1 << TAP_BITS - 1))
+        rest = _whole(numbers, shares, unit * (1 - self._band_lost * between))
+        return PlaceCells(_whole(numbers, shares, unit), rest, tap), -1
 
     def _entry(self, cell: int) -> tuple[int, float]:
         """Number and scale of the response of a cell; below 0 if it has none, or one that may not be used."""
@@ -198,9 +205,11 @@ class Responses:
         if self.tables:
             return self._from_weights(self.tables, patch, turned)
         levels, short = np.frombuffer(self.response, np.int8), np.zeros(self.values, np.int16)
-        for entry, share in patch.responses:
-            start = entry * self.stride
-            short += np.multiply(levels[start : start + self.values], share, dtype=np.int16)
+        first = self.samples * CHANNELS  # of the rest
+        for (entry, share), (_, share_of_rest) in zip(patch.responses, patch.rest, strict=True):
+            of_cell = levels[entry * self.stride :]
+            short[:first] += np.multiply(of_cell[:first], share, dtype=np.int16)
+            short[first:] += np.multiply(of_cell[first : self.values], share_of_rest, dtype=np.int16)
         found: Numbers = short.reshape(-1, CHANNELS) * (1 - 2 * turned)
         return found
 
@@ -211,6 +220,12 @@ class Responses:
         halved: Numbers = met >> 1
         halved[: self.samples] -= (beside[: self.samples] + beside[2 * self.step :]).astype(np.int16)
         return halved
+
+    def whole(self, equalised: Numbers) -> Numbers:
+        """Of responses (place, row, 32) all that bits do, within 16 bits: in the band, and the rest of the same samples."""
+        beside = np.repeat(equalised[:, self.samples :], REST_SAMPLES, axis=1)[:, : self.samples]
+        together: Numbers = np.clip(equalised[:, : self.samples] + beside, *WITHIN)
+        return together
 
     def _from_weights(self, tables: CompactTables, patch: PlaceCells, turned: Numbers) -> Numbers:
         levels = np.frombuffer(self.response, np.uint8)

@@ -39,7 +39,7 @@
 
 enum {
     CHANNELS = 32,
-    REST_SAMPLES = 4,
+    REST_SAMPLES = 2,
     GROUP_SAMPLES = 8,
     MAX_FOCI = 10,
     MAX_SAMPLES = 2000,
@@ -47,16 +47,16 @@ enum {
     WEIGHT_SUM = 256,
     POINT_WEIGHT_SUM = 32767,
     STRENGTH_SHIFT = 8,
-    SKETCH_STEP = 4,
+    SKETCHED_PER_BLOCK = 16,
     SKETCH_SHIFT = 4,
     PRODUCT_BITS = 30,
     THRESHOLD_BITS = 24,
     NEAR_LEVEL_SHIFT = 3,
+    FEW_POINTS = 4,
     MAX_ROUNDS = 3,
     MAX_LOWERINGS = 3,
     FLIP_SWEEPS = 2,
     ROW = GROUP_SAMPLES * CHANNELS, /* values that are worked on at a time */
-    RESTS = GROUP_SAMPLES / REST_SAMPLES * CHANNELS, /* and their rest outside the band */
     LINE_BYTES = 64,
     STEPS_PER_BLOCK = 12,
 };
@@ -70,7 +70,7 @@ enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
 
 struct plan {
     int64_t samples, stride, nx, ny, entries, idle_word, block_samples;
-    double pitch_m, x0_m, y0_m, equaliser;
+    double pitch_m, x0_m, y0_m, equaliser, band_lost;
 };
 
 /* ---- words: numbers of compact_twin.py ---- */
@@ -112,7 +112,8 @@ struct bank {
     const uint8_t *entries, *scales, *good, *response;
 };
 
-/* Cells around a point. Of a compact bank, they are `across` to a row, and their shares in place of weights. */
+/* Cells around a point; of the rest outside the band only the weights are others. Of a compact bank, they are `across` to a row, the
+   rest has its own, and they have shares in place of weights. */
 struct patch {
     const uint8_t *levels[MAX_CELLS], *rest[MAX_CELLS];
     int16_t weight[MAX_CELLS], rest_weight[MAX_CELLS];
@@ -125,13 +126,13 @@ struct patch {
 struct work {
     int count;
     int64_t values, rests, rows, block_rows, blocks; /* values of a response in the band, outside it; rows of eight samples, in a block too; blocks */
-    int64_t step; /* samples between the taps of an equaliser */
+    int64_t step, sketch_step; /* samples between the taps of an equaliser, and those of a sketch */
     uint32_t idle_word;
-    int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
+    int16_t *response[MAX_FOCI], *whole[MAX_FOCI]; /* in the band, with room for a whole last row; all that bits do */
     int32_t *strength, *threshold, *near_low, *near_high; /* of each block and channel; between the last two, sums are near their threshold */
     int16_t *threshold_of_one;
     uint32_t *near; /* of each sample: channels whose sums are near their threshold */
-    int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response */
+    int16_t *sketch[MAX_FOCI]; /* some samples of a response */
     int64_t sketch_rows; /* of eight samples */
     uint32_t *words;
     double divisor[MAX_FOCI], balance[MAX_FOCI], measured[MAX_FOCI], in_band[MAX_FOCI], wanted[MAX_FOCI];
@@ -207,13 +208,18 @@ INLINE void sign_of(struct work *work, const struct patch *patch, int cells) {
 INLINE uints add_absolute(uints sum, ushorts value) {
     ushorts sign = (ushorts)((shorts)value >> 15);
     uints two = (uints)negated(value, sign);
+#ifdef __SSE2__
+    return sum + (uints)_mm_madd_epi16((__m128i)two, _mm_set1_epi16(1)); /* an equalised value is above -2^15 */
+#else
     return sum + (two >> 16) + (two & 0xffff);
+#endif
 }
 
 /* Values of a response of a point, negated in channels that idle high. */
 INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int64_t from, int64_t values, int16_t *out) {
     ushorts weight[4], even, odd, turn_even[2], turn_odd[2];
-    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
+    const int16_t *weights = from ? patch->rest_weight : patch->weight;
+    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)weights[cell];
     for (int half = 0; half < 2; half++) turned(idle_word, 16 * half, turn_even + half, turn_odd + half);
     for (int64_t at = 0; at < values; at += CHANNELS)
         for (int half = 0; half < 2; half++) {
@@ -463,16 +469,46 @@ APART int64_t equalise(const int16_t *restrict met, int64_t apart, int16_t tap, 
     return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
 }
 
-/* Response of a point and its rest, equalised, with some room for it; returns the sum of absolute values in the band. */
-static int64_t respond(const struct work *work, const struct patch *patch, int16_t *response, int16_t *rest, int16_t *room) {
+/* Response of a point, equalised, with some room for it; returns the sum of absolute values in the band. */
+static int64_t respond(const struct work *work, const struct patch *patch, int16_t *response, int16_t *room) {
     int64_t apart = work->step * CHANNELS;
     int16_t *met = room + apart;
     memset(room, 0, (size_t)apart * sizeof *room);
     interpolate(work->idle_word, patch, 0, work->values, met);
     memset(met + work->values, 0, (size_t)apart * sizeof *room);
-    interpolate(work->idle_word, patch, work->values, work->rests, rest);
-    for (int64_t i = 0; i < work->rests; i++) rest[i] >>= 1;
     return equalise(met, apart, patch->tap, work->values, response);
+}
+
+INLINE ushorts add_saturated(ushorts a, ushorts b) {
+#ifdef __SSE2__
+    return (ushorts)_mm_adds_epi16((__m128i)a, (__m128i)b);
+#elif defined __ARM_NEON
+    return (ushorts)vqaddq_s16((int16x8_t)a, (int16x8_t)b);
+#else
+    shorts sum;
+    for (int lane = 0; lane < 8; lane++) {
+        int32_t both = (int16_t)a[lane] + (int16_t)b[lane];
+        sum[lane] = (int16_t)(both > INT16_MAX ? INT16_MAX : both < INT16_MIN ? INT16_MIN : both);
+    }
+    return (ushorts)sum;
+#endif
+}
+
+/* A response and what is outside the band, together within 16 bits, less some bits: in its place or in another. */
+APART void add_rests(const int16_t *response, const int16_t *rest, int64_t values, int shift, int16_t *whole) {
+    enum { BOTH = REST_SAMPLES * CHANNELS };
+    for (int64_t at = 0; at < values; at += BOTH, rest += CHANNELS)
+        for (int i = 0; i < CHANNELS; i += 8) {
+            ushorts halved = (ushorts)((shorts)load(rest + i) >> 1);
+            for (int64_t to = at + i; to < at + BOTH; to += CHANNELS)
+                store(whole + to, (ushorts)((shorts)add_saturated(load(response + to), halved) >> shift));
+        }
+}
+
+/* All that bits do at a point, from its response in the band, with some room for the rest. */
+static void add_outside(const struct work *work, const struct patch *patch, const int16_t *response, int16_t *room, int shift, int16_t *whole) {
+    interpolate(work->idle_word, patch, work->values, work->rests, room);
+    add_rests(response, room, work->values, shift, whole);
 }
 
 APART void compose_one(struct work *work, const struct patch *patch) {
@@ -498,8 +534,8 @@ APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16
 #endif
 
 #ifdef __SSE2__
-/* Sums of eight samples: responses in pairs, of which one instruction makes products and their sum. */
-INLINE void add_pairs(int pairs, int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+/* Sums of eight samples, or where they are positive: responses in pairs, of which one instruction makes products and their sum. */
+INLINE void add_pairs(int pairs, int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum, int16_t *above) {
     const int16_t *one[(MAX_FOCI + 1) / 2], *other[(MAX_FOCI + 1) / 2];
     __m128i weights[(MAX_FOCI + 1) / 2];
     for (int pair = 0; pair < pairs; pair++) {
@@ -515,19 +551,27 @@ INLINE void add_pairs(int pairs, int count, int16_t *const *response, const int1
             low = _mm_add_epi32(low, _mm_madd_epi16(_mm_unpacklo_epi16(a, b), weights[pair]));
             high = _mm_add_epi32(high, _mm_madd_epi16(_mm_unpackhi_epi16(a, b), weights[pair]));
         }
+        if (above) {
+            store(above + i, positive((ushorts)_mm_packs_epi32(low, high)));
+            continue;
+        }
         store(sum + i, (ushorts)low);
         store(sum + i + 4, (ushorts)high);
     }
 }
 
-APART void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+INLINE void add_some(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum, int16_t *above) {
     switch ((count + 1) / 2) {
-    case 1: add_pairs(1, count, response, weight, at, sum); break;
-    case 2: add_pairs(2, count, response, weight, at, sum); break;
-    case 3: add_pairs(3, count, response, weight, at, sum); break;
-    case 4: add_pairs(4, count, response, weight, at, sum); break;
-    default: add_pairs(5, count, response, weight, at, sum);
+    case 1: add_pairs(1, count, response, weight, at, sum, above); break;
+    case 2: add_pairs(2, count, response, weight, at, sum, above); break;
+    case 3: add_pairs(3, count, response, weight, at, sum, above); break;
+    case 4: add_pairs(4, count, response, weight, at, sum, above); break;
+    default: add_pairs(5, count, response, weight, at, sum, above);
     }
+}
+
+APART void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+    add_some(count, response, weight, at, sum, NULL);
 }
 #else
 static void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
@@ -554,16 +598,31 @@ APART void compare_nothing(int16_t *restrict above, const int32_t *restrict sum)
     for (int i = 0; i < ROW; i++) above[i] = (int16_t)-(sum[i] > 0);
 }
 
+/* Where sums of eight samples are positive. */
+APART void add_and_compare(int count, int16_t *const *response, const int16_t *weight, int64_t at, int16_t *above) {
+#ifdef __SSE2__
+    add_some(count, response, weight, at, NULL, above);
+#else
+    int32_t sum[ROW];
+    add_up(count, response, weight, at, sum);
+    compare_nothing(above, sum);
+#endif
+}
+
+/* Of values that are a multiple of the channels. */
 APART int32_t inner_product(const int16_t *restrict a, const int16_t *restrict b, int values) {
+#ifdef __SSE2__
+    __m128i sums[4] = {_mm_setzero_si128(), _mm_setzero_si128(), _mm_setzero_si128(), _mm_setzero_si128()};
+    for (int i = 0; i < values; i += CHANNELS)
+        for (int k = 0; k < 4; k++)
+            sums[k] = _mm_add_epi32(sums[k], _mm_madd_epi16((__m128i)load(a + i + 8 * k), (__m128i)load(b + i + 8 * k)));
+    uints four = (uints)_mm_add_epi32(_mm_add_epi32(sums[0], sums[1]), _mm_add_epi32(sums[2], sums[3]));
+    return (int32_t)(four[0] + four[1] + four[2] + four[3]);
+#else
     int32_t sum = 0;
     for (int i = 0; i < values; i++) sum += a[i] * b[i];
     return sum;
-}
-
-APART void add_samples(int16_t *restrict sum, const int16_t *restrict values, int samples) {
-    for (int i = 0; i < CHANNELS; i++) sum[i] = 0;
-    for (int sample = 0; sample < samples; sample++)
-        for (int i = 0; i < CHANNELS; i++) sum[i] += values[CHANNELS * sample + i];
+#endif
 }
 
 APART void add_strength(int32_t *restrict strength, const int32_t *restrict sum, int samples) {
@@ -630,40 +689,34 @@ static double whole_weights(const struct work *work, const double *weights, int1
     return unit;
 }
 
-enum { WRITE = 1, MEASURE = 2, STRENGTH = 4, NEAR = 8 };
+enum { WRITE = 1, MEASURE = 2, STRENGTH = 4, NEAR = 8, IN_BAND = 16, FULL = 32 }; /* at full amplitude thresholds are zero */
 
 /* Where the weighted sum is above its threshold: the words, what they give at each point, the strength of the sum, what is near. */
 static void pass(struct work *work, const int16_t *weight, int to_do) {
     int32_t sum[ROW];
-    int16_t above[ROW], count[RESTS];
-    int64_t in_band[MAX_FOCI] = {0}, outside[MAX_FOCI] = {0};
+    int16_t above[ROW];
+    int64_t given[MAX_FOCI] = {0}, in_band[MAX_FOCI] = {0};
     for (int64_t row = 0; row < work->rows; row++) {
         int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
         int samples = left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES;
-        if (work->count > 1 || to_do & (STRENGTH | NEAR)) add_up(work->count, work->response, weight, at, sum);
+        if (to_do & (STRENGTH | NEAR) || (work->count > 1 && !(to_do & FULL))) add_up(work->count, work->response, weight, at, sum);
         if (to_do & STRENGTH) add_strength(work->strength + block, sum, samples);
         if (to_do & NEAR) note_near(work, at, samples, sum, block);
         if (!(to_do & (WRITE | MEASURE))) continue;
-        if (work->count > 1)
+        if (work->count > 1 && to_do & FULL)
+            add_and_compare(work->count, work->response, weight, at, above);
+        else if (work->count > 1)
             compare(above, sum, work->threshold + block);
         else
             compare_one(above, work->response[0] + at, work->threshold_of_one + block);
         if (to_do & WRITE) write_words(work, at, samples, above);
-        if (!(to_do & MEASURE)) continue;
-        for (int part = 0; part < GROUP_SAMPLES / REST_SAMPLES; part++) {
-            int behind = samples - part * REST_SAMPLES;
-            add_samples(count + part * CHANNELS, above + part * REST_SAMPLES * CHANNELS, behind < REST_SAMPLES ? behind : REST_SAMPLES);
-        }
-        for (int i = 0; i < work->count; i++) {
-            in_band[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
-            outside[i] -= inner_product(work->rest[i] + row * RESTS, count, RESTS);
-        }
+        if (to_do & MEASURE)
+            for (int i = 0; i < work->count; i++) given[i] -= inner_product(work->whole[i] + at, above, samples * CHANNELS);
+        if (to_do & IN_BAND)
+            for (int i = 0; i < work->count; i++) in_band[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
     }
-    if (!(to_do & MEASURE)) return;
-    for (int i = 0; i < work->count; i++) {
-        work->in_band[i] = (double)in_band[i] / work->divisor[i];
-        work->measured[i] = (double)(in_band[i] + outside[i]) / work->divisor[i];
-    }
+    for (int i = 0; to_do & MEASURE && i < work->count; i++) work->measured[i] = (double)given[i] / work->divisor[i];
+    for (int i = 0; to_do & IN_BAND && i < work->count; i++) work->in_band[i] = (double)in_band[i] / work->divisor[i];
 }
 
 /* A threshold in local strengths, as a factor of those. */
@@ -766,7 +819,7 @@ INLINE int flip_one(struct work *work, int64_t sample, int channel, const double
     int lane = (channel & 16) + (channel & 1) * 8 + (channel & 15) / 2, down = (work->words[sample] ^ work->idle_word) >> channel & 1;
     double change[MAX_FOCI], gained = 0, size = 0;
     for (int i = 0; i < work->count; i++) {
-        int value = work->response[i][sample * CHANNELS + lane] + work->rest[i][sample / REST_SAMPLES * CHANNELS + lane];
+        int value = work->whole[i][sample * CHANNELS + lane];
         change[i] = (down ? -value : value) * unit[i];
         gained += missing[i] * change[i];
         size += change[i] * change[i];
@@ -825,7 +878,7 @@ static void take_sketch(struct work *work) {
     int64_t samples = work->values / CHANNELS;
     for (int i = 0; i < work->count; i++) {
         int16_t *to = work->sketch[i], *end = to + work->sketch_rows * ROW;
-        for (int64_t n = 0; n < samples; n += SKETCH_STEP, to += CHANNELS) sketch_line(to, work->response[i] + n * CHANNELS);
+        for (int64_t n = 0; n < samples; n += work->sketch_step, to += CHANNELS) sketch_line(to, work->response[i] + n * CHANNELS);
         memset(to, 0, (size_t)(end - to) * sizeof *to);
     }
 }
@@ -924,14 +977,12 @@ static void correct_balance(struct work *work, const double *share) {
 static void balance_sketch(struct work *work) {
     int count = work->count;
     int16_t whole[MAX_FOCI], above[ROW];
-    int32_t sum[ROW];
     int64_t got[MAX_FOCI] = {0};
     double share[MAX_FOCI];
     for (int i = 0; i < count; i++) work->balance[i] = isfinite(work->divisor[i]);
     whole_weights(work, ONES, whole);
     for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
-        add_up(count, work->sketch, whole, at, sum);
-        compare_nothing(above, sum);
+        add_and_compare(count, work->sketch, whole, at, above);
         for (int i = 0; i < count; i++) got[i] -= inner_product(work->sketch[i] + at, above, ROW);
     }
     for (int i = 0; i < count; i++) share[i] = (double)got[i] / work->divisor[i];
@@ -966,10 +1017,11 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
         return;
     }
     for (int i = 0; i < work->count; i++) {
-        int64_t norm = respond(work, patches + i, work->response[i], work->rest[i], (int16_t *)work->strength);
+        int16_t *room = (int16_t *)work->strength;
+        int64_t norm = respond(work, patches + i, work->response[i], room);
+        add_outside(work, patches + i, work->response[i], room, 0, work->whole[i]);
         work->divisor[i] = norm ? (double)norm : INFINITY;
         memset(work->response[i] + work->values, 0, (size_t)(work->rows * ROW - work->values) * sizeof(int16_t));
-        memset(work->rest[i] + work->rests, 0, (size_t)(work->rows * RESTS - work->rests) * sizeof(int16_t));
     }
     memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
     memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
@@ -989,11 +1041,16 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
         pass(work, weight, MEASURE | STRENGTH);
         set_wanted(work, asked);
     } else {
-        pass(work, weight, MEASURE);
-        set_wanted(work, asked);
+        pass(work, weight, full ? MEASURE | FULL : MEASURE | FULL | IN_BAND);
+        if (!full) set_wanted(work, asked);
+        if (full && work->count > FEW_POINTS) {
+            correct_balance(work, work->measured);
+            whole_weights(work, ONES, weight);
+            pass(work, weight, MEASURE | FULL);
+        }
         correct_balance(work, work->measured);
         unit = whole_weights(work, asked, weight_asked);
-        pass(work, weight_asked, full ? WRITE : STRENGTH);
+        pass(work, weight_asked, full ? WRITE | FULL : STRENGTH);
     }
     if (!full) solve(work, asked, weight_asked, unit);
 }
@@ -1124,10 +1181,13 @@ static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struc
         share[patch->cells] = (upwards ? up : 1 - up) * (to_right ? right : 1 - right) * (double)scale;
         total += share[patch->cells++];
     }
-    double unit = total > 0 ? WEIGHT_SUM / total : 0;
-    for (int i = 0; i < patch->cells; i++) patch->weight[i] = (int16_t)nearest(share[i] * unit);
-    if (patch->cells == 1) patch->weight[0] = WEIGHT_SUM;
-    patch->tap = (int16_t)nearest(plan->equaliser * (right * (1 - right) + up * (1 - up)) * (1 << (TAP_BITS - 1)));
+    double between = right * (1 - right) + up * (1 - up), unit = total > 0 ? WEIGHT_SUM / total : 0, rest_unit = unit * (1 - plan->band_lost * between);
+    for (int i = 0; i < patch->cells; i++) {
+        patch->weight[i] = (int16_t)nearest(share[i] * unit);
+        patch->rest_weight[i] = (int16_t)nearest(share[i] * rest_unit);
+    }
+    if (patch->cells == 1) patch->weight[0] = patch->rest_weight[0] = WEIGHT_SUM;
+    patch->tap = (int16_t)nearest(plan->equaliser * between * (1 << (TAP_BITS - 1)));
     return -1;
 }
 
@@ -1205,7 +1265,7 @@ static int valid(const struct plan *plan, const struct tables *tables) {
         plan->ny <= INT32_MAX && plan->entries >= 0 && plan->entries <= INT32_MAX && values <= plan->stride && plan->stride <= INT32_MAX &&
         (!tables->there || (plan->nx >= tables->in_band.across && plan->ny >= tables->in_band.across)) &&
         plan->pitch_m > 0 && plan->pitch_m < INFINITY && isfinite(plan->x0_m) && isfinite(plan->y0_m) && plan->equaliser >= 0 &&
-        plan->equaliser <= LARGEST_EQUALISER)
+        plan->equaliser <= LARGEST_EQUALISER && plan->band_lost >= 0 && plan->band_lost <= 1)
         return 1;
     PyErr_SetString(PyExc_ValueError, "a number of the plan is beyond its range");
     return 0;
@@ -1238,7 +1298,7 @@ static int read_point(PyObject *points, Py_ssize_t index, double *read) {
 }
 
 static Py_ssize_t room_needed(int64_t samples) {
-    int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES, of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP);
+    int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES, of_sketches = (MAX_FOCI + 2) * (samples + GROUP_SAMPLES);
     int64_t of_nulls = 27 * (samples + rows + MAX_BLOCK_SAMPLES); /* MAX_NULLS times SUMS, PLACES of the last one, one to equalise */
     return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches) + 2 * CHANNELS * of_nulls;
 }
@@ -1256,10 +1316,11 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
     room += -(uintptr_t)room % LINE_BYTES;
     for (int i = 0; i < count; i++) {
         work->response[i] = (int16_t *)room;
-        work->rest[i] = work->response[i] + work->rows * ROW;
-        room += work->rows * (ROW + RESTS) * (int64_t)sizeof(int16_t);
+        work->whole[i] = work->response[i] + work->rows * ROW;
+        room += 2 * work->rows * ROW * (int64_t)sizeof(int16_t);
     }
-    work->sketch_rows = (plan->samples + SKETCH_STEP * GROUP_SAMPLES - 1) / (SKETCH_STEP * GROUP_SAMPLES);
+    work->sketch_step = plan->block_samples < SKETCHED_PER_BLOCK ? 1 : plan->block_samples / SKETCHED_PER_BLOCK;
+    work->sketch_rows = (plan->samples + work->sketch_step * GROUP_SAMPLES - 1) / (work->sketch_step * GROUP_SAMPLES);
     for (int i = 0; i < count; i++, room += work->sketch_rows * ROW * (int64_t)sizeof(int16_t)) work->sketch[i] = (int16_t *)room;
     work->strength = (int32_t *)room;
     work->threshold = work->strength + work->blocks * CHANNELS;
@@ -1403,7 +1464,7 @@ struct still {
 };
 
 struct nulls {
-    int64_t values, rows, rests, block_rows, blocks, step; /* rows of eight samples; values of a rest */
+    int64_t values, rows, block_rows, blocks, step; /* rows of eight samples */
     int32_t *sum, *strength;
     int64_t *weight;
     int16_t *above; /* where bits deviate: -1, else 0 */
@@ -1553,26 +1614,16 @@ APART void sums_of_ring(const int16_t *restrict met, int64_t apart, int16_t *con
     }
 }
 
-/* Responses in the band, and what is beside it for each four samples: together, of 16 bits and then fewer. */
-APART void add_rests(int16_t *restrict met, const int16_t *restrict rest, int64_t values) {
-    for (int64_t at = 0; at < values; at += CHANNELS)
-        for (int i = 0; i < CHANNELS; i++) {
-            int32_t both = met[at + i] + rest[at / CHANNELS / REST_SAMPLES * CHANNELS + i];
-            both = both > INT16_MAX ? INT16_MAX : both;
-            both = both < INT16_MIN ? INT16_MIN : both;
-            met[at + i] = (int16_t)(both >> SUM_SHIFT);
-        }
-}
-
 /* The sums of a pad from the patches of its places; `room` begins with the sums and ends with what is met. Returns where it goes on. */
 static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct work *work, const struct patch *patches, int16_t *room) {
     int64_t padded = nulls->rows * ROW, reach = TIMES * nulls->step * CHANNELS, whole = padded + 2 * reach;
-    int16_t *sums[SUMS], *met = room + SUMS * whole, *rest = met + PLACES * padded;
+    int16_t *sums[SUMS], *met = room + SUMS * whole, *beyond = met + PLACES * padded;
     memset(room, 0, (size_t)(SUMS * whole) * sizeof *room);
     for (int i = 0; i < SUMS; i++) still[i].response = sums[i] = room + i * whole + reach;
     for (int place = 0; place < PLACES; place++) {
-        respond(work, patches + place, met + place * padded, rest, rest + nulls->rests);
-        add_rests(met + place * padded, rest, nulls->values);
+        int16_t *here = met + place * padded;
+        respond(work, patches + place, here, beyond);
+        add_outside(work, patches + place, here, beyond, SUM_SHIFT, here);
     }
     sums_of_ring(met, padded, sums, nulls->values);
     for (int i = 0; i < SUMS; i++) prepare_still(nulls, still + i);
@@ -1581,7 +1632,6 @@ static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct
 
 static void keep_still(struct work *work, const struct patch *patches, const struct patch *places, int count, int64_t step) {
     struct nulls nulls = {.values = work->values, .rows = work->rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
-    nulls.rests = work->rests;
     int64_t padded = nulls.rows * ROW, total = 0;
     int16_t weight[MAX_FOCI];
     double share[MAX_FOCI], shares = 0;
@@ -1593,7 +1643,7 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     int16_t *next = nulls.above + padded;
     take_bits(&nulls, work->words, work->idle_word);
     for (int i = 0; i < work->count; i++) {
-        int64_t norm = respond(work, patches + i, work->response[i], work->rest[i], next);
+        int64_t norm = respond(work, patches + i, work->response[i], next);
         memset(work->response[i] + work->values, 0, (size_t)(padded - work->values) * sizeof(int16_t));
         int64_t given = -(int64_t)inner_product(nulls.above, work->response[i], (int)work->values);
         share[i] = norm ? 1 / (double)norm : 0;

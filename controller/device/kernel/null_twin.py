@@ -30,7 +30,6 @@ from numpy.typing import NDArray
 from controller.device.kernel.bank_twin import (
     CHANNELS,
     MAX_FOCI,
-    REST_SAMPLES,
     STEPS_PER_BLOCK,
     BankBuffers,
     PlaceCells,
@@ -65,7 +64,6 @@ SUMS: Final = (  # of what is met in the ring: orthogonal; eight at most, so tha
 )
 SUMS_OF: Final = (len(SUMS), 1, 1, 1)  # of each of so many pads: more of them would cost the points too much
 SUM_SHIFT: Final = 3  # bits that responses lose before
-WITHIN: Final = (-(1 << 15), (1 << 15) - 1)
 MARGIN_WEIGHT_SUM: Final = 4095  # of the points, and 15 times as much for all corrections: below 2^31 together
 CORRECTION_WEIGHT_SUM: Final = 61440
 LARGEST_WEIGHT: Final = 32767
@@ -134,8 +132,7 @@ class _Nulls:
         self._still, kept = [], SUMS[: SUMS_OF[(len(turned) - points) // len(RING) - 1]]
         for first in range(points, len(turned), len(RING)):
             ring = np.array(turned[first : first + len(RING)], np.int32)
-            beside = np.repeat(ring[:, self._samples :], REST_SAMPLES, axis=1)[:, : self._samples]
-            shorter = np.clip(ring[:, : self._samples] + beside, *WITHIN) >> SUM_SHIFT
+            shorter = bank.whole(ring) >> SUM_SHIFT
             self._still += [np.einsum("p,prc->rc", shares, shorter) for shares in kept]
         self._spent = 0
 

@@ -1,6 +1,7 @@
 """Polarities of several points that are composed together, and their weights at full amplitude; a part of `words_twin`.
 
-Polarities are found from a sketch, every fourth sample of the responses, and so are the first weights.
+Polarities are found from a sketch of the responses, a sample of each 6 us, and so are the first weights. That is often enough for
+waves of up to 83 kHz: polarities of less than 1 % more energy than others are still found.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ Numbers = NDArray[Any]
 Signs = NDArray[np.int8]
 
 POINT_WEIGHT_SUM: Final = 32767  # of the points
-SKETCH_STEP: Final = 4  # of all samples, one of this many is in the sketch from which polarities and weights are found
 SKETCH_SHIFT: Final = 4  # bits that responses lose there, so that 256 products add up to less than 2^31
 PRODUCT_BITS: Final = 30  # of the largest inner product of two responses
 MAX_CORRECTION: Final = 2.0  # of a weight in a round
@@ -24,11 +24,11 @@ RATIO_SLOPE: Final = 30.0  # by which ratio amplitudes may differ, for each corr
 
 
 class Sketch:
-    """Every fourth sample of the points' responses, and their inner products."""
+    """One of each `step` samples of the points' responses, and their inner products."""
 
-    def __init__(self, in_band: Numbers) -> None:
+    def __init__(self, in_band: Numbers, step: int) -> None:
         count = len(in_band)
-        self._rows = (in_band[:, ::SKETCH_STEP] >> SKETCH_SHIFT).reshape(count, -1)
+        self._rows = (in_band[:, ::step] >> SKETCH_SHIFT).reshape(count, -1)
         self._gram: Numbers = np.array([[(one * other).sum() for other in self._rows] for one in self._rows])
 
     def polarised(self, asked: list[float], norms: list[float], polarities: Signs) -> tuple[list[float], list[float]]:

@@ -18,8 +18,9 @@ values, which is what the point would get alone; one of zeros has no part in the
 
 A kick is felt either way, so polarities are free. Those are taken for which the energy of the sum is largest (`s' G s`, G: inner
 products of the responses), so that responses that are opposite add up; of those and their opposites the one with fewer negative
-points. Then weights are balanced: twice, each is divided by what its point gets, first in every fourth sample, then with all that
-bits do, so that all points move by the same share of what each would get alone, next to the largest that all can have.
+points. Then weights are balanced: twice, each is divided by what its point gets, first in a sketch, then with all that bits do, for
+more than four points at full amplitude once again; so that all points move by the same share of what each would get alone, next to
+the largest that all can have.
 How amplitudes below the full one are met: `amplitude_twin`.
 """
 
@@ -34,10 +35,8 @@ from numpy.typing import NDArray
 
 from controller.device.kernel.amplitude_twin import Solution
 from controller.device.kernel.bank_twin import (
-    CHANNELS,
     LARGEST,
     MAX_FOCI,
-    REST_SAMPLES,
     BankBuffers,
     PlaceCells,
     Point,
@@ -55,6 +54,7 @@ THRESHOLD_BITS: Final = 24  # behind the point of a threshold
 # Sums are near a threshold within 1/8 of it and 1/32 of the local strength
 NEAR_LEVEL_SHIFT: Final = 3
 NEAR_STRENGTHS: Final = 1 / 32
+FEW_POINTS: Final = 4  # whose weights have settled after one round with all that bits do
 OWN_LEVEL: Final = 1 / 8  # difference from the common level from which on a point has its own
 
 
@@ -101,8 +101,8 @@ class _Composition:
 
     def __init__(self, bank: Responses, patches: list[PlaceCells]) -> None:
         responses = np.array([bank.equalised(patch) for patch in patches], np.int32)
-        # (points, rows, 32): the rest outside the band, a mean over `REST_SAMPLES` samples each
-        self.in_band, self.outside = responses[:, : bank.samples], responses[:, bank.samples :]  # (points, samples, 32)
+        self.in_band, self.whole = responses[:, : bank.samples], bank.whole(responses)  # (points, samples, 32)
+        self._sketch_step = bank.sketch_step
         # Sums of their absolute values in the band; inf for a response of zeros, which has no part in any sum
         self.norms = [float(np.abs(response).sum()) or math.inf for response in self.in_band]
         self._block_samples = bank.block_samples
@@ -111,19 +111,24 @@ class _Composition:
         """Where the words deviate from idle, (samples, 32), for these amplitudes; `polarities` as in `Sketch.polarised`."""
         divisors, balance = self.norms, [1.0]
         if len(asked) > 1:
-            sketch = Sketch(self.in_band)
+            sketch = Sketch(self.in_band, self._sketch_step)
             asked, divisors = sketch.polarised(asked, self.norms, polarities)
             balance = sketch.balanced(divisors)
         weighted, unit = self.weighted(balance, divisors)
         bits, full = weighted > 0, all(amplitude == 1 for amplitude in asked)
         if not unit:
             return bits
-        measured, in_band = self.measured(bits, divisors)
+        measured = self.measured(bits, divisors)
         if len(asked) == 1:
             return Solution(self, asked, divisors, balance).bits([asked[0] * measured[0]])
-        wanted = _wanted(asked, balance, measured, in_band)
-        balance = corrected(balance, measured, divisors)
-        return self.weighted(balance, divisors)[0] > 0 if full else Solution(self, asked, divisors, balance).bits(wanted)
+        before, balance = balance, corrected(balance, measured, divisors)
+        if full and len(asked) > FEW_POINTS:
+            measured = self.measured(self.weighted(balance, divisors)[0] > 0, divisors)
+            balance = corrected(balance, measured, divisors)
+        if full:
+            return self.weighted(balance, divisors)[0] > 0
+        wanted = _wanted(asked, before, measured, _given(self.in_band, bits, divisors))
+        return Solution(self, asked, divisors, balance).bits(wanted)
 
     def weighted(self, weights: list[float], divisors: list[float]) -> tuple[Numbers, float]:
         """Sum of the responses, each divided by its divisor, in whole multiples next to the weights times the unit."""
@@ -133,15 +138,9 @@ class _Composition:
             total += weight * response
         return total, unit
 
-    def measured(self, bits: Numbers, divisors: list[float]) -> tuple[list[float], list[float]]:
-        """Displacement that bits give at each point, divided by its divisor: all of it, and what is in the band."""
-        filled = np.zeros((self.outside.shape[1] * REST_SAMPLES, CHANNELS), np.int32)
-        filled[: len(bits)] = bits
-        by_row = filled.reshape(-1, REST_SAMPLES, CHANNELS).sum(axis=1)
-        inside = [int(np.sum(response, where=bits)) for response in self.in_band]
-        beyond = [int((response * by_row).sum()) for response in self.outside]
-        found = [(one + other) / divisor for one, other, divisor in zip(inside, beyond, divisors, strict=True)]
-        return found, [one / divisor for one, divisor in zip(inside, divisors, strict=True)]
+    def measured(self, bits: Numbers, divisors: list[float]) -> list[float]:
+        """Displacement that bits give at each point, divided by its divisor."""
+        return _given(self.whole, bits, divisors)
 
     def strength(self, weighted: Numbers) -> Numbers:
         """Sum of the absolute values of a sum of responses over the block of each sample, (samples, 32)."""
@@ -172,8 +171,12 @@ class _Composition:
     def moved_by(self, places: Numbers) -> Numbers:
         """What bits at `places`, (bit, 2) of samples and channels, add at each point: (bit, point)."""
         samples, channels = places.T
-        moved: Numbers = (self.in_band[:, samples, channels] + self.outside[:, samples // REST_SAMPLES, channels]).T
+        moved: Numbers = self.whole[:, samples, channels].T
         return moved
+
+
+def _given(responses: Numbers, bits: Numbers, divisors: list[float]) -> list[float]:
+    return [int(np.sum(response, where=bits)) / divisor for response, divisor in zip(responses, divisors, strict=True)]
 
 
 def _wanted(asked: list[float], balance: list[float], measured: list[float], in_band: list[float]) -> list[float]:

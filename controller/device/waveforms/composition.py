@@ -56,6 +56,7 @@ class Composer:
             grid.x0_m,
             grid.y0_m,
             bank.header.equaliser,
+            bank.header.band_lost,
         )
         tables = memoryview(array("i", entries)), memoryview(array("f", scales))
         self._buffers = kernel.BankBuffers(plan, *tables, good, b"", common)  # the responses follow once their section is mapped

@@ -22,7 +22,7 @@ from controller.workshop.bank_builder.methods.descent import DescentAim
 from controller.workshop.bank_builder.optimised import reported
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.memory import BASE_BYTES, cell_bytes, entries_bytes, require
-from controller.workshop.physics.plate import equaliser, wave_scale
+from controller.workshop.physics.plate import band_lost, equaliser, wave_scale
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.loaded_responses import words_source, yielding_alike
 from controller.workshop.physics.responses.response_source import ResponseSource
@@ -120,6 +120,7 @@ def _parameters(request: BankRequest, grid: Grid, wanted: NDArray[np.bool_], sou
         "pitch_mm": grid.pitch_m * 1e3,
         "wave_scale": wave_scale(board),
         "equaliser": equaliser(board, grid.pitch_m),
+        "band_lost": band_lost(board, grid.pitch_m),
         "highest_hz": request.highest_mode_hz if request.source is None else None,
         "precision": "float32",
         "responses": as_parameter(source.provenance),

@@ -37,7 +37,7 @@ def read(data: bytes, table: list[tuple[str, int, str]], name: str, start: int =
 
 def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
     """Plain struct, offsets out of the README's tables: what another language would do."""
-    rests = {cell: np.random.default_rng(cell).normal(0, 1e-9, (3, 32)) for cell in range(6)}
+    rests = {cell: np.random.default_rng(cell).normal(0, 1e-9, (5, 32)) for cell in range(6)}
     words_of = {((3, -4, 0), (3, 7, 16)): np.arange(9, dtype=np.uint32), ((40, 40, 32),): np.full(9, 0xF0F0F0F0, np.uint32)}
     responses = make_bank(tmp_path / "bank", GRID, CELLS, rests=rests, compositions=words_of)
     data = (tmp_path / "bank").read_bytes()
@@ -47,7 +47,7 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
         return read(data, fields, name)
 
     assert header("`HPNLBANK`") == b"HPNLBANK"
-    assert header("format version") == 4
+    assert header("format version") == 7
     assert header("bytes of the file") == len(data)
     assert header("SHA-256") == board.digest()
     assert (header("pitch"), header("x"), header("y")) == (5e-3, 5e-3, 6e-3)
@@ -85,7 +85,7 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
                 exact = responses[cell][n, q]
                 assert word >> q & 1 == (exact > 0)
                 assert abs(struct.unpack_from("<b", levels, 32 * n + q)[0] * scale - exact) <= 0.501 * scale
-        assert len(levels) == 32 * (9 + 3)
+        assert len(levels) == 32 * (9 + 5)
         for row, rest in enumerate(rests[cell]):
             for q in range(32):
                 assert abs(struct.unpack_from("<b", levels, 32 * (9 + row) + q)[0] * scale - rest[q]) <= 0.501 * scale

@@ -71,7 +71,7 @@ def test_verify_names_the_place_of_the_first_damage(bank_path):
     with Bank.open(bank_path) as bank:
         drive, response = bank.sections["drive"], bank.sections["response"]
     in_entry_1 = response.offset + response.stride + 5
-    assert f"bytes {response.offset + 384} to {response.offset + 767}: response of entry 1 (cell 2)" in refusal(
+    assert f"bytes {response.offset + 448} to {response.offset + 895}: response of entry 1 (cell 2)" in refusal(
         bank_path, 8 * in_entry_1
     )
     gap = drive.offset + drive.stride - 1
@@ -86,7 +86,7 @@ def test_info_tells_what_a_bank_is_without_reading_its_entries(bank_path, board)
     assert (info["cells"], info["cells_of_grid"], info["samples"], info["board"]) == (3, 6, 9, "simulated")
     assert info["board_digest"] == board.digest().hex()
     assert info["grid"] == {"pitch_mm": 5.0, "nx": 3, "ny": 2, "x0_mm": 5.0, "y0_mm": 6.0}
-    assert info["format"] == 4
+    assert info["format"] == 7
     assert info["compositions"] == 1
     assert info["bytes"] == bank_path.stat().st_size
 

@@ -65,7 +65,7 @@ def test_sections_that_are_not_needed_are_never_mapped(path, make_bank):
         assert bank.counters.mapped_bytes == {"drive": 6 * PAGE}
         assert Path("/proc/self/maps").read_text().count(str(path)) == 1
         bank.responses.response(0)
-        assert bank.counters.mapped_bytes == {"drive": 6 * PAGE, "response": 6 * 384}
+        assert bank.counters.mapped_bytes == {"drive": 6 * PAGE, "response": 6 * 448}
         assert Path("/proc/self/maps").read_text().count(str(path)) == 2
 
 
@@ -192,7 +192,7 @@ def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank,
         (lambda data: data[:4096], "is truncated"),
         (lambda data: data[:-1], "is truncated"),
         (lambda data: data + b"\0", "has grown"),
-        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 4"),
+        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 7"),
         (lambda data: data[:12] + b"\x01" + data[13:], "header of 4097 bytes"),
         (lambda data: data[:30] + b"!" + data[31:], "CRC-32 of the header"),
         (lambda data: data[:4096] + b"\x07" + data[4097:], "CRC-32 of section 'index'"),

@@ -41,7 +41,7 @@ def tables_of(random, samples, in_band, rest, rest_nx, rest_ny, odd=(2867, 3744)
     made = bytearray(compact_twin.HEAD.pack(*in_band, *rest, *odd, rest_nx, rest_ny, 2 * PITCH_M, 7e-3, 8e-3))
     made += bytes(compact_twin.TABLES_AT - len(made))
     cells = rest_nx * rest_ny
-    for layer, outputs in ((in_band, samples // 2 + 2), (rest, -(-samples // 4))):
+    for layer, outputs in ((in_band, samples // 2 + 2), (rest, bank_twin.rest_rows(samples))):
         half = (layer.across - 1) * layer.steps // 2 + 1
         stencil = random.integers(-8192, 8193, half * half * layer.across**2).astype("<i2")
         for part in (stencil.tobytes(), pulses_of(random, outputs, layer.weights, layer.taps).tobytes()):
@@ -64,7 +64,7 @@ def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x
     )
     rest = compact_twin.PulseLayer(rest_across, 16, rest_weights, min(7, rest_weights), taps[1])
     stride = -(-compact_twin.row_bytes(weights, in_band.block_rows) // 64) * 64
-    plan = kernel.PLAN.pack(samples, stride, nx, ny, nx * ny, idle_word, 48, PITCH_M, 5e-3, 6e-3, 0.0)
+    plan = kernel.PLAN.pack(samples, stride, nx, ny, nx * ny, idle_word, 48, PITCH_M, 5e-3, 6e-3, 0.0, 0.0)
     scales = (10 ** random.uniform(-12, -11, nx * ny)).astype(np.float32)
     bank = kernel.BankBuffers(
         plan,

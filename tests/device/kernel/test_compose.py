@@ -22,7 +22,21 @@ both = pytest.mark.parametrize("one", [words_twin, pytest.param(compiled, marks=
 PITCH_M = 2.5e-3
 
 
-def buffers(random, samples, nx, ny, idle_word, block, *, missing=0.0, largest=127, quiet=0.0, scale_decades=0.0, equaliser=0.2):
+def buffers(
+    random,
+    samples,
+    nx,
+    ny,
+    idle_word,
+    block,
+    *,
+    missing=0.0,
+    largest=127,
+    quiet=0.0,
+    scale_decades=0.0,
+    equaliser=0.2,
+    band_lost=0.4,
+):
     """Words, room and a bank of random responses, as `compose` takes them."""
     there = random.random(nx * ny) >= missing
     entries = np.where(there, np.cumsum(there) - 1, -1).astype(np.int32)
@@ -32,7 +46,7 @@ def buffers(random, samples, nx, ny, idle_word, block, *, missing=0.0, largest=1
     levels = random.integers(-largest, largest + 1, (count, stride), endpoint=False).astype(np.int8)
     levels[random.random(levels.shape) < quiet] = 0
     scales = (10 ** random.uniform(-11 - scale_decades, -11, count)).astype(np.float32)
-    plan = kernel.PLAN.pack(samples, stride, nx, ny, count, idle_word, block, PITCH_M, 5e-3, 6e-3, equaliser)
+    plan = kernel.PLAN.pack(samples, stride, nx, ny, count, idle_word, block, PITCH_M, 5e-3, 6e-3, equaliser, band_lost)
     room = bytearray(random.bytes(kernel.room_bytes(samples)))
     return [bytearray(4 * samples), room, plan, entries.tobytes(), scales.tobytes(), bytearray(b"\1" * count), levels.tobytes()]
 
@@ -75,6 +89,7 @@ on_cells = st.tuples(st.integers(-1, 5), st.integers(-1, 5), amplitudes).map(
             "quiet": st.sampled_from([0.0, 0.5, 0.99, 1.0]),
             "scale_decades": st.sampled_from([0.0, 1.0, 20.0]),
             "equaliser": st.sampled_from([0.0, 0.1, 0.199, 0.5]),
+            "band_lost": st.sampled_from([0.0, 0.366, 1.0]),
         }
     ),
     points=st.one_of(
@@ -106,6 +121,7 @@ def test_it_refuses_what_its_twin_refuses(data):
     numbers[at] = data.draw(st.one_of(st.integers(-(1 << 63), (1 << 63) - 1), st.integers(numbers[at] - 40, numbers[at] + 40)))
     floats = [data.draw(st.sampled_from([PITCH_M, PITCH_M, PITCH_M, 0.0, -1.0, math.nan, math.inf, 1e-310])), 5e-3, 6e-3]
     floats.append(data.draw(st.sampled_from([0.2, 0.2, 0.2, 0.5, 0.51, -0.1, math.nan, math.inf])))
+    floats.append(data.draw(st.sampled_from([0.4, 0.4, 0.4, 1.0, 1.01, -0.1, math.nan])))
     made = buffers(np.random.default_rng(1), 40, 3, 3, 0, 48)
     made[2] = kernel.PLAN.pack(*numbers, *floats)
     for index in (0, 1, 3, 4, 5, 6):
@@ -131,7 +147,7 @@ def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
 @each_row("samples", [0, -1, 2001, 1 << 40])
 def test_lengths_that_cannot_be_composed_are_refused(one, samples):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
-    made[2] = kernel.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3, 0.0)
+    made[2] = kernel.PLAN.pack(samples, 1 << 30, 3, 2, 6, 0, 48, PITCH_M, 5e-3, 6e-3, 0.0, 0.0)
     with pytest.raises(ValueError, match="samples to compose"):
         compose_with(one, made, [(5e-3, 6e-3, 1.0)])
     with pytest.raises(ValueError, match="samples to compose"):

@@ -31,7 +31,7 @@ def responses(waves):
 def rests():
     """Outside the band there is more than within."""
     random = np.random.default_rng(8)
-    return {cell: 2e-9 * random.standard_normal((SAMPLES // REST_SAMPLES, CHANNELS)) for cell in NUMBERS}
+    return {cell: 3e-9 * random.standard_normal((SAMPLES // REST_SAMPLES, CHANNELS)) for cell in NUMBERS}
 
 
 def write(make_bank, path, responses, **more):

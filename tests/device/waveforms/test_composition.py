@@ -36,9 +36,9 @@ def interpolated(bank, x_m, y_m):
 def weighed(bank, points):
     """Responses, and for each its weight of either sign, straight from the definition.
 
-    The polarities with which the sum of every fourth sample has most energy, as few of them negative as positive; then two rounds
-    in which weights are divided by what their points get: in every fourth sample, and in all. Nothing is outside the band here, and
-    the bank has no equaliser: responses of several are only halved.
+    The polarities with which the sum of every third sample has most energy, as few of them negative as positive; then rounds in
+    which weights are divided by what their points get: in every third sample, then in all, of more than four points twice. Nothing
+    is outside the band here, and the bank has no equaliser: responses of several are only halved.
     """
     turned = 1 - 2 * channel_bits(np.uint32([IDLE_WORD])).astype(np.int64)
     responses = [interpolated(bank, x_m, y_m) for x_m, y_m, _ in points]
@@ -46,13 +46,13 @@ def weighed(bank, points):
         responses = [(here * turned >> 1) * turned for here in responses]
     norms = np.array([float(np.abs(here).sum()) for here in responses])
     deviating = [here * turned for here in responses]
-    fourth, each = np.array([here[::4] >> 4 for here in deviating]), np.array(deviating)
-    fourth, each = fourth.reshape(len(points), -1), each.reshape(len(points), -1)
+    third, each = np.array([here[::3] >> 4 for here in deviating]), np.array(deviating)
+    third, each = third.reshape(len(points), -1), each.reshape(len(points), -1)
     choices = np.array([(1, *rest) for rest in itertools.product((1, -1), repeat=len(points) - 1)])
-    signs = choices[np.argmax([np.sum((choice / norms @ fourth) ** 2) for choice in choices])]
+    signs = choices[np.argmax([np.sum((choice / norms @ third) ** 2) for choice in choices])]
     signs = -signs if (signs < 0).sum() > len(points) / 2 else signs
     weights = np.ones(len(points))
-    for looked_at in (fourth, each) if len(points) > 1 else ():
+    for looked_at in (third, each, *([each] if len(points) > 4 else [])) if len(points) > 1 else ():
         got = (whole(signs * weights / norms) @ looked_at > 0) @ looked_at.T * signs / norms
         weights *= np.clip(got.mean() / got, 0.5, 2)
     return np.array(responses), signs * weights / norms

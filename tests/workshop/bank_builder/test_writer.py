@@ -21,7 +21,7 @@ from controller.workshop.bank_builder.writer import BankWriter
 
 GRID = Grid(5e-3, 3, 2, 5e-3, 6e-3)
 ALL = np.ones(6, bool)
-WORDS, LEVELS = np.arange(9, dtype="<u4"), np.ones((12, 32), np.int8)
+WORDS, LEVELS = np.arange(9, dtype="<u4"), np.ones((14, 32), np.int8)
 
 
 def header(entries: int = 6, samples: int = 9) -> Header:
@@ -93,7 +93,7 @@ def test_a_bank_without_all_its_entries_is_never_put_in_place(old):
         ((2, WORDS[:8], LEVELS, 1e-9), "9 samples"),
         ((2, WORDS.astype(">u4"), LEVELS, 1e-9), "9 samples"),
         ((2, WORDS, LEVELS[:, :31], 1e-9), "9 samples"),
-        ((2, WORDS, LEVELS[:9], 1e-9), "12 rows"),
+        ((2, WORDS, LEVELS[:9], 1e-9), "14 rows"),
         ((2, WORDS, LEVELS.astype(float), 1e-9), "9 samples"),
     ],
     afresh=[old],
@@ -208,7 +208,7 @@ from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
 from controller.workshop.bank_builder.writer import BankWriter
 with BankWriter(Path(sys.argv[1]), Header("test", bytes(32), Grid(5e-3, 3, 2, 5e-3, 6e-3), 5e5, 9, 6), np.ones(6, bool)) as writer:
-    writer.add(0, np.zeros(9, "<u4"), np.zeros((12, 32), np.int8), 1.0)
+    writer.add(0, np.zeros(9, "<u4"), np.zeros((14, 32), np.int8), 1.0)
     print("half way", flush=True)
     sys.stdin.read()
 """

@@ -24,7 +24,7 @@ struct config {
     uint32_t (*crc32)(uint32_t, const uint8_t *, uint32_t);
     int64_t drive_stride, response_stride;
     int64_t nx, ny, regions, slots;
-    double pitch_m, x0_m, y0_m, equaliser, snap_m, near_m, lattice_m;
+    double pitch_m, x0_m, y0_m, equaliser, band_lost, snap_m, near_m, lattice_m;
     double length_m, width_m, lag_s, max_size_m;
     double rectangle[16][4], spacing_m[16]; /* spacing 0: none */
     int64_t idle_word;
@@ -471,16 +471,16 @@ static double along(double distance_m, int64_t last, int64_t *index)
     return (all % 1000000) * 1e-6;
 }
 
-struct patch { const int8_t *from[4]; int16_t weight[4]; int cells, tap; };
+struct patch { const int8_t *from[4]; int16_t weight[4], rest_weight[4]; int cells, tap; };
 
 static void patch_at(double x_m, double y_m, struct patch *p)
 {
     int64_t ix, iy;
     double right = along(x_m - c.x0_m, c.nx - 1, &ix), up = along(y_m - c.y0_m, c.ny - 1, &iy);
     int columns = right ? 2 : 1, rows_ = up ? 2 : 1;
-    double share[4], total = 0, vertical[2] = {1 - up, up}, horizontal[2] = {1 - right, right};
+    double between = right * (1 - right) + up * (1 - up), share[4], total = 0, vertical[2] = {1 - up, up}, horizontal[2] = {1 - right, right};
     p->cells = 0;
-    p->tap = (int)rint(c.equaliser * (right * (1 - right) + up * (1 - up)) * (1 << 14));
+    p->tap = (int)rint(c.equaliser * between * (1 << 14));
     for (int row = 0; row < rows_; row++)
         for (int column = 0; column < columns; column++) {
             int entry = c.entry_of[(iy + row) * c.nx + ix + column];
@@ -489,21 +489,23 @@ static void patch_at(double x_m, double y_m, struct patch *p)
             total += share[p->cells++];
         }
     double unit = total ? 256 / total : 0;
-    for (int i = 0; i < p->cells; i++)
+    for (int i = 0; i < p->cells; i++) {
         p->weight[i] = (int16_t)rint(share[i] * unit);
-    if (p->cells == 1) p->weight[0] = 256;
+        p->rest_weight[i] = (int16_t)rint(share[i] * (unit * (1 - c.band_lost * between)));
+    }
+    if (p->cells == 1) p->weight[0] = p->rest_weight[0] = 256;
     for (int i = p->cells; i < 4; i++) p->from[i] = p->from[0];
 }
 
-/* What the bits do outside the band: means of four samples, behind the response in the band. */
-enum { RESTS = VALUES / 4 };
+/* What the bits do outside the band: means of two samples, behind the response in the band. */
+enum { RESTS = VALUES / 2 };
 static int16_t rest_of[POINTS][RESTS];
 
 static void take_rest(const struct patch *p, int16_t *out)
 {
     const int8_t *a = p->from[0] + VALUES, *b = p->from[1] + VALUES, *d = p->from[2] + VALUES, *e = p->from[3] + VALUES;
     int16_t weight[4] = {0};
-    for (int cell = 0; cell < p->cells; cell++) weight[cell] = p->weight[cell];
+    for (int cell = 0; cell < p->cells; cell++) weight[cell] = p->rest_weight[cell];
     for (int n = 0; n < RESTS; n += CHANNELS)
         for (int q = 0; q < CHANNELS; q++)
             out[n + q] = (int16_t)((a[n + q] * weight[0] + b[n + q] * weight[1] + d[n + q] * weight[2] + e[n + q] * weight[3]) * flip[q]);
@@ -529,22 +531,23 @@ static int64_t equalise(int tap, int16_t *response, int16_t *rest)
     return size;
 }
 
-/* Samples 0, 4, 8, .. of a response. */
-static int16_t sketch_of[POINTS][VALUES / 4];
+/* Samples 0, 3, 6, .. of a response. */
+enum { STEP = 3, SKETCH = (SAMPLES + STEP - 1) / STEP * CHANNELS };
+static int16_t sketch_of[POINTS][SKETCH];
 static int32_t sum_all[VALUES];
-static int16_t bit_all[VALUES], bits_of_four[RESTS];
+static int16_t bit_all[VALUES], bits_of_two[RESTS];
 
 static void sketch(const int16_t *response, int16_t *out)
 {
-    for (int n = 0; n < SAMPLES; n += 4, out += CHANNELS)
+    for (int n = 0; n < SAMPLES; n += STEP, out += CHANNELS)
         for (int q = 0; q < CHANNELS; q++) out[q] = response[n * CHANNELS + q] >> 4;
 }
 
 static int64_t inner_product(const int16_t *a, const int16_t *b)
 {
     int64_t sum = 0;
-    for (int v = 0; v < VALUES / 4; v += 256) { /* 256 products of 22 bits */
-        int32_t part = 0, end = v + 256 < VALUES / 4 ? v + 256 : VALUES / 4;
+    for (int v = 0; v < SKETCH; v += 256) { /* 256 products of 22 bits */
+        int32_t part = 0, end = v + 256 < SKETCH ? v + 256 : SKETCH;
         for (int k = v; k < end; k++) part += a[k] * b[k];
         sum += part;
     }
@@ -568,7 +571,7 @@ static void bits_of_sum(const int16_t *const *response, const int16_t *weight, i
     for (int v = 0; v < length; v++) bit_all[v] = sum_all[v] > 0;
 }
 
-/* 32,000 values of 15 bits at most, or 8,000 of 17 */
+/* 32,000 values of 15 bits at most, or 16,000 of 16 */
 static int32_t total_of_bits(const int16_t *values, const int16_t *bits, int length)
 {
     int32_t sum = 0;
@@ -593,19 +596,21 @@ static void balanced(const double *divisor, const int16_t *const *response, int 
     double share[POINTS];
     for (int i = 0; i < count; i++) sketches[i] = sketch_of[i];
     whole_weights(divisor, balance, count, weight);
-    bits_of_sum(sketches, weight, count, VALUES / 4);
-    for (int i = 0; i < count; i++) share[i] = total_of_bits(sketches[i], bit_all, VALUES / 4) / divisor[i];
+    bits_of_sum(sketches, weight, count, SKETCH);
+    for (int i = 0; i < count; i++) share[i] = total_of_bits(sketches[i], bit_all, SKETCH) / divisor[i];
     correct(share, count, balance);
-    whole_weights(divisor, balance, count, weight);
-    bits_of_sum(response, weight, count, VALUES);
-    for (int n = 0; n < RESTS; n += CHANNELS)
-        for (int q = 0; q < CHANNELS; q++) {
-            const int16_t *four = bit_all + 4 * n + q;
-            bits_of_four[n + q] = four[0] + four[CHANNELS] + four[2 * CHANNELS] + four[3 * CHANNELS];
-        }
-    for (int i = 0; i < count; i++)
-        share[i] = ((double)total_of_bits(response[i], bit_all, VALUES) + total_of_bits(rest_of[i], bits_of_four, RESTS)) / divisor[i];
-    correct(share, count, balance);
+    for (int round = 0; round < (count > 4 ? 2 : 1); round++) {
+        whole_weights(divisor, balance, count, weight);
+        bits_of_sum(response, weight, count, VALUES);
+        for (int n = 0; n < RESTS; n += CHANNELS)
+            for (int q = 0; q < CHANNELS; q++) {
+                const int16_t *two = bit_all + 2 * n + q;
+                bits_of_two[n + q] = two[0] + two[CHANNELS];
+            }
+        for (int i = 0; i < count; i++)
+            share[i] = ((double)total_of_bits(response[i], bit_all, VALUES) + total_of_bits(rest_of[i], bits_of_two, RESTS)) / divisor[i];
+        correct(share, count, balance);
+    }
 }
 
 /* Weights of responses, of the sums of whose absolute values: polarities with which the energy of the sum is largest, then balanced

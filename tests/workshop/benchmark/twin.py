@@ -34,7 +34,10 @@ class Config(ctypes.Structure):
     _fields_ = (
         *((name, ctypes.c_void_p) for name in ("drive", "response", "entry_of", "scale_of", "crc_of", "crc32")),
         *((name, ctypes.c_int64) for name in ("drive_stride", "response_stride", "nx", "ny", "regions", "slots")),
-        *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m", "equaliser", "snap_m", "near_m", "lattice_m")),
+        *(
+            (name, ctypes.c_double)
+            for name in ("pitch_m", "x0_m", "y0_m", "equaliser", "band_lost", "snap_m", "near_m", "lattice_m")
+        ),
         *((name, ctypes.c_double) for name in ("length_m", "width_m", "lag_s", "max_size_m")),
         ("rectangle", ctypes.c_double * 4 * REGIONS),
         ("spacing_m", ctypes.c_double * REGIONS),
@@ -220,6 +223,7 @@ class Twin:
             "x0_m": grid.x0_m,
             "y0_m": grid.y0_m,
             "equaliser": bank.header.equaliser,
+            "band_lost": bank.header.band_lost,
             "snap_m": board.bank.snap_mm * 1e-3,
             "near_m": REUSE_RADIUS_M,
             "lattice_m": LATTICE_M,

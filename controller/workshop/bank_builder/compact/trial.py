@@ -49,7 +49,7 @@ class Trial:
         block = block_samples(board.waveform.bit_clock_hz)
         numbers = design.samples, rows.shape[1], grid.nx, grid.ny, grid.cells, board.idle_word, block
         self._buffers = kernel.BankBuffers(
-            kernel.PLAN.pack(*numbers, grid.pitch_m, grid.x0_m, grid.y0_m, 0.0),
+            kernel.PLAN.pack(*numbers, grid.pitch_m, grid.x0_m, grid.y0_m, 0.0, 0.0),
             memoryview(array("i", np.where(there, np.arange(grid.cells), -1).tolist())),
             memoryview(array("f", scales.tolist())),
             b"\1" * grid.cells,

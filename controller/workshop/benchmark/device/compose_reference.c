@@ -6,18 +6,19 @@
 #include <string.h>
 #include <time.h>
 
-enum { CHANNELS = 32, SAMPLES = 1000, VALUES = SAMPLES * CHANNELS, RESTS = VALUES / 4, POINTS = 10, APART = 4 * CHANNELS };
+enum { CHANNELS = 32, SAMPLES = 1000, VALUES = SAMPLES * CHANNELS, RESTS = VALUES / 2, POINTS = 10, APART = 4 * CHANNELS };
+enum { STEP = 3, SKETCH = (SAMPLES + STEP - 1) / STEP * CHANNELS }; /* a sketch: samples 0, 3, 6, .. */
 
 struct bank {
     const int8_t *response;
     const int32_t *entry_of;
     const float *scale_of;
     int64_t stride, nx, ny;
-    double pitch_m, x0_m, y0_m, equaliser;
+    double pitch_m, x0_m, y0_m, equaliser, band_lost;
     uint32_t idle_word;
 };
 
-static int16_t response_of[POINTS][VALUES], rest_of[POINTS][RESTS], sketch_of[POINTS][VALUES / 4]; /* a sketch: samples 0, 4, 8, .. */
+static int16_t response_of[POINTS][VALUES], whole_of[POINTS][VALUES], sketch_of[POINTS][SKETCH];
 static int32_t sum_of[VALUES];
 static uint8_t bits[VALUES];
 
@@ -48,7 +49,8 @@ static void interpolate(const struct bank *b, double x_m, double y_m, int first,
         share[cells] = share[corner] * b->scale_of[entry];
         total += share[cells++];
     }
-    for (int i = 0; i < cells; i++) weight[i] = (int16_t)rint(share[i] * (256 / total));
+    double kept = first ? 1 - b->band_lost * (right * (1 - right) + up * (1 - up)) : 1; /* of what is outside the band */
+    for (int i = 0; i < cells; i++) weight[i] = (int16_t)rint(share[i] * (256 / total * kept));
     if (cells == 1) weight[0] = 256;
     const int8_t *p = from[0], *q = from[1 % cells], *r = from[2 % cells], *s = from[3 % cells];
     if (cells == 1)
@@ -67,8 +69,8 @@ static void turn(int16_t *response, int rows, const int16_t *idles_high)
         for (int c = 0; c < CHANNELS; c++) response[c] = (response[c] ^ -idles_high[c]) + idles_high[c];
 }
 
-/* Halved, with the band's slope given back: 8 us before and after; the sum of absolute values in the band. */
-static int64_t equalise(const struct bank *b, double x_m, double y_m, int16_t *response, int16_t *rest)
+/* Halved, with the band's slope given back: 8 us before and after; all that bits do; the sum of absolute values in the band. */
+static int64_t equalise(const struct bank *b, double x_m, double y_m, int16_t *response, const int16_t *rest, int16_t *whole)
 {
     static int16_t met[VALUES + 2 * APART];
     int64_t ix, iy, norm = 0;
@@ -76,7 +78,10 @@ static int64_t equalise(const struct bank *b, double x_m, double y_m, int16_t *r
     int32_t tap = (int32_t)rint(b->equaliser * (right * (1 - right) + up * (1 - up)) * (1 << 14));
     memcpy(met + APART, response, VALUES * sizeof *met);
     for (int v = 0; v < VALUES; v++) response[v] = (int16_t)((met[v + APART] >> 1) - (met[v] * tap >> 15) - (met[v + 2 * APART] * tap >> 15));
-    for (int v = 0; v < RESTS; v++) rest[v] >>= 1;
+    for (int v = 0; v < VALUES; v++) {
+        int32_t both = response[v] + (rest[v / (2 * CHANNELS) * CHANNELS + v % CHANNELS] >> 1);
+        whole[v] = (int16_t)(both > INT16_MAX ? INT16_MAX : both < INT16_MIN ? INT16_MIN : both);
+    }
     for (int n = 0; n < SAMPLES; n++) {
         int32_t part = 0;
         for (int c = 0; c < CHANNELS; c++) part += abs(response[n * CHANNELS + c]);
@@ -87,7 +92,7 @@ static int64_t equalise(const struct bank *b, double x_m, double y_m, int16_t *r
 
 static void sketch(const int16_t *response, int16_t *out)
 {
-    for (int n = 0; n < SAMPLES; n += 4, out += CHANNELS)
+    for (int n = 0; n < SAMPLES; n += STEP, out += CHANNELS)
         for (int c = 0; c < CHANNELS; c++) out[c] = response[n * CHANNELS + c] >> 4;
 }
 
@@ -100,9 +105,9 @@ static void find_polarities(const int64_t *norm, int count, int *sign)
     for (int i = 0; i < count; i++)
         for (int j = 0; j < i; j++) {
             int64_t sum = 0;
-            for (int v = 0; v < VALUES / 4; v += 250) {
+            for (int v = 0; v < SKETCH; v += CHANNELS) {
                 int32_t part = 0;
-                for (int k = v; k < v + 250; k++) part += sketch_of[i][k] * sketch_of[j][k];
+                for (int k = v; k < v + CHANNELS; k++) part += sketch_of[i][k] * sketch_of[j][k];
                 sum += part;
             }
             product[i][j] = (double)sum / (double)norm[i] / (double)norm[j];
@@ -155,49 +160,42 @@ static void correct(const double *share, int count, double *weight)
 /* Balance weights in the sketches, then with all that bits do. */
 static void balance(const double *divisor, int count, double *weight)
 {
-    int16_t whole[POINTS], above[VALUES / 4], counted[RESTS];
+    int16_t whole[POINTS], above[SKETCH];
     double share[POINTS];
     weigh(divisor, weight, count, whole);
     for (int i = 0; i < count; i++)
         if (i == 0)
-            for (int v = 0; v < VALUES / 4; v++) sum_of[v] = whole[i] * sketch_of[i][v];
+            for (int v = 0; v < SKETCH; v++) sum_of[v] = whole[i] * sketch_of[i][v];
         else
-            for (int v = 0; v < VALUES / 4; v++) sum_of[v] += whole[i] * sketch_of[i][v];
-    for (int v = 0; v < VALUES / 4; v++) above[v] = sum_of[v] > 0;
+            for (int v = 0; v < SKETCH; v++) sum_of[v] += whole[i] * sketch_of[i][v];
+    for (int v = 0; v < SKETCH; v++) above[v] = sum_of[v] > 0;
     for (int i = 0; i < count; i++) {
-        int32_t got = 0; /* 8,000 values of 11 bits */
-        for (int v = 0; v < VALUES / 4; v++) got += sketch_of[i][v] * above[v];
+        int32_t got = 0; /* 10,688 values of 11 bits */
+        for (int v = 0; v < SKETCH; v++) got += sketch_of[i][v] * above[v];
         share[i] = got / divisor[i];
     }
     correct(share, count, weight);
-    weigh(divisor, weight, count, whole);
-    add_up(response_of, whole, count);
-    for (int n = 0; n < SAMPLES / 4; n++)
-        for (int c = 0; c < CHANNELS; c++) {
-            const uint8_t *four = bits + 4 * n * CHANNELS + c;
-            counted[n * CHANNELS + c] = four[0] + four[CHANNELS] + four[2 * CHANNELS] + four[3 * CHANNELS];
+    for (int round = 0; round < (count > 4 ? 2 : 1); round++) {
+        weigh(divisor, weight, count, whole);
+        add_up(response_of, whole, count);
+        for (int i = 0; i < count; i++) {
+            int64_t got = 0;
+            for (int n = 0; n < SAMPLES; n++) {
+                int32_t part = 0;
+                for (int v = n * CHANNELS; v < (n + 1) * CHANNELS; v++) part += whole_of[i][v] * bits[v];
+                got += part;
+            }
+            share[i] = (double)got / divisor[i];
         }
-    for (int i = 0; i < count; i++) {
-        int64_t got = 0;
-        for (int n = 0; n < SAMPLES; n++) {
-            int32_t part = 0;
-            for (int v = n * CHANNELS; v < (n + 1) * CHANNELS; v++) part += response_of[i][v] * bits[v];
-            got += part;
-        }
-        for (int n = 0; n < SAMPLES / 4; n++) {
-            int32_t part = 0;
-            for (int v = n * CHANNELS; v < (n + 1) * CHANNELS; v++) part += rest_of[i][v] * counted[v];
-            got += part;
-        }
-        share[i] = (double)got / divisor[i];
+        correct(share, count, weight);
     }
-    correct(share, count, weight);
 }
 
 static void compose(const struct bank *b, const double (*points)[2], int count, uint32_t *words)
 {
     int64_t norm[POINTS] = {1};
     double divisor[POINTS], weight_of[POINTS];
+    static int16_t rest[RESTS];
     int16_t whole[POINTS], idles_high[CHANNELS];
     int sign[POINTS] = {1};
     for (int c = 0; c < CHANNELS; c++) idles_high[c] = b->idle_word >> c & 1;
@@ -205,9 +203,9 @@ static void compose(const struct bank *b, const double (*points)[2], int count, 
         interpolate(b, points[i][0], points[i][1], 0, VALUES, response_of[i]);
         turn(response_of[i], SAMPLES, idles_high);
         if (count == 1) continue;
-        interpolate(b, points[i][0], points[i][1], VALUES, RESTS, rest_of[i]);
-        turn(rest_of[i], SAMPLES / 4, idles_high);
-        norm[i] = equalise(b, points[i][0], points[i][1], response_of[i], rest_of[i]);
+        interpolate(b, points[i][0], points[i][1], VALUES, RESTS, rest);
+        turn(rest, SAMPLES / 2, idles_high);
+        norm[i] = equalise(b, points[i][0], points[i][1], response_of[i], rest, whole_of[i]);
         sketch(response_of[i], sketch_of[i]);
     }
     if (count > 1) find_polarities(norm, count, sign);

@@ -28,7 +28,7 @@ class BankOfReference(ctypes.Structure):
     _fields_ = (
         *((name, ctypes.c_void_p) for name in ("response", "entry_of", "scale_of")),
         *((name, ctypes.c_int64) for name in ("stride", "nx", "ny")),
-        *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m", "equaliser")),
+        *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m", "equaliser", "band_lost")),
         ("idle_word", ctypes.c_uint32),
     )
 
@@ -60,6 +60,7 @@ class PlainC:
             grid.x0_m,
             grid.y0_m,
             bank.header.equaliser,
+            bank.header.band_lost,
             idle_word,
         )
         self.words = (ctypes.c_uint32 * bank.samples)()  # of the last call

@@ -113,7 +113,7 @@ class ResponseModel:
 
         With the latter the displacement that bits give at a point is known to 1 %, not only in the band; with a slope of -1 to 2 %.
 
-        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 4 samples; what
+        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 2 samples; what
         the last row has beyond the last sample is zero.
         """
         return self._responses(points_m, self._entry_kernel(np.dtype(dtype)), out)
