@@ -3,6 +3,7 @@ import importlib.metadata
 import json
 import os
 import re
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -127,17 +128,17 @@ def test_options_that_contradict_each_other_are_refused(arguments, said, capsys)
     assert said in capsys.readouterr().err
 
 
+TESTS = Path(__file__).parents[2]
 PAGE = Path(module.__file__).with_name("README.md").read_text()
-SCRIPT = re.search(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)[1]
+LOCAL, SSH, *_ = re.findall(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture
 def cluster(tmp_path):
-    """Starts the page's scheduler with two workers, in a process that is prepared by some code; its address."""
+    """Starts a scheduler of the page with two workers, in a process that is prepared by some code; its address."""
     with contextlib.ExitStack() as stack:
 
-        def start(first="", *changes, environment=()):
-            script = SCRIPT
+        def start(first="", *changes, environment=(), script=LOCAL):
             for old, new in changes:
                 assert old in script
                 script = script.replace(old, new)
@@ -145,7 +146,7 @@ def cluster(tmp_path):
             process = subprocess.Popen(
                 [sys.executable, str(tmp_path / "cluster.py")],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])} | dict(environment), start_new_session=True,
+                env=os.environ | {"PYTHONPATH": str(TESTS)} | dict(environment), start_new_session=True,
             )  # fmt: skip
             stack.enter_context(process)  # its standard input is closed, and it ends
             return process.stdout.readline().strip()
@@ -218,7 +219,7 @@ def test_after_kill_9_of_everything_the_same_call_goes_on(tmp_path):
     script.write_text(KILLED)
     ended = subprocess.run(
         [sys.executable, str(script), str(tmp_path / "kept"), str(tmp_path / "mark")],
-        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}, start_new_session=True, check=False,
+        env=os.environ | {"PYTHONPATH": str(TESTS)}, start_new_session=True, check=False,
     )  # fmt: skip
     assert ended.returncode == -9
     for number in (1, 2):
@@ -236,28 +237,85 @@ def test_a_worker_that_takes_too_much_memory_is_ended_and_said_so(tmp_path, monk
         map_kept(greedy, {1: 1}, tmp_path / "kept", Workers(2, memory_mb=400))
 
 
-@pytest.mark.slow
-def test_a_scheduler_with_tls_is_reached_by_dask_own_configuration(cluster, tmp_path, monkeypatch):
-    import dask
+@pytest.fixture
+def tls(tmp_path):
+    """Dask's settings of a scheduler, its workers and its clients with TLS, as the page shows them; in a folder of their own."""
     from distributed import Security
 
-    security = Security.temporary()
+    security, folder = Security.temporary(), tmp_path / "dask"
+    folder.mkdir()
     for key in ("tls_ca_file", "tls_client_cert", "tls_client_key"):
-        (tmp_path / key).write_text(getattr(security, key))
-    own = {"cert": str(tmp_path / "tls_client_cert"), "key": str(tmp_path / "tls_client_key")}
-    tls = {"ca-file": str(tmp_path / "tls_ca_file"), "scheduler": own, "worker": own, "client": own}
-    (tmp_path / "dask.yaml").write_text(json.dumps({"distributed": {"comm": {"tls": tls}}}))
+        (folder / key).write_text(getattr(security, key))
+    own = {"cert": str(folder / "tls_client_cert"), "key": str(folder / "tls_client_key")}
+    settings = {"ca-file": str(folder / "tls_ca_file"), "scheduler": own, "worker": own, "client": own}
+    (folder / "dask.yaml").write_text(json.dumps({"distributed": {"comm": {"tls": settings}}}))
+    return folder, {"distributed.comm.tls.ca-file": settings["ca-file"], "distributed.comm.tls.client": own}
+
+
+@pytest.mark.slow
+def test_a_scheduler_with_tls_is_reached_by_dask_own_configuration(cluster, tls, tmp_path):
+    import dask
+
+    folder, client = tls
     address = cluster(
         "from distributed import Security",
         ("LocalCluster(", 'LocalCluster(security=Security(), protocol="tls://", '),
-        environment={"DASK_CONFIG": str(tmp_path)}.items(),
+        environment={"DASK_CONFIG": str(folder)}.items(),
     )
     assert address.startswith("tls://")
     with pytest.raises(WorkersError, match="no dask scheduler answers"):
         map_kept(cubes, ITEMS, tmp_path / "kept", Workers(address=address))
     file = tmp_path / "scheduler.json"
     file.write_text(json.dumps({"address": address}))
-    with dask.config.set({"distributed.comm.tls.ca-file": tls["ca-file"], "distributed.comm.tls.client": tls["client"]}):
+    with dask.config.set(client):
         found = map_kept(Fatal(str(tmp_path / "killed"), 4), ITEMS, tmp_path / "kept", Workers(scheduler_file=file))
     assert (tmp_path / "killed").exists()
     assert found.results == RESULTS
+
+
+@pytest.fixture
+def sshd(tmp_path):
+    """OpenSSH's server on this computer, for one key: what its clients need to connect."""
+    subprocess.run([TESTS / "kernel" / "install_packages.sh", "openssh-server", "openssh-client"], check=True)
+    for key in ("host", "client"):
+        subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", tmp_path / key], check=True)
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    settings = f"""
+        ListenAddress 127.0.0.1:{port}
+        HostKey {tmp_path}/host
+        AuthorizedKeysFile {tmp_path}/client.pub
+        StrictModes no
+        UsePAM no
+        PidFile none
+        SetEnv PYTHONPATH={TESTS}
+    """
+    (tmp_path / "sshd_config").write_text(settings)
+    if os.geteuid() == 0:
+        Path("/run/sshd").mkdir(exist_ok=True)
+    command = ["/usr/sbin/sshd", "-D", "-e", "-f", tmp_path / "sshd_config"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as server:
+        assert any("Server listening" in line for line in server.stderr)
+        yield {"port": port, "client_keys": str(tmp_path / "client"), "known_hosts": None}
+        server.terminate()
+
+
+@pytest.mark.slow
+def test_the_cluster_over_ssh_gives_the_same_results_with_tls_when_a_worker_is_killed(cluster, sshd, tls, tmp_path):
+    import dask
+
+    folder, client = tls
+    address = cluster(
+        "",
+        ('"this-computer", "worker-a", "worker-b"', '"127.0.0.1", "127.0.0.1", "127.0.0.1"'),
+        ('"n_workers": 8, ', ""),
+        ("SSHCluster(hosts, ", f"SSHCluster(hosts, connect_options={sshd}, scheduler_options={{'protocol': 'tls://'}}, "),
+        environment={"DASK_CONFIG": str(folder)}.items(),
+        script=SSH,
+    )
+    assert address.startswith("tls://")
+    with dask.config.set(client):
+        found = map_kept(Fatal(str(tmp_path / "killed"), 4), ITEMS, tmp_path / "kept", Workers(address=address))
+    assert (tmp_path / "killed").exists()
+    assert found.results == RESULTS
+    assert sum(share.items for share in found.shares.values()) == len(ITEMS)
