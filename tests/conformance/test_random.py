@@ -56,6 +56,7 @@ def test_a_hundred_thousand_random_frames_give_the_same_on_both(rtl):
         seed += 1
 
 
+@pytest.mark.gateware  # with those that perform them on the Verilog too
 def test_the_random_scripts_meet_every_result_every_fault_and_every_state():
     results, states, faults, emissions = Counter(), State(0), Fault(0), 0
     for seed in SEEDS:
@@ -85,6 +86,7 @@ def values_read(script, answers):
     return values
 
 
+@pytest.mark.gateware
 def test_the_random_scripts_move_every_register_that_can_move():
     """What nothing moves is compared at its value after reset only: give `random_script` what moves it."""
     values = {register: set() for register in Register}

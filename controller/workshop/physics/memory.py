@@ -39,7 +39,8 @@ def loaded_bytes(modes: Modes, samples: int, bit_clock_hz: float) -> float:
     """Bytes in which responses are loaded by a finger, at the receptances of their points."""
     frequencies = 2 * samples * min(0.5, float(modes.angular_frequency.max()) / (2 * np.pi * bit_clock_hz))
     resonances = 16.0 * modes.count * frequencies  # for the band, and for its rest
-    return 2 * resonances + 2 * 8.0 * POINTS_LOADED * CHANNELS * samples
+    rests = 3 * -(-samples // REST_SAMPLES)  # as they are added up
+    return 2 * resonances + 8.0 * POINTS_LOADED * CHANNELS * (2 * samples + rests)
 
 
 def focus_bytes(modes: Modes, samples: int, times: int) -> float:

@@ -22,7 +22,7 @@ from controller.workshop.physics.responses.loaded_responses import words_source
 FILE = Path(__file__).with_name("model_responses.json")
 TOLERANCE = 1e-6  # of the rms of a response: rounding of other processors and libraries
 POINTS_M = ((0.031, 0.042), (0.1, 0.07))
-SAMPLES, KEPT = slice(100, 1000, 150), slice(100, 1250, 91)
+SAMPLES, KEPT = slice(100, 1000, 150), slice(100, 1500, 91)
 PLATES = {
     "supported": {},
     "mindlin": {"theory": "mindlin"},

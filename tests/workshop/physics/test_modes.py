@@ -149,7 +149,7 @@ def test_a_bank_of_all_modes_without_factors_has_the_entries_of_one_with_them():
     print(f"{closed.count} modes at {len(ROWS)} points: {difference:.1e} of the largest response")
     assert difference < 1e-5
     assert entries_bytes(found.plate_modes, 1000, 24) - entries_bytes(closed, 1000, 24) == pytest.approx(
-        4 * POINTS_PER_GEMM * (1250 * 32 + 35 * closed.count) - 4 * 1250 * 32 * (closed.factors.x_index.max() + 1)
+        4 * POINTS_PER_GEMM * (1500 * 32 + 35 * closed.count) - 4 * 1500 * 32 * (closed.factors.x_index.max() + 1)
     )
 
 

@@ -21,7 +21,7 @@ VACUUM_F_M = 8.854e-12
 CERAMIC = (500.0, 4000.0)  # relative permittivity of piezo ceramics, hard to soft
 CERAMIC_MM = (0.05, 3.0)  # thickness that is made
 PARTS_DIFFER = 1.5  # datasheets allow 30 % of capacitance; glue is not known better
-BANK_BYTES = 44.1  # of a cell, for each sample: drive words as frames, and responses
+BANK_BYTES = 52.1  # of a cell, for each sample: drive words as frames, and responses
 LARGEST_BANK_BYTES = 4e9
 
 
