@@ -120,7 +120,7 @@ class Outputs:
         if not self.ramped_down(now_s):
             return False
         if self.on or self.idle:
-            if self.on and self._session.heartbeat_due_s <= now_s:
+            if self.on and min([one.heartbeat_due_s for one in self._exchanges]) <= now_s:
                 self._heartbeat()
             return False
         if self.waking and now_s >= self._woken_s + WAKE_S:

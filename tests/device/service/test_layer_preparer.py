@@ -4,6 +4,7 @@ import json
 import os
 import selectors
 import signal
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -144,6 +145,19 @@ def test_a_helper_that_hangs_is_ended_and_the_next_layer_is_checked(preparer, mo
     monkeypatch.undo()
     works(preparer)
     assert preparer.helper.process.pid != before
+
+
+def test_what_a_process_waited_for_a_processor_is_what_the_kernel_counts():
+    counted = Path("/proc/self/schedstat")
+    if not counted.exists():
+        pytest.skip("this kernel does not count it")
+    before_s, found_s, after_s = [
+        int(counted.read_text().split()[1]) * 1e-9,
+        helper_process.starved_s(os.getpid()),
+        int(counted.read_text().split()[1]) * 1e-9,
+    ]
+    assert 0 < before_s <= found_s <= after_s
+    assert helper_process.starved_s(0) == 0, "there is no such process"
 
 
 def test_no_process_left_is_a_refusal(preparer, monkeypatch):
