@@ -3,12 +3,14 @@
 import struct
 import warnings
 import wave
+from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
 from tables import each_row
 
 from controller.errors import CalibrationError
-from controller.workshop.calibration.records.record_formats import load_uff, load_wav
+from controller.workshop.calibration.records.record_formats import load_array, load_uff, load_wav
 
 SAMPLES = [1e-3 * number for number in range(1, 11)]
 TIMES_S = [1e-6 * number for number in range(10)]
@@ -101,3 +103,23 @@ def test_a_file_that_is_cut_short_is_refused_whatever_python_does_with_warnings(
 def test_another_track_or_rate_is_refused(recorded, track, rate_hz, said):
     with pytest.raises(CalibrationError, match=said):
         load_wav(recorded, track, rate_hz)
+
+
+def test_no_two_threads_parse_the_header_of_an_array_at_once(tmp_path, monkeypatch):
+    """Which may fail in Python 3.11 and 3.12, by a state of all threads (python/cpython#106905)."""
+    within, most, load = [], [], np.load
+
+    def counted(*arguments, **options):
+        within.append(arguments)
+        most.append(len(within))
+        try:
+            return load(*arguments, **options)
+        finally:
+            within.pop()
+
+    monkeypatch.setattr(np, "load", counted)
+    np.save(tmp_path / "one.npy", np.arange(3.0))
+    with ThreadPoolExecutor(4) as pool:
+        arrays = list(pool.map(load_array, [tmp_path / "one.npy"] * 400))
+    assert max(most) == 1
+    assert len(most) == len(arrays) == 400

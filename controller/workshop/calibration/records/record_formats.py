@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import warnings
 import zipfile
 from dataclasses import dataclass
@@ -25,6 +26,9 @@ UFF_JITTER = 0.01  # of a step, by which a time may differ
 UFF_DIGITS = 1e-6  # of the largest time: times have six digits
 RATE_TOLERANCE = 1e-4  # the abscissa of a set has six digits
 
+# Python 3.11 and 3.12 parse the header of an array in one state for all threads: two at once may fail (python/cpython#106905).
+ONE_HEADER = threading.Lock()
+
 Numbers = NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
 
 
@@ -45,13 +49,14 @@ def load_array(file: Path, name: str = "records") -> Numbers:
     array: Numbers
     try:
         if file.suffix.lower() == ".npy":
-            array = np.load(file, mmap_mode="r", allow_pickle=False)
+            with ONE_HEADER:
+                array = np.load(file, mmap_mode="r", allow_pickle=False)
         else:
             with zipfile.ZipFile(file) as members:
                 size = sum(member.file_size for member in members.infolist())
             if size > LARGEST_BYTES:
                 raise CalibrationError(f"{file}: {size / 1e9:.1f} GB of arrays: divide it, into a .npy file for each point")
-            with np.load(file, allow_pickle=False) as arrays:
+            with ONE_HEADER, np.load(file, allow_pickle=False) as arrays:
                 if name not in arrays:
                     raise CalibrationError(f"{file}: no array {name!r}; there are: {', '.join(arrays.files)[:200] or 'none'}")
                 array = arrays[name]
