@@ -9,7 +9,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import announced_chirps, fpga_link, fpga_links, touch_panel_of
+from controller.commands.common.arguments import require_within
+from controller.commands.common.fpga_link import LINK_RANGES, announced_chirps, fpga_link, fpga_links, touch_panel_of
 from controller.commands.common.output import progress_bar, show
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board, own_board
@@ -48,6 +49,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def examine(options: argparse.Namespace) -> int:
     """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
+    require_within(options, LINK_RANGES)
     board = load_board(find_board(options.board or own_board()), several=True)
     real = MonotonicClock()
     findings = look(board, real.now_s, touch_panel_of(board)) + _releases()

@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.commands.common.arguments import number
+from controller.commands.common.arguments import require_within
 from controller.console import tell
 from controller.errors import UsageError
 from controller.programs import SHOWN_EVERY_S, end, repeat
@@ -40,7 +40,7 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     command.add_argument("--fingers", type=int, default=2, choices=range(5), metavar="N", help="that move, 0 to 4 (default: 2)")
     command.add_argument(
         "--ghosts",
-        type=_probability,
+        type=float,
         default=0.0,
         metavar="P",
         help="probability of a false contact during an emission (default: 0)",
@@ -70,6 +70,7 @@ def run(options: argparse.Namespace) -> int:
     from controller.workshop.bank_builder.request import BankRequest
     from controller.workshop.simulation.served_panel import ghostly, moving, replayed, serve
 
+    require_within(options, {"touched_s": (0, 1e9), "ghosts": (0, 1)})
     board = load_board(find_board(options.board))
     asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
     settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
@@ -99,13 +100,6 @@ def run(options: argparse.Namespace) -> int:
             serve(board, settings, bank, touched, ready)
     tell(f"served for {time.monotonic() - started_s:.0f} s")
     return 0
-
-
-def _probability(text: str) -> float:
-    probability = number(text)
-    if not 0 <= probability <= 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number from 0 to 1")
-    return probability
 
 
 def _leave_output() -> None:

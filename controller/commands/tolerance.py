@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from controller.commands.common.arguments import natural
+from controller.commands.common.arguments import natural, require_within
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.worker_options import add_worker_options, workers_of
@@ -69,10 +69,8 @@ def tolerance(options: argparse.Namespace) -> int:
     from controller.workshop.tolerance.study import Study
     from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances
 
-    limits = {"plates": (1, PLATES_MAX), "places": (1, 100), "points": (100, 10_000), "snr_db": (0, 100), "least": (0, 2)}
-    for name, (low, high) in limits.items():
-        if not low <= getattr(options, name) <= high:  # NaN too
-            raise UsageError(f"--{name.replace('_', '-')} {getattr(options, name):g}: must be {low} to {high:,}")
+    ranges = {"places": (1, 100), "points": (100, 10_000), "snr_db": (0, 100), "least": (0, 2)}
+    require_within(options, ranges | dict.fromkeys(("plates", "intervals"), (1, PLATES_MAX)))
     if options.alone > options.plates:
         raise UsageError(f"--alone {options.alone}: at most as many as --plates {options.plates}")
     tolerances = load_toml(options.tolerances or SHIPPED, Tolerances)
@@ -103,10 +101,7 @@ def tolerance(options: argparse.Namespace) -> int:
 def _intervals(options: argparse.Namespace, tolerances: Tolerances) -> int:
     """Print how often intervals hold the truth."""
     from controller.workshop.tolerance.coverage import interval_figures
-    from controller.workshop.tolerance.figures import PLATES_MAX
 
-    if not 1 <= options.intervals <= PLATES_MAX:
-        raise UsageError(f"--intervals {options.intervals}: must be 1 to {PLATES_MAX:,}")
     board = load_board(find_board("simulated"))
     show(options, interval_figures(board, tolerances, options.intervals, workers_of(options)), _interval_table)
     return 0

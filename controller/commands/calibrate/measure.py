@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
+from controller.commands.common.arguments import require_within
 from controller.commands.common.output import show
 from controller.commands.common.tables import plain_table
 from controller.console import tell
@@ -227,16 +228,16 @@ def _check(options: argparse.Namespace, board: Board) -> None:
         raise UsageError("give the sensor's sensitivity: --v-per-m, --v-per-m-s or --v-per-m-s2")
     if given and not (options.alsa or options.serial):
         raise UsageError("a sensitivity is of use with --alsa or --serial")
-    ranges = {"rate_khz": (2e-3 * board.waveform.band_high_hz, 1e5), "full_scale": (1e-9, 1e6), "repetitions": (1, 1000)}
-    ranges |= {"baud": (9600, 12_000_000), "noise": (0, 1e3)}
-    optional = {
+    ranges = {
+        "rate_khz": (2e-3 * board.waveform.band_high_hz, 1e5),
+        "full_scale": (1e-9, 1e6),
+        "repetitions": (1, 1000),
+        "baud": (9600, 12_000_000),
+        "noise": (0, 1e3),
         "record_ms": (board.waveform.duration_ms, 1e3),
         "temperature_c": (-50, 150),
         "sensor_mass_mg": (0, 1e4),
-    } | dict.fromkeys(SENSITIVITIES, (1e-9, 1e12))
-    ranges |= {name: bounds for name, bounds in optional.items() if getattr(options, name) is not None}
-    for name, (least, most) in ranges.items():
-        if not least <= getattr(options, name) <= most:  # NaN too
-            raise UsageError(f"--{name.replace('_', '-')} {getattr(options, name):g}: not from {least:g} to {most:g}")
+    }
+    require_within(options, ranges | dict.fromkeys(SENSITIVITIES, (1e-9, 1e12)))
     if options.sync is not None and options.sync not in {actuator.channel for actuator in board.actuators}:
         raise UsageError(f"--sync {options.sync}: board {board.name!r} has no such channel")

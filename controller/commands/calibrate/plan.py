@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from controller.commands.common.arguments import require_within
 from controller.commands.common.output import picture_path, show
 from controller.console import tell
 from controller.device.board.board import load_board
@@ -54,9 +55,7 @@ def plan(options: argparse.Namespace) -> int:
     board = load_board(find_board(options.board))
     if options.grid and (options.margin_mm is not None or options.avoid_actuators):
         raise UsageError("--grid covers the whole plate: --margin-mm and --avoid-actuators are for scattered points")
-    for name, least in (("record_ms", 1e-3), ("repetitions", 1), ("speed_mm_s", 1e-3), ("settle_ms", 0.0)):
-        if not least <= getattr(options, name) <= 1e6:  # NaN too
-            raise UsageError(f"--{name.replace('_', '-')} {getattr(options, name):g}: not from {least:g} to 1e6")
+    require_within(options, {"record_ms": (1e-3, 1e6), "repetitions": (1, 1e6), "speed_mm_s": (1e-3, 1e6), "settle_ms": (0, 1e6)})
     if options.grid:
         points_m = grid_points(board)
     else:

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import require_within
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import plain_table
 from controller.device.board.board import Board, load_board
@@ -144,10 +145,9 @@ def _check(options: argparse.Namespace, board: Board) -> None:
         "sensor_mass_mg": (0, 1e4),
         "missing": (0, 0.99),
         "seed": (0, 2**32),
-    } | ({"clip": (1e-6, 1)} if options.clip is not None else {})
-    for name, (least, most) in ranges.items():
-        if not least <= getattr(options, name) <= most:  # NaN too
-            raise UsageError(f"--{name.replace('_', '-')} {getattr(options, name):g}: not from {least:g} to {most:g}")
+        "clip": (1e-6, 1),
+    }
+    require_within(options, ranges)
     there = {actuator.channel for actuator in board.actuators}
     for name, channels in (
         ("dead", options.dead),

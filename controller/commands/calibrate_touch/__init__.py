@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
-from controller.commands.common.arguments import number
+from controller.commands.common.arguments import require_within
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board, load_board
@@ -64,7 +64,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         metavar="DEVICE",
         help="with --lag: the mouse, best by its path below /dev/input/by-id; -: steps of a page's mouse on stdin, with --socket",
     )
-    command.add_argument("--seconds", type=_seconds, metavar="N", help="with --lag: for so long (default: 20)")
+    command.add_argument("--seconds", type=float, metavar="N", help="with --lag: for so long (default: 20)")
     command.add_argument("--out", metavar="FILE", help="with --ghosts or --lag: store the measurement, for --replay")
     command.add_argument("--replay", metavar="FILE", help="take the touches from a recording, not from the board's panel")
     command.add_argument("--write", action="store_true", help="change these lines of the board's board.toml")
@@ -119,6 +119,7 @@ def _opened(board: Board, replay: str | None, targets: Sequence[Point]) -> tuple
 
 def _refuse_what_makes_no_sense(options: argparse.Namespace) -> None:
     """Raise for an option that does not belong to the chosen measurement."""
+    require_within(options, {"seconds": (5, 600)})
     mode = "--ghosts" if options.ghosts else "--lag" if options.lag else ""
     belongs = {  # to what an option belongs; empty: to the axes
         "targets": ("",),
@@ -141,13 +142,6 @@ def _refuse_what_makes_no_sense(options: argparse.Namespace) -> None:
     for name in ("out", "reference", "seconds", "bank"):
         if options.replay and getattr(options, name) is not None:
             raise UsageError(f"--{name} is of no use with --replay: nothing is measured")
-
-
-def _seconds(text: str) -> float:
-    seconds = number(text)
-    if not 5 <= seconds <= 600:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number from 5 to 600")
-    return seconds
 
 
 def _bare(board: Board) -> Board:

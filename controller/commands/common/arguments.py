@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final, NoReturn
 
 from controller.errors import UsageError
@@ -71,13 +72,16 @@ def meant(word: str, known: Iterable[str]) -> str:
 
 
 def number(text: str) -> float:
-    """Argument that is a number."""
+    """Argument that is a finite number."""
     try:
-        return float(text)
+        value = float(text)
     except ValueError:
         comma = DECIMAL_COMMA.fullmatch(text)
         instead = f": write {comma[1]}.{comma[2]}, with a decimal point instead of a comma" if comma else ""
         raise argparse.ArgumentTypeError(f"{text!r} is not a number{instead}") from None
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a finite number")
+    return value
 
 
 def whole_number(text: str) -> int:
@@ -98,6 +102,14 @@ def natural(text: str) -> int:
 def seconds(text: str) -> float:
     """Argument that is a time in s, above 0."""
     value = number(text)
-    if not 0 < value < 1e9:  # NaN too
+    if not 0 < value < 1e9:
         raise argparse.ArgumentTypeError(f"{text!r} is not a time above 0 s")
     return value
+
+
+def require_within(options: argparse.Namespace, ranges: Mapping[str, tuple[float, float]]) -> None:
+    """Raise UsageError for an option whose number is outside of its range (least, most); one that was not given is None."""
+    for name, (least, most) in ranges.items():
+        value = getattr(options, name)
+        if value is not None and not least <= value <= most:
+            raise UsageError(f"--{name.replace('_', '-')} {value:g}: not from {least:g} to {most:g}")

@@ -17,6 +17,8 @@ from controller.device.touch.event_reader import EventReader
 if TYPE_CHECKING:
     from controller.workshop.gateware.gateware import GatewareFactory
 
+LINK_RANGES = {"bits": (1, 1e10), "pause_s": (0, 60)}  # of the options of whoever examines a link: outputs are on between chirps
+
 
 def open_fpga_of(board: Board) -> OpenLink:
     """What opens the link to the FPGA of `board`."""

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import announced_chirps, fpga_link, fpga_links
+from controller.commands.common.arguments import require_within
+from controller.commands.common.fpga_link import LINK_RANGES, announced_chirps, fpga_link, fpga_links
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import check_table
 from controller.commands.gateware import build as gateware_build
@@ -70,6 +71,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def gateware_check(options: argparse.Namespace) -> int:
     """Check an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
+    require_within(options, LINK_RANGES)
     board = load_board(find_board(options.board), several=True)
     if options.device:
         if board.link.fpga:

@@ -369,7 +369,7 @@ def test_records_begin_when_their_file_says_at_a_rate_that_has_no_whole_number_o
         (["--rate-khz", "100"], "--rate-khz 100: not from 140"),
         (["--repetitions", "0"], "--repetitions 0: not from 1"),
         (["--sync", "30"], "--sync 30: board 'simulated' has no such channel"),
-        (["--temperature-c", "nan"], "--temperature-c nan"),
+        (["--temperature-c", "nan"], "--temperature-c: 'nan' is not a finite number"),
     ],
 )
 def test_options_that_make_no_sense_are_refused(folder, capsys, arguments, said):

@@ -183,7 +183,7 @@ def test_what_is_played_keeps_the_limits_and_tells_channels_apart(kind, board):
     ("arguments", "code", "said"),
     [
         (["--rate-khz", "100"], 2, "--rate-khz 100: not from 140"),
-        (["--record-ms", "nan"], 2, "--record-ms nan: not from 2"),
+        (["--record-ms", "nan"], 2, "--record-ms: 'nan' is not a finite number"),
         (["--missing", "1"], 2, "--missing 1: not from 0 to 0.99"),
         (["--dead", "99"], 2, "--dead 99: board 'simulated' has no such channel"),
         (["--swapped", "1", "-1"], 2, "--swapped -1: board"),

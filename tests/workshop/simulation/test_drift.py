@@ -239,7 +239,7 @@ def test_a_file_of_drifts(tmp_path):
     ("arguments", "code", "said"),
     [
         (["--drift-percent", "7"], 78, "--drift-percent = 7: must be a number from -5 to 5"),
-        (["--drift-percent", "nan"], 78, "--drift-percent = nan"),
+        (["--drift-percent", "nan"], 2, "--drift-percent: 'nan' is not a finite number"),
         (["--drift", "/nowhere.csv"], 78, "/nowhere.csv: cannot be read"),
         (["--sensor", "none"], 2, "--sensor is of no use"),
         (["--plate", "nowhere"], 78, "board 'nowhere' not found"),

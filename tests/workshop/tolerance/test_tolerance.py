@@ -116,9 +116,9 @@ def test_a_wrong_file_is_one_line(text, said, tmp_path, capsys):
 
 
 @each_row("options, said", [
-    (["--plates", "0"], "--plates 0: must be 1"),
-    (["--least", "nan"], "--least nan"),
-    (["--points", "20"], "--points 20: must be 100"),
+    (["--plates", "0"], "--plates 0: not from 1"),
+    (["--least", "3"], "--least 3: not from 0 to 2"),
+    (["--points", "20"], "--points 20: not from 100"),
     (["--alone", "41"], "--alone 41: at most as many as --plates 40"),
     (["--plates", "4", "--alone", "1", "--workers", "0"], "--workers: 1 or more"),
 ])  # fmt: skip
