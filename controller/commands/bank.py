@@ -72,7 +72,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         nargs="?",
         const=4,
         metavar="FOCI",
-        help="what each method of making drive words buys on this plate instead: felt amplitude, edges, heat, dB(A) of so many foci"
+        help="what each method of making drive words buys on this plate instead: felt amplitude, edges, heat, dB(A) of FOCI foci"
         " (default: 4; two minutes of a core)",
     )
     choices.set_defaults(command=bank_choices)

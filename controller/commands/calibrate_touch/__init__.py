@@ -203,7 +203,7 @@ def _table(figures: dict[str, Any]) -> str:
 
 
 def residual_words(residual: dict[str, float | None] | None, targets: int) -> str:
-    """How well the touches of so many targets agree, in words."""
+    """How well the touches of all targets agree, in words."""
     if residual is None:
         return "residual: none with 3 targets, which any map meets; take 4 or 5 to see whether they agree"
     return f"residual: {residual['rms']:.2f} mm rms, {residual['worst']:.2f} mm at the worst of {targets}, each against the others"

@@ -38,7 +38,7 @@ class Progress(Protocol):
     """Takes note of how far a calibration is."""
 
     def __call__(self, step: int, of: int, words: str, at_mm: Point | None = None) -> None:
-        """So many of so many steps are done; what is to be done now, and where."""
+        """`step` of `of` steps are done; what is to be done now, and where."""
 
 
 def running_axes(panel: PanelClient, targets: Sequence[Point], progress: Progress) -> Calibration:

@@ -180,7 +180,7 @@ def _judged(judge: Judge, methods: Sequence[Candidate], given: TabledScene) -> d
 
 
 def _tabled(drawn: Sequence[FingerScene], most: int) -> list[TabledScene]:
-    """Scenes with a finger, and whether methods from tables take part: in so many of each family."""
+    """Scenes with a finger, and whether methods from tables take part: in a number of scenes of each family."""
     seen: Counter[str] = Counter()
     found = []
     for scene in drawn:

@@ -100,7 +100,7 @@ def interpolate(
 
 
 def errors_looked_for(board: Board, points: int) -> bool:
-    """Whether errors of single points are looked for among so many that are no grid."""
+    """Whether errors of single points are looked for: among enough points, and no grid."""
     return FITTED_SHARE * scattered_count(board) <= points <= MOST_FITTED
 
 

@@ -26,7 +26,7 @@ from controller.workshop.calibration.transfers import RawBins
 
 MANY = 256, 32, 40  # points, patches and bins, at most
 FEW = 32, 8, 16  # by which the lattice is searched
-EDGE_WAVES = 0.5  # nearer to an edge than so many of the longest waves, what it sends back comes with the direct wave
+EDGE_WAVES = 0.5  # nearer to an edge than this share of the longest wave, what it sends back comes with the direct wave
 LOWER = 0.4  # of the band, in which the lattice is searched
 OFFSETS_M = (-8e-3, -4e-3, 0.0, 4e-3, 8e-3)
 ROTATIONS = (0.0, -0.03, 0.03)  # in rad

@@ -10,7 +10,7 @@ from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
 from controller.workshop.bank_builder.methods.audible_form import bins_hz
-from controller.workshop.bank_builder.methods.measured_plate import Cosines, MeasuredPlate
+from controller.workshop.bank_builder.methods.measured_plate import CosineShapes, MeasuredPlate
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.interpolated import POINTS_AT_ONCE, InterpolatedResponses
 from controller.workshop.calibration.point_plan import scattered_count
@@ -98,14 +98,14 @@ def _unforeseen(board: Board, source: InterpolatedResponses, points_m: NDArray[n
 
 def _cosines(
     columns: int, rows: int, extents_m: tuple[float, float], highest: float
-) -> tuple[Cosines, tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """Cosines of up to so many half waves a metre, and where they are among all of a grid: row, column."""
+) -> tuple[CosineShapes, tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Cosines up to a number of half waves a metre, and where they are among all of a grid: row, column."""
     y_index, x_index = np.nonzero(np.hypot(np.arange(columns) / extents_m[0], np.arange(rows)[:, None] / extents_m[1]) <= highest)
-    return Cosines(*extents_m, x_index, y_index), (y_index, x_index)
+    return CosineShapes(*extents_m, x_index, y_index), (y_index, x_index)
 
 
 def _by_cosine(values: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Values at the middles of equal cells, (row, column, any), as amplitudes of cosines of so many half waves."""
+    """Values at the middles of equal cells, (row, column, any), as amplitudes of cosines of given half waves."""
     for axis in (0, 1):
         values = dct(values, type=2, axis=axis, norm="forward", overwrite_x=True)
         values[(slice(None),) * axis + (slice(1, None),)] *= 2

@@ -81,9 +81,9 @@ def proposal(version: str, rollout: Rollout | None, opened_ppm: int, fleet: Flee
     """What to do about a release, `stop`, `hold`, `wait`, `open` or `go on`, and why.
 
     Stop: two devices or more, above 2 % of those heard of, are faulted or rolled back, and more than twice the share of the other
-    releases' devices that are faulted. Hold: so many are faulted, rolled back, or were heard of with this release and fell silent
-    that chance gives as many in less than 5 % of cases, by the shares of the others. Wait: less than 80 % of the devices that are
-    due were heard of, less what chance leaves out, or the next step's time has not come. Else it may be opened.
+    releases' devices that are faulted. Hold: the number that is faulted or rolled back, or was heard of with this release and fell
+    silent, is one that chance exceeds in less than 5 % of cases, by the shares of the others. Wait: less than 80 % of the devices
+    that are due were heard of, less what chance leaves out, or the next step's time has not come. Else it may be opened.
     """
     tally = fleet.releases.get(version, Tally())
     others = [other for name, other in fleet.releases.items() if name != version]
@@ -111,7 +111,7 @@ def proposal(version: str, rollout: Rollout | None, opened_ppm: int, fleet: Flee
 
 
 def at_least(count: int, expected: float) -> float:
-    """Probability of `count` or more, where so many are expected, by Poisson's distribution."""
+    """Probability of `count` or more, where `expected` are expected, by Poisson's distribution."""
     if expected == 0:
         return float(count == 0)
     logs = (number * math.log(expected) - expected - math.lgamma(number + 1) for number in range(count))  # exp(-800) is 0

@@ -65,7 +65,7 @@ class LazyLink:
 
 
 class LazyGroup(LinkGroup):
-    """`LinkGroup` to so many FPGAs, which are opened together by the first exchange for which all are there.
+    """`LinkGroup` to a number of FPGAs, which are opened together by the first exchange for which all are there.
 
     `open_links` returns the open links, or raises LinkError.
     """

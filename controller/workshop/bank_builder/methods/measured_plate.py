@@ -27,7 +27,7 @@ SAMPLES_AT_ONCE = 20  # of `MeasuredDrive.moves`
 
 
 @dataclass(frozen=True)
-class Cosines:
+class CosineShapes:
     """Shapes cos(pi x_index x / length) cos(pi y_index y / width)."""
 
     length_m: float
@@ -46,7 +46,7 @@ class Cosines:
         return np.where(self.x_index > 0, 0.5, 1.0) * np.where(self.y_index > 0, 0.5, 1.0)
 
     @property
-    def factors(self) -> Cosines:
+    def factors(self) -> CosineShapes:
         """The factors of the shapes: `TensorFactors`."""
         return self
 
@@ -71,7 +71,7 @@ class Cosines:
 class MeasuredPlate:
     """What is known of a measured plate, as far as entries are optimised by it."""
 
-    shapes: Cosines
+    shapes: CosineShapes
     samples: int  # of an emission
     moved: NDArray[np.float32]  # (line, cosine, 32): in m per V
     heard: Floats  # (bin, 32, 32): energy at the surface up to 20 kHz, of bins as `AudibleForm` has them, in any unit
@@ -101,7 +101,7 @@ class MeasuredPlate:
         """What `write` has written; raises OSError or ValueError."""
         with np.load(path) as file:
             length_m, width_m, samples, unforeseen, first_line = file["sizes"].tolist()
-            shapes = Cosines(length_m, width_m, *file["indices"])
+            shapes = CosineShapes(length_m, width_m, *file["indices"])
             return cls(shapes, int(samples), file["moved"], file["heard"], unforeseen, int(first_line))
 
 
