@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+from inspect import cleandoc
 from typing import Any
 
 import msgspec
@@ -21,6 +22,9 @@ def protocol_schema() -> dict[str, Any]:
     """The schema; regions and effects of a client are those of a scene."""
     kinds = AnyRequest, AnyMessage, AnyRegionTable, EffectTable
     (request, message, region, effect), found = msgspec.json.schema_components(kinds, ref_template="#/$defs/{name}")
+    for record in found.values():
+        if "description" in record:
+            record["description"] = cleandoc(record["description"])  # Python 3.13 does so itself
     regions = found["Regions"]["properties"]
     regions["regions"]["items"] = region
     found["Clip"]["properties"]["effect"] = effect
