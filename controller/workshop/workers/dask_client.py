@@ -10,6 +10,7 @@ import platform
 from collections.abc import Iterator
 from typing import Any
 
+from controller.console import tell
 from controller.errors import ControllerError, WorkersError
 from controller.workshop.workers.workers import Workers
 
@@ -44,8 +45,11 @@ def dask_errors(where: str) -> Iterator[None]:
         said = " ".join(str(error).split())[:SAID_CHARACTERS]
         if "deserialization" in said:
             raise WorkersError(f"{where}: scheduler or workers lack this package: {SAME}; {KEPT}") from error
-        if isinstance(error, KilledWorker | CancelledError):
-            raise WorkersError(f"{where}: the workers are lost ({said}); {KEPT}") from error
+        if isinstance(error, KilledWorker):
+            lost = f"a task has lost its worker {error.allowed_failures + 1} times, the last was {error.last_worker.address}"
+            raise WorkersError(f"{where}: {lost}: it may need more memory; {KEPT}") from error
+        if isinstance(error, CancelledError):
+            raise WorkersError(f"{where}: the scheduler is lost ({said}); {KEPT}") from error
         why = f"{type(error).__name__}: {said}" if said else type(error).__name__
         raise WorkersError(f"{where}: dask failed ({why}); {KEPT}") from error
 
@@ -60,7 +64,8 @@ def open_client(workers: Workers) -> Iterator[Any]:
     import dask
     from distributed import Client, LocalCluster
 
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # the failure is reported once, by this program
+    for name in ("distributed", "distributed.client"):  # the failure is reported once, by this program
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     with contextlib.ExitStack() as stack:
         stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": LOST_WORKERS}))
         if not workers.strangers:
@@ -79,7 +84,10 @@ def open_client(workers: Workers) -> Iterator[Any]:
         address = workers.address or _address_in(workers)
         _require_same(f"{workers.option}: the scheduler", asyncio.run(_versions(address, workers.option)))
         client = stack.enter_context(Client(address, timeout=FOUND_WITHIN_S))
-        for worker, reported in client.get_versions()["workers"].items():
+        found = client.get_versions()["workers"]
+        if not found:
+            tell(f"{workers.option}: the scheduler has no workers yet; they are waited for")
+        for worker, reported in found.items():
             _require_same(f"{workers.option}: the worker {worker}", reported)
         yield client
 
@@ -94,12 +102,16 @@ def _address_in(workers: Workers) -> str:
         raise WorkersError(f"{workers.option}: not the file of a running `dask scheduler --scheduler-file` ({why})") from error
 
 
-def results_of(number_of: dict[Any, int]) -> Iterator[tuple[int, Any]]:
-    """Number of each future and its result, as they come."""
+def answers_of(client: Any, where: str, task_of: dict[Any, Any]) -> Iterator[Any]:
+    """What workers answer to the task of each future, as it comes; raises WorkersError if one answers something else."""
     from distributed import as_completed
 
-    for future in as_completed(list(number_of)):
-        yield number_of[future], future.result()
+    for future in as_completed(list(task_of)):
+        answer = future.result()
+        if not task_of[future].is_answered(answer):
+            (workers,) = client.who_has([future]).values()
+            raise WorkersError(f"{where}: the worker {', '.join(workers)} answered what is no result: end it; {KEPT}")
+        yield answer
         future.release()
 
 
@@ -110,7 +122,7 @@ async def _versions(address: str, option: str) -> dict[str, Any]:
     try:
         async with rpc(address, timeout=FOUND_WITHIN_S, connection_args=Security().get_connection_args("client")) as scheduler:
             return dict(await asyncio.wait_for(scheduler.versions(), FOUND_WITHIN_S))
-    except (OSError, ValueError, TypeError, TimeoutError) as error:
+    except (OSError, ValueError, TypeError, TimeoutError, MemoryError) as error:
         why = " ".join(str(error).split())[:SAID_CHARACTERS] or "no answer in time"
         raise WorkersError(f"{option}: no dask scheduler answers there ({why})") from error
 

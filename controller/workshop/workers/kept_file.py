@@ -17,6 +17,19 @@ from controller.regular_file import open_private
 RECORD = struct.Struct("<QI")  # number of the item, bytes of its result; then these; then the CRC-32 of all
 
 
+def record_of(number: int, result: bytes) -> bytes:
+    """Record of a result."""
+    return sealed(RECORD.pack(number, len(result)) + result)
+
+
+def result_in(record: object) -> tuple[int, bytes] | None:
+    """Number and result of a record; None if it is none."""
+    if not isinstance(record, bytes) or len(record) < RECORD.size + 4 or not intact(record):
+        return None
+    number, size = RECORD.unpack_from(record)
+    return (number, record[RECORD.size : -4]) if len(record) == RECORD.size + size + 4 else None
+
+
 class KeptFile:
     """The file of results that are there, one record each, of which the last may be torn."""
 
@@ -25,11 +38,11 @@ class KeptFile:
         self.results: dict[int, bytes] = {}
         whole = 0
         while len(head := file.read(RECORD.size)) == RECORD.size:
-            number, size = RECORD.unpack(head)
+            _, size = RECORD.unpack(head)
             record = head + file.read(min(size, os.fstat(file.fileno()).st_size) + 4)  # a torn size may be any
-            if len(record) != RECORD.size + size + 4 or not intact(record):
+            if (found := result_in(record)) is None:
                 break
-            self.results[number] = record[RECORD.size : -4]
+            number, self.results[number] = found
             whole += len(record)
         file.seek(whole)
         file.truncate()
@@ -52,10 +65,10 @@ class KeptFile:
             with writing(path):  # it flushes
                 file.close()
 
-    def add(self, number: int, result: bytes) -> None:
+    def add(self, record: bytes) -> None:
         """Append a result; raises WorkersError if it cannot be written."""
         with writing(self._path):
-            self._file.write(sealed(RECORD.pack(number, len(result)) + result))
+            self._file.write(record)
 
     def flush(self) -> None:
         """Hand what was added to the system; raises WorkersError if it cannot be written."""

@@ -22,8 +22,8 @@ from tqdm import tqdm
 
 from controller.device.bank.file_format import creator
 from controller.errors import WorkersError
-from controller.workshop.workers.dask_client import dask_errors, open_client, results_of
-from controller.workshop.workers.kept_file import KeptFile
+from controller.workshop.workers.dask_client import answers_of, dask_errors, open_client
+from controller.workshop.workers.kept_file import KeptFile, record_of, result_in
 from controller.workshop.workers.workers import ALONE, Workers
 
 Item = TypeVar("Item")
@@ -56,24 +56,40 @@ class Mapped:
 
 
 @dataclass(frozen=True)
+class Answer:
+    """What a worker makes of a task."""
+
+    records: list[bytes]  # as `kept_file` keeps them, with a CRC from where they were computed
+    worker: str
+    share: Share
+
+
+@dataclass(frozen=True)
 class Group(Generic[Item]):
-    """A task: some items, the function for them, and who asks."""
+    """A task: some items by number, the function for them, and who asks."""
 
     function: Callable[[Sequence[Item]], Sequence[bytes]]
-    items: tuple[Item, ...]
+    items: dict[int, Item]
     maker: str  # `creator()` of who asks: a worker of another version would compute something else
 
-    def compute(self) -> tuple[Sequence[bytes], str, Share]:
-        """Results, the worker's name and its share; raises WorkersError if it is of another version."""
+    def compute(self) -> Answer:
+        """Compute all; raises WorkersError if this worker is of another version."""
         if self.maker != creator():
             raise WorkersError(
                 f"a worker has another version than asked for: {creator()}, not {self.maker}: install the same on all"
             )
         before_s = time.process_time()
         with ONE_AT_A_TIME, threadpool_limits(1, "blas"):
-            results = self.function(self.items)
+            results = self.function(tuple(self.items.values()))
         peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024e-6
-        return results, f"{platform.node()}, process {os.getpid()}", Share(len(self.items), time.process_time() - before_s, peak_mb)
+        share = Share(len(self.items), time.process_time() - before_s, peak_mb)
+        records = [record_of(number, result) for number, result in zip(self.items, results, strict=True)]
+        return Answer(records, f"{platform.node()}, process {os.getpid()}", share)
+
+    def is_answered(self, answer: object) -> bool:
+        """Whether an answer is whole, and to this task."""
+        found = map(result_in, answer.records) if isinstance(answer, Answer) else ()
+        return [one and one[0] for one in found] == list(self.items)
 
 
 def map_kept(
@@ -102,38 +118,38 @@ def map_kept(
         mapped = Mapped(results, len(results))
         size = at_once if workers.strangers else max(1, min(at_once, -(-len(missing) // (TASKS_PER_WORKER * workers.processes))))
         groups = [missing[first : first + size] for first in range(0, len(missing), size)]
-        tasks = [Group(function, tuple(items[number] for number in group), creator()) for group in groups]
+        tasks = [Group(function, {number: items[number] for number in group}, creator()) for group in groups]
         bar = tqdm(total=len(items), initial=len(results), unit=unit, desc=what, disable=None if what else True)
         with bar, contextlib.closing(_computed(tasks, workers)) as computed:
-            for index, (found, worker, share) in computed:
-                for number, result in zip(groups[index], found, strict=True):
-                    results[number] = result
-                    done.add(number, result)
+            for answer in computed:
+                for record in answer.records:
+                    done.add(record)
                 done.flush()
-                of_worker = mapped.shares.setdefault(worker, Share())
+                results.update(filter(None, map(result_in, answer.records)))
+                of_worker, share = mapped.shares.setdefault(answer.worker, Share()), answer.share
                 of_worker.items += share.items
                 of_worker.processor_s += share.processor_s
                 of_worker.peak_mb = max(of_worker.peak_mb, share.peak_mb)
-                bar.update(len(found))
+                bar.update(share.items)
     return mapped
 
 
-def _computed(tasks: Sequence[Group[Any]], workers: Workers) -> Generator[tuple[int, tuple[Sequence[bytes], str, Share]]]:
-    """Number of each task and what it computes, as they come."""
+def _computed(tasks: Sequence[Group[Any]], workers: Workers) -> Generator[Answer]:
+    """What becomes of each task, as they come."""
     if not tasks:
         return
     if not workers.strangers and workers.processes == 1:
-        for number, task in enumerate(tasks):
-            yield number, task.compute()
+        for task in tasks:
+            yield task.compute()
         return
     with contextlib.ExitStack() as stack:
         with dask_errors(workers.option):
             client = stack.enter_context(open_client(workers))
-            number_of = {future: number for number, future in enumerate(client.map(Group.compute, tasks, pure=False))}
-            results = results_of(number_of)
+            task_of = dict(zip(client.map(Group.compute, tasks, pure=False), tasks, strict=True))
+            answers = answers_of(client, workers.option, task_of)
         while True:
             with dask_errors(workers.option):  # of dask, not of who takes the results
-                found = next(results, None)
-            if found is None:
+                answer = next(answers, None)
+            if answer is None:
                 return
-            yield found
+            yield answer

@@ -1,4 +1,5 @@
 import contextlib
+import dataclasses
 import importlib.metadata
 import json
 import os
@@ -14,6 +15,7 @@ from worker_functions import Fatal, cubes, greedy
 
 from controller.cli import main
 from controller.device.bank.file_format import creator
+from controller.device.kernel.crc import sealed
 from controller.errors import UsageError, WorkersError
 from controller.workshop.workers import dask_client as module
 from controller.workshop.workers.dask_client import dask_errors
@@ -88,7 +90,29 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path):
 
 def test_a_worker_of_another_version_is_refused():
     with pytest.raises(WorkersError, match="another version"):
-        Group(cubes, (1,), creator() + "x").compute()
+        Group(cubes, {7: 1}, creator() + "x").compute()
+
+
+def changed(answer, **other):
+    return dataclasses.replace(answer, **other)
+
+
+@each_row("garbage", [
+    lambda _: None,
+    lambda _: "garbage",
+    lambda answer: answer.records,
+    lambda answer: changed(answer, records=answer.records[:1]),
+    lambda answer: changed(answer, records=answer.records[::-1]),
+    lambda answer: changed(answer, records=[*answer.records[:1], None]),
+    lambda answer: changed(answer, records=[*answer.records[:1], b""]),
+    lambda answer: changed(answer, records=[*answer.records[:1], answer.records[1][:-1] + b"x"]),
+    lambda answer: changed(answer, records=[*answer.records[:1], sealed(bytes(12) + b"x")]),
+    lambda answer: changed(answer, records=Group(cubes, {7: 1, 9: 2}, creator()).compute().records),
+])  # fmt: skip
+def test_garbage_is_no_answer(garbage):
+    group = Group(cubes, {7: 1, 8: 2}, creator())
+    assert group.is_answered(group.compute())
+    assert not group.is_answered(garbage(group.compute()))
 
 
 @each_row("error", [TypeError("identity() got an unexpected\nkeyword"), RuntimeError(""), OSError("closed")])
@@ -181,6 +205,34 @@ def test_workers_without_the_package_are_reported(cluster, tmp_path):
 
 
 @pytest.mark.slow
+def test_a_worker_that_answers_garbage_is_named_and_nothing_of_it_is_kept(cluster, tmp_path):
+    address = cluster(
+        "from controller.workshop.workers.map_kept import Group\nGroup.compute = lambda _: 'garbage'",
+        ("n_workers=2", 'n_workers=1, processes=False, protocol="tcp://"'),
+    )
+    with pytest.raises(WorkersError, match=rf"--dask {address}: the worker tcp://[\d.:]+ answered what is no result: end it; what"):
+        map_kept(cubes, ITEMS, tmp_path / "kept", Workers(address=address))
+    assert map_kept(cubes, ITEMS, tmp_path / "kept").kept == 0
+
+
+@pytest.mark.slow
+def test_a_scheduler_without_workers_is_waited_for_and_a_line_says_so(cluster, tmp_path, monkeypatch):
+    """Until the first comes, as those of job systems do."""
+    address, begun = cluster("", ("n_workers=2", "n_workers=0")), []
+
+    def begin(line):
+        assert line == f"--dask {address}: the scheduler has no workers yet; they are waited for"
+        command = [sys.executable, "-m", "dask", "worker", address, "--no-nanny", "--no-dashboard"]
+        begun.append(subprocess.Popen(command, stderr=subprocess.DEVNULL, env=os.environ | {"PYTHONPATH": str(TESTS)}))
+
+    monkeypatch.setattr(module, "tell", begin)
+    assert map_kept(cubes, ITEMS, tmp_path / "kept", Workers(address=address)).results == RESULTS
+    (worker,) = begun
+    worker.terminate()
+    worker.wait()
+
+
+@pytest.mark.slow
 def test_a_scheduler_of_another_version_is_reported_with_both(cluster, tmp_path):
     address = cluster(
         "import importlib.metadata as reported\nversion = reported.version\n"
@@ -233,7 +285,7 @@ def test_after_kill_9_of_everything_the_same_call_goes_on(tmp_path):
 @pytest.mark.slow
 def test_a_worker_that_takes_too_much_memory_is_ended_and_said_so(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "LOST_WORKERS", 0)
-    with pytest.raises(WorkersError, match="--workers 2: the workers are lost"):
+    with pytest.raises(WorkersError, match=r"--workers 2: a task has lost its worker 1 times, .*more memory"):
         map_kept(greedy, {1: 1}, tmp_path / "kept", Workers(2, memory_mb=400))
 
 
