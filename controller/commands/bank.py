@@ -103,7 +103,8 @@ def bank_build(options: argparse.Namespace) -> int:
     wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm, compact=options.compact)
     path = Path(options.out) if options.out else wanted.own_path
     if measured_at(path):
-        tell(f"{path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}")
+        again = f"{MEASURE_AGAIN} --optimise {options.optimise}" if options.optimise else MEASURE_AGAIN
+        tell(f"{path}: its responses were measured, and become modelled; by what was measured: {again}")
     workers = workers_of(options) if options.optimise else ALONE
     try:
         report = wanted.build(path, aim=AIMS.get(options.optimise), workers=workers, memory_mb=options.memory_mb)

@@ -199,6 +199,8 @@ def test_run_does_not_replace_a_measured_bank_and_a_build_says_that_it_does(tmp_
     assert "its responses were measured, so it is not replaced" in reported
     assert "haptic-panel calibrate bank FOLDER" in reported
     assert bank_path(board).read_bytes() == measured
+    assert main(["bank", "build", "--board", str(folder), "--optimise", "quiet", "--workers", "0"]) == 2
+    assert "by what was measured: haptic-panel calibrate bank FOLDER --optimise quiet\n" in capsys.readouterr().err
     assert main(["bank", "build", "--board", str(folder)]) == 0
     assert "its responses were measured, and become modelled" in capsys.readouterr().err
     assert not measured_at(bank_path(board))
