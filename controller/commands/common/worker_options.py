@@ -24,7 +24,7 @@ def add_worker_options(command: argparse.ArgumentParser) -> None:
         "--scheduler-file",
         type=Path,
         metavar="FILE",
-        help="workers of the scheduler that wrote this file (--scheduler-file too)",
+        help="workers of the scheduler that wrote this file (dask scheduler --scheduler-file)",
     )
     group.add_argument(
         "--worker-memory-mb", type=float, metavar="M", help="memory that each of --workers may take; one that takes more is ended"
