@@ -88,13 +88,17 @@ def draft_releases(
 
 
 def draft_rollout(repository: Repository, version: str, rollout: Rollout, now: datetime) -> None:
-    """Draft other steps of a release, on all platforms; raises UpdateError if there is no such release, or it was stopped."""
+    """Draft other steps of a release, on all platforms, of which none but the first is open.
+
+    Raises UpdateError if there is no such release, or it was stopped.
+    """
     repository.must_have_no_draft()
     _must_not_be_stopped(repository, version)
     targets = _changed(repository, now)
     known: dict[str, TargetFile] = targets["targets"].signed.targets
     for path in _manifests(repository, known, version):
         known[path] = _in_steps(known[path], rollout)
+    opened_by(targets["timestamp"].signed, str(repository.folder)).pop(version, None)
     repository.begin(targets)
 
 

@@ -134,6 +134,10 @@ def test_steps_are_opened_one_after_the_other_or_all(rolled):
         pytest.raises(UpdateError, match=r"1\.0\.0 has no step that is not open"),
     ):
         draft_open(opened, "1.0.0", NOW)
+    rolled.draft(draft_rollout, "1.0.0", steps((1, 0), (2, 4), (50, 5)), NOW)
+    assert rolled.opened == {}, "other steps wait again: a share may go back, and nobody has looked at what follows it"
+    rolled.open()
+    assert rolled.opened == {"1.0.0": 20_000}
     release_folder(rolled.folder / "2", "1.0.1", 2)
     rolled.draft(draft_releases, [rolled.folder / "2"], "stable", NOW, steps((1, 0), (10, 1)))
     rolled.draft(draft_open, "1.0.1", NOW, who=("publisher",))
