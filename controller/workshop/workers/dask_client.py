@@ -7,7 +7,9 @@ import contextlib
 import json
 import logging
 import platform
+import signal
 from collections.abc import Iterator
+from multiprocessing import resource_tracker
 from typing import Any
 
 from controller.console import tell
@@ -70,16 +72,25 @@ def open_client(workers: Workers) -> Iterator[Any]:
         stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": LOST_WORKERS}))
         if not workers.strangers:
             stack.enter_context(dask.config.set(OWN_CLUSTER))
-            local = LocalCluster(
-                n_workers=workers.processes,
-                threads_per_worker=1,
-                memory_limit=0 if workers.memory_mb is None else int(workers.memory_mb * 1e6),
-                host="127.0.0.1",
-                dashboard_address=OWN_HTTP,
-                worker_dashboard_address=OWN_HTTP,
-                silence_logs="CRITICAL",
-            )
-            yield stack.enter_context(Client(stack.enter_context(local), timeout=FOUND_WITHIN_S))
+            resource_tracker.ensure_running()  # which would take back what follows
+            interrupt = {
+                signal.SIGINT
+            }  # at a terminal all its processes get it: this one ends the others, now and those begun later
+            signal.pthread_sigmask(signal.SIG_BLOCK, interrupt)
+            try:
+                local = LocalCluster(
+                    n_workers=workers.processes,
+                    threads_per_worker=1,
+                    memory_limit=0 if workers.memory_mb is None else int(workers.memory_mb * 1e6),
+                    host="127.0.0.1",
+                    dashboard_address=OWN_HTTP,
+                    worker_dashboard_address=OWN_HTTP,
+                    silence_logs="CRITICAL",
+                )
+                stack.enter_context(local)
+            finally:
+                signal.pthread_sigmask(signal.SIG_UNBLOCK, interrupt)
+            yield stack.enter_context(Client(local, timeout=FOUND_WITHIN_S))
             return
         address = workers.address or _address_in(workers)
         _require_same(f"{workers.option}: the scheduler", asyncio.run(_versions(address, workers.option)))

@@ -31,6 +31,7 @@ Item = TypeVar("Item")
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
 # In a process: a model may have one workspace, and a dask worker several threads; an item may map others itself
 ONE_AT_A_TIME = threading.RLock()
+tqdm.set_lock(threading.RLock())  # in place of a semaphore, which a worker that is ended would leave behind
 
 
 @dataclass

@@ -4,12 +4,14 @@ import importlib.metadata
 import json
 import os
 import re
+import signal
 import socket
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from patience import wait_for
 from tables import each_row
 from worker_functions import Fatal, cubes, greedy
 
@@ -280,6 +282,34 @@ def test_after_kill_9_of_everything_the_same_call_goes_on(tmp_path):
         again = map_kept(cubes, ITEMS, kept, Workers(number))
         assert again.results == RESULTS
         assert 0 < again.kept < len(ITEMS)
+
+
+INTERRUPTED = """
+import sys
+from pathlib import Path
+from worker_functions import endless
+from controller.workshop.workers.map_kept import map_kept
+from controller.workshop.workers.workers import Workers
+if __name__ == "__main__":
+    try:
+        map_kept(endless, {10 * n: n for n in range(12)}, Path(sys.argv[1]), Workers(2))
+    except KeyboardInterrupt:
+        sys.exit(130)
+"""
+
+
+@pytest.mark.slow
+def test_ctrl_c_at_a_terminal_which_all_processes_of_it_get_is_not_answered_by_workers(tmp_path):
+    script, kept = tmp_path / "interrupted.py", tmp_path / "kept"
+    script.write_text(INTERRUPTED)
+    interrupted = subprocess.Popen(
+        [sys.executable, str(script), str(kept)],
+        env=os.environ | {"PYTHONPATH": str(TESTS)}, start_new_session=True, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert wait_for("what is done", lambda: kept.exists() and kept.stat().st_size > 0, seconds=100)
+    os.killpg(interrupted.pid, signal.SIGINT)
+    assert interrupted.communicate()[1] == ""
+    assert interrupted.returncode == 130
 
 
 @pytest.mark.slow
