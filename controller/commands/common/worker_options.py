@@ -7,12 +7,13 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import require_within
 from controller.errors import UsageError
 
 if TYPE_CHECKING:
     from controller.workshop.workers.workers import Workers
 
-LEAST_MB = 200  # Python, NumPy and this package alone take 100
+RANGES = {"workers": (1, 256), "worker_memory_mb": (200, 1e6)}  # Python, NumPy and this package alone take 100 MB
 
 
 def add_worker_options(command: argparse.ArgumentParser) -> None:
@@ -43,10 +44,7 @@ def workers_of(options: argparse.Namespace) -> Workers:
     given = [name for name in ("workers", "dask", "scheduler_file") if getattr(options, name) is not None]
     if len(given) > 1:
         raise UsageError(f"{' and '.join('--' + name.replace('_', '-') for name in given)}: give one of them")
-    if options.workers is not None and options.workers < 1:
-        raise UsageError("--workers: 1 or more processes of this computer")
-    if options.worker_memory_mb is not None and not (options.worker_memory_mb >= LEAST_MB and given in ([], ["workers"])):
-        raise UsageError(
-            f"--worker-memory-mb: {LEAST_MB} or more, for processes of this computer (elsewhere: dask worker --memory-limit)"
-        )
+    require_within(options, RANGES)
+    if options.worker_memory_mb is not None and given not in ([], ["workers"]):
+        raise UsageError("--worker-memory-mb: for processes of this computer (elsewhere: dask worker --memory-limit)")
     return Workers(options.workers or len(os.sched_getaffinity(0)), options.dask, options.scheduler_file, options.worker_memory_mb)

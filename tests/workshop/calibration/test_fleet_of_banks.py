@@ -188,7 +188,7 @@ def test_what_two_processes_and_a_cluster_of_two_workers_do_of_a_fleet(tmp_path)
         (["{}/absent", "--out", "{}/banks"], 2, "absent: No such file or directory: give a folder of measurement folders"),
         (["{}", "--out", "{}/banks"], 2, "no folder in it has a measurement.toml"),
         (["{}", "--out", "{}/banks", "--pitch-mm", "9"], 78, "pitch_mm = 9 is above"),
-        (["{}", "--out", "{}/banks", "--workers", "0"], 2, "--workers: 1 or more"),
+        (["{}", "--out", "{}/banks", "--workers", "0"], 2, "--workers 0: not from 1 to 256"),
     ],
 )
 def test_what_cannot_be_done_is_said_in_one_line(tmp_path, capsys, options, code, said):

@@ -143,10 +143,11 @@ def test_a_scheduler_file_that_leads_nowhere_is_one_line(text, tmp_path, monkeyp
 
 
 @each_row("arguments, said", [
-    (["--workers", "0"], "--workers: 1 or more"),
+    (["--workers", "0"], "--workers 0: not from 1 to 256"),
+    (["--workers", "100000"], "--workers 100000: not from 1 to 256"),
     (["--workers", "2", "--dask", "tcp://h:1"], "--workers and --dask: give one"),
     (["--dask", "tcp://h:1", "--scheduler-file", "f"], "--dask and --scheduler-file: give one"),
-    (["--worker-memory-mb", "20"], "200 or more"),
+    (["--worker-memory-mb", "20"], "not from 200 to 1e+06"),
     (["--worker-memory-mb", "2000", "--dask", "tcp://h:1"], "dask worker --memory-limit"),
 ])  # fmt: skip
 def test_options_that_contradict_each_other_are_refused(arguments, said, capsys):
