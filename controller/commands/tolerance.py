@@ -13,7 +13,6 @@ from controller.commands.common.worker_options import add_worker_options, worker
 from controller.console import tell
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.errors import UsageError
 
 if TYPE_CHECKING:
     from controller.commands.common.output import Declare
@@ -48,7 +47,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     command.add_argument("--points", type=natural, default=250, metavar="N", help="points of a calibration (default: 250)")
     command.add_argument("--snr-db", type=float, default=40.0, metavar="DB", help="of its records (default: 40)")
     command.add_argument(
-        "--alone", type=natural, default=6, metavar="N", help="plates on which each tolerance varies alone; 0: none (default: 6)"
+        "--alone", type=natural, default=6, metavar="N", help="of these, on which each tolerance varies alone; 0: none (default: 6)"
     )
     command.add_argument("--plot", metavar="FILE", help="draw it (.png, .svg, .pdf)")
     command.add_argument(
@@ -71,8 +70,6 @@ def tolerance(options: argparse.Namespace) -> int:
 
     ranges = {"places": (1, 100), "points": (100, 10_000), "snr_db": (0, 100), "least": (0, 2)}
     require_within(options, ranges | dict.fromkeys(("plates", "intervals"), (1, PLATES_MAX)))
-    if options.alone > options.plates:
-        raise UsageError(f"--alone {options.alone}: at most as many as --plates {options.plates}")
     tolerances = load_toml(options.tolerances or SHIPPED, Tolerances)
     if options.intervals is not None:
         return _intervals(options, tolerances)
@@ -86,7 +83,7 @@ def tolerance(options: argparse.Namespace) -> int:
         options.snr_db,
     )
     try:
-        figures = study_figures(study, options.plates, options.alone, options.least, workers_of(options))
+        figures = study_figures(study, options.plates, min(options.alone, options.plates), options.least, workers_of(options))
     except KeyboardInterrupt:
         tell("what is done is kept: the same command goes on from there")
         raise

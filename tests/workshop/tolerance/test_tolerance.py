@@ -119,8 +119,7 @@ def test_a_wrong_file_is_one_line(text, said, tmp_path, capsys):
     (["--plates", "0"], "--plates 0: not from 1"),
     (["--least", "3"], "--least 3: not from 0 to 2"),
     (["--points", "20"], "--points 20: not from 100"),
-    (["--alone", "41"], "--alone 41: at most as many as --plates 40"),
-    (["--plates", "4", "--alone", "1", "--workers", "0"], "--workers: 1 or more"),
+    (["--plates", "4", "--workers", "0"], "--workers 0: not from 1"),
 ])  # fmt: skip
 def test_options_out_of_range_are_refused(options, said, capsys):
     assert main(["tolerance", *options]) == 2
@@ -188,7 +187,7 @@ def test_the_command_prints_draws_and_goes_on_from_what_is_kept(tmp_path, monkey
     monkeypatch.setattr(command, "named_board", lambda _: BOARD)
     file = tmp_path / "own.toml"
     file.write_text("thickness_percent = { half_width = 2.0 }\nsupply_percent = { half_width = 2.0 }\n")
-    arguments = ["tolerance", "--tolerances", str(file), "--places", "2", "--alone", "2", "--workers", "1"]
+    arguments = ["tolerance", "--tolerances", str(file), "--places", "2", "--workers", "1"]
     assert main([*arguments, "--plates", "2", "--plot", str(tmp_path / "yield.png")]) == 0
     printed = capsys.readouterr().out
     assert "best bit clock" in printed
