@@ -11,6 +11,7 @@ from typing import Any, Final
 import numpy as np
 
 SUB_BITS: Final = 7  # 128 buckets per octave: a percentile is off by at most 0.8 %
+FIRST_BITS: Final = SUB_BITS + 1  # a duration of no more bits has a bucket of its own
 PERCENTILES = {"p50": 0.5, "p99": 0.99, "p999": 0.999}
 BOUNDS_US = (50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 200_000)  # of `LatencyHistogram.coarse`
 P999_SAMPLES = 10_000  # with fewer records p999 is left out: it would be that of ten records at most
@@ -20,32 +21,40 @@ class LatencyHistogram:
     """Durations in ns in logarithmic buckets; `record` allocates nothing and takes constant time."""
 
     def __init__(self) -> None:
-        self.count = 0  # durations recorded
-        self.worst_ns = 0  # the longest of them
+        self.worst_ns = 0  # the longest duration recorded
         self._buckets = array("Q", bytes(8 * (64 << SUB_BITS)))
+
+    @property
+    def count(self) -> int:
+        """Durations recorded."""
+        return int(np.frombuffer(self._buckets, np.uint64, _index(self.worst_ns) + 1).sum())
 
     def record(self, duration_ns: int) -> None:
         """Count one duration; a negative one (the clock was stepped) counts as 0."""
-        duration_ns = 0 if duration_ns < 0 else duration_ns
-        self.count += 1
-        self.worst_ns = duration_ns if duration_ns > self.worst_ns else self.worst_ns
-        octave = duration_ns.bit_length() - SUB_BITS - 1
-        octave = 0 if octave < 0 else octave
-        self._buckets[(octave << SUB_BITS) + (duration_ns >> octave)] += 1
+        if duration_ns <= 0:
+            self._buckets[0] += 1
+            return
+        is_worst = duration_ns > self.worst_ns
+        if is_worst:
+            self.worst_ns = duration_ns
+        octave = duration_ns.bit_length() - FIRST_BITS
+        self._buckets[(octave << SUB_BITS) + (duration_ns >> octave) if octave > 0 else duration_ns] += 1
 
     def percentiles_ns(self, fractions: Sequence[float]) -> list[float]:
         """For each fraction, 0 to 1, the duration in ns that as many records do not exceed, within 0.8 %; NaN without any."""
-        if not self.count:
+        count = self.count
+        if not count:
             return [math.nan] * len(fractions)
         seen = np.cumsum(
             np.frombuffer(self._buckets, np.uint64, _index(self.worst_ns) + 1)
         )  # a loop in Python would take a millisecond
-        found = np.searchsorted(seen, [max(fraction * self.count, 0.5) for fraction in fractions]).tolist()
+        found = np.searchsorted(seen, [max(fraction * count, 0.5) for fraction in fractions]).tolist()
         return [min(_middle_ns(index), float(self.worst_ns)) for index in found]
 
     def coarse(self) -> dict[str, Any]:
         """`{count, counts, sum_us}`: all records, those up to each of `BOUNDS_US`, and their sum; both within 0.8 %."""
-        if not self.count:
+        count = self.count
+        if not count:
             return {"count": 0, "counts": [0] * len(BOUNDS_US), "sum_us": 0.0}
         last = _index(self.worst_ns)
         buckets = np.frombuffer(self._buckets, np.uint64, last + 1)
@@ -53,7 +62,7 @@ class LatencyHistogram:
         counts = [int(seen[min(_index(1000 * bound_us), last)]) for bound_us in BOUNDS_US]
         octave = np.maximum((np.arange(last + 1) >> SUB_BITS) - 1, 0)
         middles_ns = np.ldexp(np.arange(last + 1) - (octave << SUB_BITS) + 0.5 * (octave > 0), octave)
-        return {"count": self.count, "counts": counts, "sum_us": round(float(buckets @ middles_ns) * 1e-3, 3)}
+        return {"count": count, "counts": counts, "sum_us": round(float(buckets @ middles_ns) * 1e-3, 3)}
 
     def buckets_us(self) -> list[list[float]]:
         """[upper bound in µs, count] of every bucket with records."""
@@ -65,18 +74,19 @@ class LatencyHistogram:
 
     def summary_us(self) -> dict[str, float | int | None]:
         """`{count, p50, p99, p999, worst}`, durations in µs; None where there are too few records."""
-        if not self.count:
+        count = self.count
+        if not count:
             return {"count": 0, **dict.fromkeys(PERCENTILES), "worst": None}
         known = [round(value_ns * 1e-3, 3) for value_ns in self.percentiles_ns(tuple(PERCENTILES.values()))]
         named: dict[str, float | int | None] = dict(zip(PERCENTILES, known, strict=True))
-        if self.count < P999_SAMPLES:
+        if count < P999_SAMPLES:
             named["p999"] = None
-        return {"count": self.count, **named, "worst": round(self.worst_ns * 1e-3, 3)}
+        return {"count": count, **named, "worst": round(self.worst_ns * 1e-3, 3)}
 
 
 def _index(duration_ns: int) -> int:
     """Bucket of a duration."""
-    octave = max(duration_ns.bit_length() - SUB_BITS - 1, 0)
+    octave = max(duration_ns.bit_length() - FIRST_BITS, 0)
     return (octave << SUB_BITS) + (duration_ns >> octave)
 
 

@@ -57,14 +57,23 @@ class Grid:
 
     def nearest(self, x_m: float, y_m: float) -> tuple[int, float]:
         """Cell nearest to the point (x_m, y_m), and their distance in m."""
+        cell = self.within(x_m, y_m, math.inf)
+        return cell, math.dist((x_m, y_m), self.place(cell))
+
+    def within(self, x_m: float, y_m: float, distance_m: float) -> int:
+        """Cell nearest to the point (x_m, y_m) if it is no farther away than `distance_m`, else -1."""
         pitch_m, nx = self.pitch_m, self.nx
         x_m -= self.x0_m
-        y_m -= self.y0_m
-        ix, iy = floor(x_m / pitch_m + TO_WHOLE - TO_WHOLE), floor(y_m / pitch_m + TO_WHOLE - TO_WHOLE)
+        ix = floor(x_m / pitch_m + TO_WHOLE - TO_WHOLE)
         ix = 0 if ix < 0 else ix if ix < nx else nx - 1
+        off_x_m = x_m - ix * pitch_m
+        if not -distance_m <= off_x_m <= distance_m:
+            return -1
+        y_m -= self.y0_m
+        iy = floor(y_m / pitch_m + TO_WHOLE - TO_WHOLE)
         iy = 0 if iy < 0 else iy if iy < self.ny else self.ny - 1
-        off_x_m, off_y_m = x_m - ix * pitch_m, y_m - iy * pitch_m
-        return iy * nx + ix, sqrt(off_x_m * off_x_m + off_y_m * off_y_m)
+        off_y_m = y_m - iy * pitch_m
+        return iy * nx + ix if sqrt(off_x_m * off_x_m + off_y_m * off_y_m) <= distance_m else -1
 
     def corners(self, x_m: float, y_m: float) -> tuple[Four, FourWeights]:
         """Four cells around the point (x_m, y_m) and their bilinear weights, which sum to one.

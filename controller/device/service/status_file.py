@@ -164,7 +164,8 @@ def _untouched() -> tuple[Mapping[str, int], str]:
 
 
 def _latency(histogram: LatencyHistogram) -> LatencyStatus:
-    if not histogram.count:
+    count = histogram.count
+    if not count:
         return LatencyStatus()
     p50_ns, p99_ns = histogram.percentiles_ns(FRACTIONS)
-    return LatencyStatus(histogram.count, p50_ns * 1e-3, p99_ns * 1e-3, histogram.worst_ns * 1e-3)
+    return LatencyStatus(count, p50_ns * 1e-3, p99_ns * 1e-3, histogram.worst_ns * 1e-3)

@@ -16,8 +16,10 @@ from controller.device.touch.axes import PanelAxes
 
 # Values of Contact.identity besides the tracking ids of the device, which are never negative
 NO_CONTACT: Final = -1
-UNKNOWN: Final = -2  # no event of this slot yet: a finger may have been down before the stream began
-IMPLIED: Final = -3  # a position of an unknown slot: a finger is down
+UNKNOWN: Final = -2  # no identity yet, as a finger may have been down before the stream began: with a position, one is down
+
+# Values of Contact.settled
+ASK, DOWN, UP = 0, 1, 2
 
 FIRST_SERIAL = 1 << 32  # identities assigned here, above every tracking id (32 bits signed)
 MAX_SPEED = 3.0  # m/s from one report to the next; farther away it is another finger
@@ -30,15 +32,16 @@ VELOCITY_GAIN = 0.7  # weight of the last step in the velocity
 class Contact:
     """State of one contact, or of one slot."""
 
-    identity: int  # tracking id, serial number from `FIRST_SERIAL` on, or `NO_CONTACT`, `UNKNOWN`, `IMPLIED`
+    identity: int  # tracking id, serial number from `FIRST_SERIAL` on, or `NO_CONTACT`, `UNKNOWN`
     finger: int | None = None  # number in the samples; None while it is not played
     x_m: float = 0.0  # x_m, y_m, size_m: of its last sample
     y_m: float = 0.0
     size_m: float = 0.0
     x: int | None = None  # x, y: raw position; None before the first one
     y: int | None = None
-    size: int = 0  # ABS_MT_TOUCH_MAJOR
+    width_m: float = 0.0  # as it is reported now; 0: not at all
     moved: bool = False  # the position has changed since the last sample
+    settled: int = ASK  # whether it is down and no palm, or is not, as was decided once and is so while only its position changes
     hovers: bool = False  # hovers, tool_palm: as the device reports it
     tool_palm: bool = False
     palm: bool = False  # it has been a palm since it began
@@ -173,5 +176,5 @@ def _carried_over(old: Contact | None, new: Contact) -> Contact:
     if old is None:
         return new
     old.moved = (old.x, old.y) != (new.x, new.y)
-    old.x, old.y, old.tool_palm, old.size = new.x, new.y, new.tool_palm, new.size
+    old.x, old.y, old.tool_palm, old.width_m, old.settled = new.x, new.y, new.tool_palm, new.width_m, ASK
     return old

@@ -54,14 +54,27 @@ class PanelAxes:
 
     def position_m(self, x: int, y: int) -> tuple[float, float]:
         """Position (x_m, y_m) on the plate, clamped to it, of a raw position inside the ranges."""
-        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self.from_axes
         length_m, width_m = self.plate_m
-        x_m = x_by_x * x + x_by_y * y + x_at_0
-        y_m = y_by_x * x + y_by_y * y + y_at_0
-        return (
-            0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
-            0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m,
-        )
+        x_m, y_m = self.mapped_m(x, y)
+        return min(max(x_m, 0.0), length_m), min(max(y_m, 0.0), width_m)
+
+    def mapped_m(self, x: int, y: int) -> tuple[float, float]:
+        """The same, not clamped: on the plate or beside it."""
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self.from_axes
+        return x_by_x * x + x_by_y * y + x_at_0, y_by_x * x + y_by_y * y + y_at_0
+
+    def plain(self) -> tuple[float, float, float, float]:
+        """Smallest and largest x, smallest and largest y: raw positions within are inside the ranges, and places of fingers.
+
+        Neither products nor sums lose their order by rounding, so the corners speak for all between them. They are one unit inside
+        the ranges, as those of a map to the whole plate may lie beside it by a rounding. If one lies beside it, nothing is within.
+        """
+        low_x, high_x = self.x.minimum + 1, self.x.maximum - 1
+        low_y, high_y = self.y.minimum + 1, self.y.maximum - 1
+        corners = [self.mapped_m(x, y) for x in (low_x, high_x) for y in (low_y, high_y)]
+        length_m, width_m = self.plate_m
+        plain = not self.settings.no_finger_m and all(0 <= x_m <= length_m and 0 <= y_m <= width_m for x_m, y_m in corners)
+        return (low_x, high_x, low_y, high_y) if plain else (math.inf, math.inf, math.inf, math.inf)
 
 
 def _clamped(value: int, axis: AxisRange) -> int:

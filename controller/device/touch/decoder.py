@@ -15,7 +15,7 @@ from itertools import count
 from math import inf
 from typing import Final
 
-from controller.device.touch.associate import FIRST_SERIAL, IMPLIED, NO_CONTACT, UNKNOWN, Contact, associate
+from controller.device.touch.associate import ASK, FIRST_SERIAL, NO_CONTACT, UNKNOWN, Contact, associate
 from controller.device.touch.axes import PanelAxes
 from controller.device.touch.event_codes import (
     ABS_MT_DISTANCE,
@@ -41,6 +41,7 @@ from controller.device.touch.event_reader import Event
 from controller.device.touch.plausibility import Plausibility
 from controller.device.touch.source import Counts, TouchSample
 
+OTHER_AXES: Final = frozenset({ABS_MT_SLOT, ABS_MT_TOUCH_MAJOR, ABS_MT_TRACKING_ID, ABS_MT_DISTANCE, ABS_MT_TOOL_TYPE})
 MAX_PLAYED: Final = 10
 MAX_SLOTS: Final = 256
 MAX_UNNAMED: Final = 32  # contacts of a report that have no tracking id
@@ -71,6 +72,7 @@ class Decoder:
         self._is_b = protocol is Protocol.B
         self._is_single = protocol is Protocol.SINGLE
         self._x_code, self._y_code = (ABS_X, ABS_Y) if self._is_single else (ABS_MT_POSITION_X, ABS_MT_POSITION_Y)
+        self._other_axes = frozenset() if self._is_single else OTHER_AXES
         self._slots: dict[int, Contact] = {}  # protocol A: by identity
         self._packets: list[Contact] = []  # protocol A: contacts of the report so far
         self._packets_s = 0.0  # time of the last report
@@ -104,13 +106,12 @@ class Decoder:
         """
         samples = None
         self.touched = False
-        x_code, y_code = self._x_code, self._y_code
+        current, x_code, y_code, axes = self._current, self._x_code, self._y_code, self._other_axes
         for kind, code, value, _ in events:
             samples = None
             if kind == EV_ABS:
                 if self._dropping:
                     continue
-                current = self._current
                 if code == x_code:
                     if value != current.x:
                         current.x = value
@@ -119,12 +120,11 @@ class Decoder:
                     if value != current.y:
                         current.y = value
                         current.moved = True
-                else:
+                elif code in axes:
                     self._axis(code, value)
-                    continue
-                if current.identity == UNKNOWN and not self._is_single:
-                    current.identity = IMPLIED
-            elif kind == EV_SYN:
+                    current = self._current
+                continue
+            if kind == EV_SYN:
                 if code == SYN_REPORT:
                     samples = self._report(time_s)
                 elif code == SYN_MT_REPORT:
@@ -135,6 +135,7 @@ class Decoder:
                     self.warnings["dropped"] += 1
             elif kind == EV_KEY and code == BTN_TOUCH and not self._dropping:
                 self._button(touching=value != 0)
+            current = self._current
         return samples
 
     def release(self, time_s: float) -> tuple[TouchSample, ...]:
@@ -163,10 +164,7 @@ class Decoder:
         return [(c.finger, c.x_m, c.y_m) for c in self._slots.values() if c.finger is not None]
 
     def _axis(self, code: int, value: int) -> None:
-        """Any axis but the positions."""
-        if self._is_single:
-            return
-        current = self._current
+        """One of `OTHER_AXES`."""
         if code == ABS_MT_SLOT:
             contact = self._slots.get(value)
             if contact is None:
@@ -174,8 +172,12 @@ class Decoder:
             else:
                 self._slot = value
                 self._current = contact
-        elif code == ABS_MT_TOUCH_MAJOR:
-            current.size = value
+            return
+        current = self._current
+        if code == ABS_MT_TOUCH_MAJOR:
+            current.width_m = value * self._axes.size_m_per_unit if value > 0 else 0.0
+            if current.width_m > self._axes.settings.max_size_m:
+                current.settled = ASK
             if self._is_a:
                 current.hovers = value == 0
         elif code == ABS_MT_TRACKING_ID:
@@ -184,9 +186,9 @@ class Decoder:
             else:
                 current.identity = value
         elif code == ABS_MT_DISTANCE:
-            current.hovers = value > 0
+            current.hovers, current.settled = value > 0, ASK
         elif code == ABS_MT_TOOL_TYPE:
-            current.tool_palm = value == MT_TOOL_PALM
+            current.tool_palm, current.settled = value == MT_TOOL_PALM, ASK
 
     def _button(self, *, touching: bool) -> None:
         if self._is_single:
@@ -207,7 +209,7 @@ class Decoder:
             return Contact(NO_CONTACT)
         if slot > self._last_slot:
             self.warnings["slot_beyond_range"] += 1
-        contact = Contact(UNKNOWN)
+        contact = Contact(NO_CONTACT if self._is_single else UNKNOWN)
         if not self._is_a:
             self._slots[slot] = contact
         return contact
@@ -216,7 +218,7 @@ class Decoder:
         """Give a contact its tracking id; another id than before is another finger."""
         if identity == contact.identity:
             return
-        if contact.identity >= 0 and not contact.counted and self._down(contact):
+        if contact.identity >= 0 and not (contact.counted or contact.hovers or self._touching is False):
             self.counts.contacts += 1  # began and ended within one report
         if contact.finger is not None:
             gone = Contact(NO_CONTACT, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m, size_m=contact.size_m)
@@ -225,6 +227,7 @@ class Decoder:
             contact.finger = None
             contact.held = 0
         contact.identity = identity
+        contact.settled = ASK
         contact.counted = contact.refused = contact.palm = contact.silent = False
 
     def _end_packet(self) -> None:
@@ -259,6 +262,3 @@ class Decoder:
         self.touched = self._plausibility.touched
         self.due_s = self._plausibility.due_s
         return before + samples if before else samples
-
-    def _down(self, contact: Contact) -> bool:
-        return (contact.identity >= 0 or contact.identity == IMPLIED) and not contact.hovers and self._touching is not False

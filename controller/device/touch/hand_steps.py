@@ -12,12 +12,11 @@ HAND_SPEED: Final = 2.0  # m/s of a first step; very fast strokes, 20 cm in 0.2 
 NOISE_M: Final = 2e-3  # of a position; the coarsest panel recorded has steps of 1.8 mm
 
 
-def reaches(contact: Contact, x_m: float, y_m: float, step_s: float, *, rested: bool) -> bool:
-    """Whether a hand may have moved the finger of a contact from its last place to this one in `step_s` (`moving_s`).
+def reaches(contact: Contact, off_x_m: float, off_y_m: float, step_s: float, *, rested: bool) -> bool:
+    """Whether a hand may have moved the finger of a contact by so much from its last place in `step_s` (`moving_s`).
 
     `rested`: it was not believed in the report before the step.
     """
-    off_x_m, off_y_m = x_m - contact.x_m, y_m - contact.y_m
     speed = SPEED_CHANGE
     if not rested:
         if contact.step_vx == contact.step_vx:

@@ -25,7 +25,7 @@ from collections.abc import Iterable, Mapping
 from math import inf, nan
 from typing import Final
 
-from controller.device.touch.associate import IMPLIED, Contact
+from controller.device.touch.associate import ASK, DOWN, NO_CONTACT, UNKNOWN, UP, Contact
 from controller.device.touch.axes import OFF_M, PanelAxes
 from controller.device.touch.hand_steps import goes_on, moving_s, reaches
 from controller.device.touch.reports import PanelHabits, ReportRate
@@ -67,12 +67,12 @@ class Plausibility:
         self._warnings = warnings
         self._axes = axes
         self._limits: tuple[float, float, float, float] = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
-        self._from_axes, self._plate_m = axes.from_axes, axes.plate_m
+        self._from_axes = axes.from_axes
         x_unit_m, y_unit_m = axes.unit_m
         x_edge, y_edge = EDGE_M / x_unit_m if x_unit_m else inf, EDGE_M / y_unit_m if y_unit_m else inf
         self._far = (axes.x.minimum - x_edge, axes.x.maximum + x_edge, axes.y.minimum - y_edge, axes.y.maximum + y_edge)
         self._no_finger_m = axes.settings.no_finger_m
-        self._size_m = axes.size_m_per_unit
+        self._plain = axes.plain()
         self._max_size_m = axes.settings.max_size_m
         self._max_played = max_played
         self._played = 0
@@ -97,32 +97,39 @@ class Plausibility:
         counts = self._counts
         down, moved = 0, False
         for contact in contacts:
-            if not self._touches(contact, time_s, samples, hovering=hovering):
+            settled = contact.settled
+            if (settled != DOWN or hovering) and (settled == UP or not self._touches(contact, time_s, samples, hovering=hovering)):
                 continue
             down += 1
-            if not contact.palm and (contact.moved or contact.finger is None or contact.held):
-                moved = moved or contact.moved
+            if contact.moved or contact.finger is None or contact.held:
+                if contact.palm:
+                    continue
+                if contact.moved:
+                    moved = True
                 changed.append(contact)
         self._number += 1
         self._confirm_s = inf
         if down:
             counts.reports += 1
-            counts.max_fingers = max(counts.max_fingers, down)
+            counts.max_fingers = down if down > counts.max_fingers else counts.max_fingers
         habits = self._habits
         habits.arrived(down, time_s, moved=moved)
         for contact in changed:  # after all releases, which make room for new fingers
             self._place(contact, time_s, samples)
-        self.touched = down > 0 and self._confirm_s == inf
-        self.due_s = min(habits.silent_s, self._confirm_s)
+        confirm_s, silent_s = self._confirm_s, habits.silent_s
+        self.touched = down > 0 and confirm_s == inf
+        self.due_s = silent_s if silent_s < confirm_s else confirm_s
         return tuple(samples)
 
     def _touches(self, contact: Contact, time_s: float, samples: list[TouchSample], *, hovering: bool) -> bool:
         """Whether a contact is down; one that is not, or is a palm, has no finger any more."""
         identity = contact.identity
-        if (identity < 0 and identity != IMPLIED) or hovering or contact.hovers:
+        known = identity >= 0 or (identity == UNKNOWN and not (contact.x is None and contact.y is None))
+        if not known or hovering or contact.hovers:
             if contact.finger is not None:
                 samples.append(self.released(contact, time_s))
             contact.refused = contact.palm = contact.silent = False
+            contact.settled = UP if identity == NO_CONTACT or contact.hovers else ASK
             return False
         if contact.silent:
             if not contact.moved:
@@ -132,9 +139,10 @@ class Plausibility:
         if not contact.counted and identity >= 0:
             contact.counted = True
             self._counts.contacts += 1
-        if not contact.palm and (contact.tool_palm or contact.size * self._size_m > self._max_size_m):
+        if not contact.palm and (contact.tool_palm or contact.width_m > self._max_size_m):
             contact.palm = True
             self._counts.palms += 1
+        contact.settled = DOWN if contact.counted and not contact.palm else ASK
         if contact.palm:
             if contact.finger is not None:
                 contact.size_m = inf
@@ -155,7 +163,7 @@ class Plausibility:
                 continue
             if silent:
                 samples.append(self.released(contact, time_s))
-                contact.silent = True
+                contact.silent, contact.settled = True, ASK
             elif contact.held and contact.held_x_m == contact.held_x_m:
                 self._counts.confirmed += 1
                 self._believe(contact, contact.held_x_m, contact.held_y_m, time_s, samples)
@@ -193,28 +201,34 @@ class Plausibility:
         counts = self._counts
         counts.points += 1
         contact.moved = False
-        place = self._position_m(x, y)
+        x_low, x_high, y_low, y_high = self._plain
+        if x_low <= x <= x_high and y_low <= y <= y_high:
+            x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes
+            x_m = x_by_x * x + x_by_y * y + x_at_0
+            y_m = y_by_x * x + y_by_y * y + y_at_0
+        else:
+            place = self._position_m(x, y)
+            if place is None:
+                if contact.held:
+                    samples.append(self.released(contact, time_s))
+                elif contact.finger is not None:
+                    self._hold(contact, nan, nan, time_s)
+                return
+            x_m, y_m = place
         if contact.finger is None:
-            if place is not None:
-                self._begin(contact, place, time_s, samples)
+            self._begin(contact, x_m, y_m, time_s, samples)
             return
-        if place is None:
-            if contact.held:
-                samples.append(self.released(contact, time_s))
-            else:
-                self._hold(contact, nan, nan, time_s)
-            return
-        x_m, y_m = place
-        before_s, period_s = self._habits.before_s, self._habits.rate.period_s
-        held = contact.held
+        off_x_m, off_y_m = x_m - contact.x_m, y_m - contact.y_m
+        habits, held = self._habits, contact.held
+        before_s, period_s = habits.before_s, habits.rate.period_s
         step_s = moving_s(time_s - contact.held_s, period_s, lost=2) if held else moving_s(time_s - before_s, period_s)
-        if reaches(contact, x_m, y_m, step_s, rested=contact.stepped != (held or self._number) - 1):
+        if reaches(contact, off_x_m, off_y_m, step_s, rested=contact.stepped != (held or self._number) - 1):
             if held:
                 self._leave_out(contact)
         elif held and goes_on(contact, x_m, y_m, time_s, before_s, period_s):
             counts.confirmed += 1
             step_s = moving_s(time_s - before_s, period_s)
-            contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
+            off_x_m, off_y_m = x_m - contact.held_x_m, y_m - contact.held_y_m
         else:
             if held:
                 self._leave_out(contact, more=True)
@@ -222,7 +236,7 @@ class Plausibility:
             self._hold(contact, x_m, y_m, time_s)
             return
         counts.believed += 1
-        contact.step_vx, contact.step_vy = (x_m - contact.x_m) / step_s, (y_m - contact.y_m) / step_s
+        contact.step_vx, contact.step_vy = off_x_m / step_s, off_y_m / step_s
         self._believe(contact, x_m, y_m, time_s, samples)
 
     def _position_m(self, x: int, y: int) -> tuple[float, float] | None:
@@ -235,10 +249,8 @@ class Plausibility:
                 return None
             self._warnings["outside_axes"] += 1
             x, y = self._axes.clamp(x, y)
-        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes  # as `position_m`, without its call for each report
-        length_m, width_m = self._plate_m
-        x_m = x_by_x * x + x_by_y * y + x_at_0
-        y_m = y_by_x * x + y_by_y * y + y_at_0
+        length_m, width_m = self._axes.plate_m
+        x_m, y_m = self._axes.mapped_m(x, y)
         if not (0.0 <= x_m <= length_m and 0.0 <= y_m <= width_m):
             self._counts.off_plate += not (-OFF_M <= x_m <= length_m + OFF_M and -OFF_M <= y_m <= width_m + OFF_M)
             x_m = 0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m
@@ -250,7 +262,7 @@ class Plausibility:
                     return None
         return x_m, y_m
 
-    def _begin(self, contact: Contact, place: tuple[float, float], time_s: float, samples: list[TouchSample]) -> None:
+    def _begin(self, contact: Contact, x_m: float, y_m: float, time_s: float, samples: list[TouchSample]) -> None:
         """Begin a finger where a contact is, unless as many as are played are down."""
         if self._played == self._max_played:
             self._warnings["more_than_played"] += 1
@@ -261,7 +273,6 @@ class Plausibility:
         self._played += 1
         self._counts.believed += 1
         contact.step_vx = contact.step_vy = nan
-        x_m, y_m = place
         self._believe(contact, x_m, y_m, time_s, samples)
 
     def _believe(self, contact: Contact, x_m: float, y_m: float, time_s: float, samples: list[TouchSample]) -> None:
@@ -270,7 +281,7 @@ class Plausibility:
         contact.stepped = self._number
         contact.x_m = x_m
         contact.y_m = y_m
-        contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0
+        contact.size_m = size_m = contact.width_m
         finger = contact.finger
         assert finger is not None
         samples.append(touch_sample((finger, x_m, y_m, time_s, True, size_m)))

@@ -13,6 +13,7 @@ from typing import Final
 ALPHA, BETA = 0.7, 0.4  # gains of position and velocity; best over the recordings, and flat around there
 MAX_SPEED_RATIO: Final = 1.5  # of the velocity used to that of the last step: limits the overshoot when a finger stops or turns
 REST_RADIUS_M: Final = 0.35e-3  # dead band: above the noise of the panels recorded (0.16 mm), far below a focus (5 mm)
+REST_RADIUS_M2: Final = REST_RADIUS_M * REST_RADIUS_M
 REST_REPORTS: Final = 8  # consecutive reports within the dead band of a finger at rest
 MOVING_PERIODS: Final = 1.5  # since the last report; many panels do not report a finger at rest
 SILENT_PERIODS: Final = 2.5
@@ -65,8 +66,9 @@ class Motion:
         ahead_x_m, ahead_y_m = self._x_m + vx * step_s, self._y_m + vy * step_s
         off_x_m, off_y_m = x_m - ahead_x_m, y_m - ahead_y_m
         self._x_m, self._y_m = ahead_x_m + ALPHA * off_x_m, ahead_y_m + ALPHA * off_y_m
-        self._vx = vx = vx + BETA / step_s * off_x_m
-        self._vy = vy = vy + BETA / step_s * off_y_m
+        gain_hz = BETA / step_s
+        self._vx = vx = vx + gain_hz * off_x_m
+        self._vy = vy = vy + gain_hz * off_y_m
         step_x_m, step_y_m = x_m - self.x_m, y_m - self.y_m
         off_x_m, off_y_m = step_x_m - self.vx * step_s, step_y_m - self.vy * step_s
         self.missed_m = sqrt(off_x_m * off_x_m + off_y_m * off_y_m)
@@ -80,7 +82,7 @@ class Motion:
         self.vx, self.vy = vx, vy
         self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
         off_x_m, off_y_m = x_m - self._anchor_x_m, y_m - self._anchor_y_m
-        if off_x_m * off_x_m + off_y_m * off_y_m <= REST_RADIUS_M * REST_RADIUS_M:
+        if off_x_m * off_x_m + off_y_m * off_y_m <= REST_RADIUS_M2:
             self._rested += 1
             if self._rested == REST_REPORTS:
                 self._anchor_x_m, self._anchor_y_m = self._x_m, self._y_m

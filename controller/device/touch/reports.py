@@ -56,6 +56,7 @@ MIN_PERIOD_S: Final = 2e-3  # limits of the running median: a flood or a slow fi
 MAX_PERIOD_S: Final = 40e-3
 FIRST_INTERVALS: Final = 9  # of this many the median is exact, from the first on
 MEDIAN_STEP: Final = 0.02  # relative step of the running median per report, afterwards
+LONGER, SHORTER = 1 + MEDIAN_STEP, 1 - MEDIAN_STEP
 SILENT_PERIODS: Final = 2.5  # of a panel that repeats its reports, and may lose one
 # Nobody lifts a finger and taps again sooner: a shorter silence is not distinguished from a finger at rest.
 SHORTEST_PAUSE_S: Final = 60e-3
@@ -114,27 +115,29 @@ class ReportRate:
         self.period_s = INITIAL_PERIOD_S
         self.measured = 0  # intervals that it is of so far, at most `FIRST_INTERVALS`; 0: it is assumed
         self._first_s = array("d", [0.0]) * FIRST_INTERVALS  # sorted
-        self._last_s: float | None = None
+        self._last_s = -inf
         self._counts = array("L", [0]) * BINS
 
     def restart(self) -> None:
         """Measure again: another panel may have been connected. What was counted stays in `median_s` and `jitter_s`."""
         self.period_s = INITIAL_PERIOD_S
         self.measured = 0
-        self._last_s = None
-
-    def report(self, time_s: float) -> None:
-        """Count a report at `time_s` (loop's clock) with a finger down."""
-        last_s, self._last_s = self._last_s, time_s
-        if last_s is not None:
-            self.interval(time_s - last_s)
+        self._last_s = -inf
 
     def interval(self, interval_s: float) -> None:
         """Count a time between two consecutive reports."""
-        index = int(interval_s / BIN_S)
-        if not 0 < index < BINS:
+        last_s, self._last_s = self._last_s, 0.0
+        self.report(interval_s)
+        self._last_s = last_s
+
+    def report(self, time_s: float) -> None:
+        """Count a report at `time_s` (loop's clock) with a finger down."""
+        interval_s = time_s - self._last_s
+        self._last_s = time_s
+        bins = interval_s / BIN_S
+        if not 1.0 <= bins < BINS:
             return
-        self._counts[index] += 1
+        self._counts[int(bins)] += 1
         if self.measured < FIRST_INTERVALS:
             first_s, at = self._first_s, self.measured
             while at and first_s[at - 1] > interval_s:
@@ -143,14 +146,18 @@ class ReportRate:
             first_s[at] = interval_s
             self.period_s = min(max(first_s[self.measured // 2], MIN_PERIOD_S), MAX_PERIOD_S)
             self.measured += 1
-        elif interval_s > self.period_s:
-            self.period_s = min(self.period_s * (1 + MEDIAN_STEP), MAX_PERIOD_S)
+            return
+        period_s = self.period_s
+        if interval_s > period_s:
+            period_s *= LONGER
+            self.period_s = period_s if period_s < MAX_PERIOD_S else MAX_PERIOD_S
         else:
-            self.period_s = max(self.period_s * (1 - MEDIAN_STEP), MIN_PERIOD_S)
+            period_s *= SHORTER
+            self.period_s = period_s if period_s > MIN_PERIOD_S else MIN_PERIOD_S
 
     def pause(self) -> None:
         """Ignore the time until the next report: no finger is down."""
-        self._last_s = None
+        self._last_s = -inf
 
     @property
     def median_s(self) -> float | None:

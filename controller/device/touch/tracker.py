@@ -148,7 +148,8 @@ class Tracker:
             self._take(sample, out)
         if touched:
             self._found_still(known_s)
-        self._decide(known_s, out)
+        if self._due_s != inf:
+            self._decide(known_s, out)
         if not self._contacts:
             self.rate.pause()
         return tuple(out)
@@ -250,6 +251,7 @@ class Tracker:
         contact = _Contact(finger, Motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
         contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
+        self._due_s = -inf  # it is decided now, or from when on it waits
         self.tracking.held_back += contact.suspect
         self._contacts[finger] = contact
         return contact
@@ -276,6 +278,7 @@ class Tracker:
     def _lift(self, contact: _Contact, time_s: float) -> None:
         if contact.played:
             contact.lost_s = time_s
+            self._due_s = -inf
             self._lost.append(contact)
             self._losses += not self.rate.measured
         elif contact.suspect:

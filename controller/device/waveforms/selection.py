@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from math import floor
 from typing import Final
 
-from controller.device.bank.grid import TO_WHOLE
+from controller.device.bank.grid import TO_WHOLE, Grid
 from controller.device.bank.reader import Bank
 from controller.device.fpga.frames import ReadyFrames, Waveform
 from controller.device.kernel import MAX_NULLS
@@ -45,6 +45,7 @@ class Selection:
         self, bank: Bank, snap_m: float, idle_word: int, band_hz: tuple[float, float] | None = None, *, ready: bool = True
     ) -> None:
         self._bank = bank
+        self._grid: Grid = bank.grid
         self.lattice_m = LATTICE_M * bank.wave_scale  # distance of the points to which places are rounded
         self._null_apart_m = NULL_APART_M * bank.wave_scale
         self.reuse_m = REUSE_RADIUS_M * bank.wave_scale  # a waveform for a place this near serves as well
@@ -82,8 +83,8 @@ class Selection:
             x_m, y_m, amplitude = points[0]
             step = 0 if amplitude == 1 else amplitude_step(amplitude)
             if step == 0:
-                cell, distance_m = self._bank.grid.nearest(x_m, y_m)
-                if distance_m <= self._snap_m:
+                cell = self._grid.within(x_m, y_m, self._snap_m)
+                if cell >= 0:
                     return cell
             lattice_m = self.lattice_m
             return ((floor(x_m / lattice_m + TO_WHOLE - TO_WHOLE), floor(y_m / lattice_m + TO_WHOLE - TO_WHOLE), step),)
@@ -164,11 +165,12 @@ class Selection:
     def single_focus(self, key: Key) -> tuple[float, float, int] | None:
         """Place (x_m, y_m) and amplitude step of a key of a single point; None for a key of several."""
         if isinstance(key, int):
-            return (*self._bank.grid.place(key), 0)
-        if len(key) != 1 or key[0][2] == CHANNEL:
+            return (*self._grid.place(key), 0)
+        if len(key) != 1:
             return None
         x, y, step = key[0]
-        return x * self.lattice_m, y * self.lattice_m, step
+        lattice_m = self.lattice_m
+        return None if step == CHANNEL else (x * lattice_m, y * lattice_m, step)
 
 
 def lattice_key(points: Sequence[Point], lattice_m: float) -> tuple[LatticePoint, ...]:

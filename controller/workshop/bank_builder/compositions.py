@@ -53,7 +53,7 @@ def compositions(board: Board, grid: Grid, source: ResponseSource, emitters: Seq
     """
     method, found, scale = ExactComposition(board, source), [], wave_scale(board)
     for points in played_together(emitters, board.waveform.duration_s, scale):
-        if len(points) == 1 and points[0][2] == 1 and grid.nearest(*points[0][:2])[1] <= board.bank.snap_mm * 1e-3:
+        if len(points) == 1 and points[0][2] == 1 and grid.within(*points[0][:2], board.bank.snap_mm * 1e-3) >= 0:
             continue
         try:
             words = method.design(points).words

@@ -13,6 +13,18 @@ SingleFocus = tuple[float, float, int]  # x and y in m, amplitude in steps below
 MIN_UNPINNED: Final = 2  # slots: one plays, one is being filled
 
 
+class _Resident:
+    """A waveform of one focus that a slot holds."""
+
+    __slots__ = ("key", "step", "x_m", "y_m")
+
+    def __init__(self, key: Key, x_m: float, y_m: float, step: int) -> None:
+        self.key: Final = key
+        self.x_m: Final = x_m
+        self.y_m: Final = y_m
+        self.step: Final = step
+
+
 class SlotCache:
     """Slots and the keys of the waveforms in them, least recently used first.
 
@@ -33,7 +45,7 @@ class SlotCache:
         # every slot, the next one to be taken first, with the key of its waveform; None: it holds none
         self.held: OrderedDict[int, Key | None] = OrderedDict()
         self._slot_of: dict[Key, int] = {}
-        self._single_focus_of: dict[int, tuple[Key, float, float, int]] = {}  # what a slot holds, if that is one focus
+        self._single_foci: dict[int, _Resident] = {}  # what a slot holds, if that is one focus
         self._pinned: set[Key] = set()
         self.clear()
 
@@ -41,17 +53,16 @@ class SlotCache:
         """Key of a resident waveform that can be played for `key`: the same, or one for a place near by; None if there is none."""
         if key in self._slot_of:
             return key
-        wanted = self._single_focus(key) if isinstance(key, int) or len(key) == 1 else None
+        wanted = self._single_focus(key)
         if wanted is None:
             return None
         x_m, y_m, step = wanted
         near_m = self._near_m
-        for resident, there_x_m, there_y_m, there_step in self._single_focus_of.values():
-            off_x_m = x_m - there_x_m
-            if -near_m <= off_x_m <= near_m and step == there_step:
-                off_y_m = y_m - there_y_m
+        for resident in self._single_foci.values():
+            if abs(x_m - resident.x_m) <= near_m and step == resident.step:
+                off_x_m, off_y_m = x_m - resident.x_m, y_m - resident.y_m
                 if off_x_m * off_x_m + off_y_m * off_y_m <= near_m * near_m:
-                    return resident
+                    return resident.key
         return None
 
     def use(self, key: Key) -> int:
@@ -89,16 +100,16 @@ class SlotCache:
         if not self._reuses:
             return
         self._slot_of[key] = slot
-        focus = self._single_focus(key) if isinstance(key, int) or len(key) == 1 else None
+        focus = self._single_focus(key)
         if focus is not None:
-            self._single_focus_of[slot] = key, *focus
+            self._single_foci[slot] = _Resident(key, *focus)
 
     def drop(self, slot: int) -> None:
         """Take note that what a slot holds cannot be played; it is the next one to be taken."""
         key = self.held[slot]
         if key is not None:
             self._slot_of.pop(key, None)
-            self._single_focus_of.pop(slot, None)
+            self._single_foci.pop(slot, None)
             self.held[slot] = None
         self.held.move_to_end(slot, last=False)
 
@@ -109,6 +120,6 @@ class SlotCache:
     def clear(self) -> None:
         """Take note that the FPGA holds nothing: at the start, and after a fault."""
         self._slot_of.clear()
-        self._single_focus_of.clear()
+        self._single_foci.clear()
         self.held.clear()
         self.held.update(dict.fromkeys(range(self.slots)))

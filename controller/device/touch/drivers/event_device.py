@@ -25,8 +25,9 @@ RETRY_S: Final = 0.5  # between attempts to open a lost panel
 INPUT_EVENT: Final = struct.Struct("@llHHi")  # struct input_event
 EVENT_BYTES: Final = INPUT_EVENT.size
 BUFFERED_EVENTS: Final = 64
-MAX_READ_EVENTS: Final = 40  # a longer report comes in parts: no list is larger than 512 bytes
+MAX_READ_BYTES: Final = 40 * EVENT_BYTES  # a longer report comes in parts: no list is larger than 512 bytes
 MAX_SLOTS: Final = 256
+NOTHING: Final = memoryview(b"")
 
 
 def _eviocgmtslots(size_bytes: int) -> int:
@@ -48,9 +49,8 @@ class LinuxInput:
         self.warnings: Counter[str] = Counter()
         self._device = device
         self._grab = grab
-        self._buffer = bytearray(BUFFERED_EVENTS * INPUT_EVENT.size)
-        self._into = [memoryview(self._buffer)]
-        self._begin = self._end = 0  # bytes of the buffer not yet returned
+        self._into = [memoryview(bytearray(BUFFERED_EVENTS * EVENT_BYTES))]
+        self._left = NOTHING  # of what was read last, in there: not yet returned
         self._dropping = False
         self._state_due = False  # the next read gives the panel's state
         self._retry_s = 0.0
@@ -70,7 +70,7 @@ class LinuxInput:
         """At once while events are buffered; while the panel is lost, when to open it again."""
         if self._opened is None:
             return self._retry_s
-        return 0.0 if self._begin < self._end or self._state_due else None
+        return 0.0 if self._left or self._state_due else None
 
     def read(self, now_s: float) -> Sequence[Event]:
         """Events of at most one report by `now_s`; see `EventReader.read`."""
@@ -81,32 +81,26 @@ class LinuxInput:
         if self._state_due:
             self._state_due = False
             return self._resynchronise(now_s)
-        events: list[Event] = []
-        unpack = INPUT_EVENT.unpack_from
-        buffer = self._buffer
-        begin = self._begin
-        for _ in range(MAX_READ_EVENTS):
-            if begin == self._end:
-                if not self._fill():
-                    self._begin = self._end = 0
-                    return self._lost(now_s) if self._opened is None else events
-                begin = 0
-            event: tuple[int, int, int, int, int] = unpack(buffer, begin)
-            second, microsecond, kind, code, value = event
-            begin += EVENT_BYTES
-            if kind == EV_SYN and code == SYN_DROPPED:
-                self.warnings["dropped"] += 1
-                self._dropping = True
-            elif self._dropping:
-                if kind == EV_SYN and code == SYN_REPORT:
-                    self._dropping = False
-                    return self._resynchronise(now_s)
-            else:
+        event: tuple[int, int, int, int, int]
+        while self._left or self._fill():
+            events: list[Event] = []
+            for event in INPUT_EVENT.iter_unpack(self._left[:MAX_READ_BYTES]):
+                second, microsecond, kind, code, value = event
                 events.append((kind, code, value, second + microsecond * 1e-6))
-                if kind == EV_SYN and code == SYN_REPORT:
-                    break
-        self._begin = begin
-        return events
+                if not kind:  # EV_SYN
+                    if code == SYN_REPORT:
+                        break
+                    if code == SYN_DROPPED:
+                        self.warnings["dropped"] += 1
+                        self._dropping = True
+                        break
+            self._left = self._left[EVENT_BYTES * len(events) :]
+            if not self._dropping:
+                return events
+            if events[-1][:2] == (EV_SYN, SYN_REPORT):
+                self._dropping = False
+                return self._resynchronise(now_s)
+        return self._lost(now_s) if self._opened is None else ()
 
     def close(self) -> None:
         """Close the device, which ends a grab."""
@@ -124,15 +118,16 @@ class LinuxInput:
             return False
         except OSError:  # ENODEV when unplugged
             size = 0
-        self._begin, self._end = 0, size - size % INPUT_EVENT.size
-        if not self._end:
+        self._left = self._into[0][: size - size % EVENT_BYTES]
+        if not self._left:
             self.close()
-        return self._end > 0
+            return False
+        return True
 
     def _lost(self, now_s: float) -> Sequence[Event]:
         """Lift every contact of a lost device; it is opened again later."""
         self.warnings["panel_lost"] += 1
-        self._begin = self._end = 0
+        self._left = NOTHING
         self._dropping = False
         self._retry_s = now_s + RETRY_S
         return release_report(self._protocol, self._slots, now_s)
@@ -159,7 +154,7 @@ class LinuxInput:
             pass
         if self._opened is None:
             return self._lost(now_s)
-        self._begin = self._end = 0
+        self._left = NOTHING
         try:
             return self._state(self._opened, now_s)
         except OSError:
