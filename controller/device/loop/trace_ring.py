@@ -66,6 +66,7 @@ class TraceRing:
 
     def __init__(self, records: int = RECORDS) -> None:
         self.bytes = bytearray(records * RECORD_BYTES)
+        self._end = len(self.bytes)
         # Called with the reason when the ring is to be written, and with `by_hand` where somebody wants it now; not more
         # than it has to be, as it is called on the hot path
         self.asked: Asked = _nobody
@@ -80,25 +81,27 @@ class TraceRing:
         """Note a turn; `report_ns` as in `Turn`."""
         TURN.pack_into(self.bytes, self.at, IS_TURN, started, min(due, MOST_DUE), report_ns * 1e-9, began_s, ended_s)
         at = self.at + RECORD_BYTES
-        self.at = at if at < len(self.bytes) else 0
+        self.at = at if at < self._end else 0
 
     def started(self, accepted: Accepted, start_s: float, offset_s: ClockOffset) -> None:
         """Note a start at the host's `start_s`; `offset_s` from host time to FPGA time."""
         plan = accepted.plan
-        due, pulse = FPGA_NEVER, FPGA_NEVER
-        for emission in plan.batch.emissions:
-            due = min(due, emission.time_s)
-            if emission.pulse and emission.time_s < pulse:
-                pulse = emission.time_s
-        is_pulse = pulse != FPGA_NEVER
-        due_s = (pulse if is_pulse else due) - offset_s
-        flags = PULSE * is_pulse + RESIDENT * (plan.resident is not None) + BY_CLOCK * (plan.start_ticks is not None)
+        emissions = plan.batch.emissions
+        due, is_pulse = FPGA_NEVER, False  # a pulse that is due goes before all else
+        for emission in emissions:
+            if bool(emission.pulse) == is_pulse:
+                due = emission.time_s if emission.time_s < due else due
+            elif emission.pulse:
+                due, is_pulse = emission.time_s, True
+        due_s = due - offset_s
+        flags = (PULSE if is_pulse else 0) | (0 if plan.resident is None else RESIDENT)
+        flags |= 0 if plan.start_ticks is None else BY_CLOCK
         START.pack_into(
             self.bytes,
             self.at,
             IS_START,
             flags,
-            len(plan.batch.emissions),
+            len(emissions),
             accepted.decide_ns * 1e-9,
             due_s,
             accepted.ready_s,
@@ -107,7 +110,7 @@ class TraceRing:
             accepted.wire_ns * 1e-9,
         )
         at = self.at + RECORD_BYTES
-        self.at = at if at < len(self.bytes) else 0
+        self.at = at if at < self._end else 0
         if is_pulse and start_s - due_s > LATE_S:
             self.asked(f"a pulse was {(start_s - due_s) * 1e3:.1f} ms late")
 

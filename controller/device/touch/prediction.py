@@ -98,7 +98,9 @@ class Motion:
         """
         if self._rested >= REST_REPORTS:
             return self._anchor_x_m, self._anchor_y_m
-        ahead_s = min(max(at_s - self.time_s, 0.0) + lag_s, MAX_HORIZON_S)
+        ahead_s = at_s - self.time_s
+        ahead_s = lag_s + ahead_s if ahead_s > 0.0 else lag_s
+        ahead_s = ahead_s if ahead_s < MAX_HORIZON_S else MAX_HORIZON_S
         silent_s = known_s - self.time_s
         if silent_s > MOVING_PERIODS * period_s:
             ahead_s *= max(SILENT_PERIODS - silent_s / period_s, 0.0) / (SILENT_PERIODS - MOVING_PERIODS)

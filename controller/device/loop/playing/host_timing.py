@@ -77,12 +77,14 @@ class DeliveryTime:
 
     def record(self, duration_s: float) -> None:
         """Take the duration of one, from the decision to the last bit."""
-        more_s = max(duration_s - self._bits_s, 0.0)
-        self._percentile.record(more_s)
-        most_s = self._percentile.value_s
-        self._mean_s += (min(more_s, most_s) - self._mean_s) / MEAN_OF
-        self.expected_s = self._bits_s + self._mean_s
-        self.promised_s = self._bits_s + MARGIN * most_s
+        percentile, mean_s, bits_s = self._percentile, self._mean_s, self._bits_s
+        more_s = duration_s - bits_s
+        more_s = more_s if more_s > 0.0 else 0.0
+        percentile.record(more_s)
+        most_s = percentile.value_s
+        self._mean_s = mean_s = mean_s + ((more_s if more_s < most_s else most_s) - mean_s) / MEAN_OF
+        self.expected_s = bits_s + mean_s
+        self.promised_s = bits_s + MARGIN * most_s
 
 
 class HostTiming:
