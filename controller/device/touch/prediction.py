@@ -66,9 +66,8 @@ class Motion:
         ahead_x_m, ahead_y_m = self._x_m + vx * step_s, self._y_m + vy * step_s
         off_x_m, off_y_m = x_m - ahead_x_m, y_m - ahead_y_m
         self._x_m, self._y_m = ahead_x_m + ALPHA * off_x_m, ahead_y_m + ALPHA * off_y_m
-        gain_hz = BETA / step_s
-        self._vx = vx = vx + gain_hz * off_x_m
-        self._vy = vy = vy + gain_hz * off_y_m
+        self._vx = vx = vx + BETA / step_s * off_x_m
+        self._vy = vy = vy + BETA / step_s * off_y_m
         step_x_m, step_y_m = x_m - self.x_m, y_m - self.y_m
         off_x_m, off_y_m = step_x_m - self.vx * step_s, step_y_m - self.vy * step_s
         self.missed_m = sqrt(off_x_m * off_x_m + off_y_m * off_y_m)

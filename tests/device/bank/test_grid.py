@@ -57,6 +57,8 @@ def test_the_nearest_cell_is_the_nearest_of_all(glass, pitch_m, x_m, y_m):
     every = np.hypot(*(grid.points() - (x_m, y_m)).T)
     assert distance_m == pytest.approx(every[cell])
     assert distance_m <= every.min() + 1e-12
+    assert grid.within(x_m, y_m, distance_m + 1e-9) == cell
+    assert grid.within(x_m, y_m, distance_m - 1e-9) == -1
 
 
 @given(PLATES, PITCHES_M, PLACES_M, PLACES_M)

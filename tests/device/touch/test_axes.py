@@ -62,3 +62,24 @@ def test_clamped_values_lie_in_the_ranges_and_those_inside_stay(x, y):
     assert 7 <= near_y <= 9
     assert near_x == x or not -100 <= x <= 1000
     assert near_y == y or not 7 <= y <= 9
+
+
+@given(
+    st.tuples(*[st.floats(-300, 300)] * 3),
+    st.tuples(*[st.floats(-300, 300)] * 3),
+    st.integers(2, 9999),
+    st.integers(2, 9999),
+    st.data(),
+)
+def test_what_is_plain_maps_to_the_plate_without_being_clamped(x_mm, y_mm, width, height, data):
+    axes = PanelAxes(board(x_mm, y_mm), AxisRange(-5, width), AxisRange(7, 7 + height))
+    low_x, high_x, low_y, high_y = axes.plain()
+    if low_x <= high_x < float("inf"):
+        x, y = data.draw(st.integers(low_x, high_x)), data.draw(st.integers(low_y, high_y))
+        assert axes.mapped_m(x, y) == axes.position_m(x, y)
+
+
+def test_on_a_panel_of_the_size_of_the_plate_all_but_the_rim_is_plain():
+    assert PanelAxes(BOARD, AxisRange(0, 2100), AxisRange(0, 1480)).plain() == (1, 2099, 1, 1479)
+    beyond = PanelAxes(board((230.0, 0.0, -10.0), (0.0, 160.0, -6.0)), AxisRange(0, 2100), AxisRange(0, 1480))
+    assert beyond.plain() == (float("inf"),) * 4
