@@ -1,11 +1,12 @@
-"""Python calls of one turn of the loop that plays two fingers, and how often they go from one module to another.
+"""Python calls and bytecodes of one turn of the loop that plays two fingers, and how often calls go to another module.
 
     python -m tests.workshop.benchmark.turn_calls [--list]
 
 Two fingers are put down in the same report; both feel it, the waveform is composed and uploaded. The link says yes
 (`null_link.py`), so that what is counted is the host's. Counted by `sys.setprofile` are calls of the controller's Python
 functions, and changes of module: calls, in the order in which they begin, of another module than the call before. Those of the
-kernel, which may be its Python twin, are left out: the same on every machine.
+kernel, which may be its Python twin, are left out: the same on every machine. Bytecodes are those of the same functions: the
+same with each Python of one version.
 """
 
 from __future__ import annotations
@@ -47,23 +48,31 @@ class Profile:
     def __init__(self) -> None:
         self.calls = 0
         self.changes = 0
+        self.bytecodes = 0
         self.edges: Counter[tuple[str, str]] = Counter()
         self._stack: list[str] = []
         self._last = ""
 
     def __enter__(self) -> Profile:
+        sys.settrace(self._step)
         sys.setprofile(self._event)
         return self
 
     def __exit__(self, *_: object) -> None:
         sys.setprofile(None)
+        sys.settrace(None)
+
+    def _step(self, frame: FrameType, event: str, _: Any) -> Any:
+        if not _counts(frame):
+            return None
+        frame.f_trace_opcodes = True
+        self.bytecodes += event == "opcode"
+        return self._step
 
     def _event(self, frame: FrameType, event: str, _: Any) -> None:
-        if event not in {"call", "return"}:
+        if event not in {"call", "return"} or not _counts(frame):
             return
-        module = frame.f_globals.get("__name__", "")
-        if not module.startswith("controller.") or module.startswith("controller.device.kernel") or frame.f_code is VIRTUAL_NOW_S:
-            return
+        module = frame.f_globals["__name__"]
         if event == "call":
             if self._stack:
                 self.calls += 1
@@ -74,6 +83,13 @@ class Profile:
             self._last = module
         elif self._stack:
             self._stack.pop()
+
+
+def _counts(frame: FrameType) -> bool:
+    module = frame.f_globals.get("__name__", "")
+    return (
+        module.startswith("controller.") and not module.startswith("controller.device.kernel") and frame.f_code is not VIRTUAL_NOW_S
+    )
 
 
 def recording() -> Recording:
@@ -104,11 +120,17 @@ def profile(board: Board, bank: Bank, scene_file: Path) -> Profile:
     turn = EventLoop._turn
 
     def profiled(loop: EventLoop) -> float | None:
+        nonlocal found
         before = assembly.counters.foci
         with Profile() as profile:
             next_s = turn(loop)
         if assembly.counters.foci == before + len(FINGERS):
-            found.calls, found.changes, found.edges = profile.calls, profile.changes, profile.edges
+            found.calls, found.changes, found.bytecodes, found.edges = (
+                profile.calls,
+                profile.changes,
+                profile.bytecodes,
+                profile.edges,
+            )
         return next_s
 
     EventLoop._turn = profiled  # type: ignore[method-assign]
@@ -136,7 +158,7 @@ def main() -> int:
     if options.list:
         for (caller, called), times in sorted(counted.edges.items(), key=lambda edge: -edge[1]):
             print(f"{times:4} {caller.removeprefix('controller.')} -> {called.removeprefix('controller.')}")
-    print(f"{counted.calls} calls, {counted.changes} changes of module")
+    print(f"{counted.calls} calls, {counted.changes} changes of module, {counted.bytecodes} bytecodes")
     return 0
 
 

@@ -53,7 +53,7 @@ class SlotCache:
         """Key of a resident waveform that can be played for `key`: the same, or one for a place near by; None if there is none."""
         if key in self._slot_of:
             return key
-        wanted = self._single_focus(key)
+        wanted = self._single_focus(key) if isinstance(key, int) or len(key) == 1 else None
         if wanted is None:
             return None
         x_m, y_m, step = wanted
@@ -100,7 +100,7 @@ class SlotCache:
         if not self._reuses:
             return
         self._slot_of[key] = slot
-        focus = self._single_focus(key)
+        focus = self._single_focus(key) if isinstance(key, int) or len(key) == 1 else None
         if focus is not None:
             self._single_foci[slot] = _Resident(key, *focus)
 
