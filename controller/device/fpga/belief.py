@@ -13,6 +13,8 @@ from controller.device.fpga.registers import Start, State
 from controller.device.fpga.status import Status
 from controller.metrics import LinkCounters
 
+NOW: Final = Start.NOW
+TIME: Final = Start.TIME
 TRIGGERED: Final = -1  # in place of a time: at the next trigger
 BUSY: Final = State.PLAYING | State.REPEATING | State.PENDING | State.DELAYED
 UNSURE_TICKS: Final = 64  # around the time of a play: whether a status shows it begun
@@ -39,11 +41,11 @@ class Belief:
 
     def accepted(self, play: Play) -> None:
         """A play was accepted."""
-        if play.start is Start.NOW:
+        if play.start is NOW:
             self._unscheduled = True
             self.began(play.emissions)
         else:
-            self.waiting.append(play.when_ticks if play.start is Start.TIME else TRIGGERED)
+            self.waiting.append(play.when_ticks if play.start is TIME else TRIGGERED)
             self._counts.append(play.emissions)
 
     def withdrawn(self) -> None:

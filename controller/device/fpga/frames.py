@@ -13,7 +13,8 @@ modulo 256), and return the offset of its end.
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Final, NamedTuple
 
 from controller.device.fpga.frame_table import CRC_FIELD, HEADER_FIELDS, PAYLOADS, offset_of, packing
@@ -67,6 +68,11 @@ class Play(NamedTuple):
     mask: int = ALL_CHANNELS  # bit q set: channel q plays; the others keep their idle level
     # For Start.TIME: FPGA time at which the first word is on the pins; otherwise a delay after the start, in FPGA clocks
     when_ticks: int = 0
+
+
+_PlayFields = tuple[int, int, int, int, Start, bool, int, int, int]
+new_play: Final[Callable[[_PlayFields], Play]] = partial(tuple.__new__, Play)
+"""A `Play` of a tuple of all its fields, as `touch.source.touch_sample` makes a sample."""
 
 
 class ReadyFrames(NamedTuple):

@@ -5,9 +5,10 @@ next is sent ahead.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from controller.device.fpga.exchange import DAMAGED, Refused
-from controller.device.fpga.frames import Play, ReadyFrames
+from controller.device.fpga.frames import ALL_CHANNELS, Play, ReadyFrames, new_play
 from controller.device.fpga.registers import Result, Start
 from controller.device.loop.context import LoopContext
 from controller.device.loop.playing.occupancy import Occupancy
@@ -18,6 +19,9 @@ from controller.device.loop.skips import Skips
 from controller.device.waveforms.composition import Point
 from controller.device.waveforms.selection import NULL, Key, Selection
 from controller.errors import BankError
+
+TRIGGER: Final = Start.TRIGGER
+TIME: Final = Start.TIME
 
 
 class Sender:
@@ -130,8 +134,8 @@ class Sender:
     def _record(self, plan: Plan, slot: int) -> Play:
         batch, ticks = plan.batch, plan.start_ticks
         period_ticks = 0 if batch.repetitions == 1 else self._session.timing.period_ticks(batch.period_s)
-        start = Start.TRIGGER if ticks is None else Start.TIME
-        return Play(slot, emissions=batch.repetitions, start=start, period_ticks=period_ticks, when_ticks=ticks or 0)
+        start, when_ticks = (TRIGGER, 0) if ticks is None else (TIME, ticks)
+        return new_play((slot, 0, 0, batch.repetitions, start, False, period_ticks, ALL_CHANNELS, when_ticks))
 
     def _replaced(self) -> None:
         """Take note that a play ends the repetition before it, whatever becomes of the play."""
