@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.touch.prediction import Motion
+from controller.device.waveforms.pad import pad_places
 
 Place = tuple[float, float]
 
@@ -39,6 +40,11 @@ class FingerScene:
     expected: tuple[Place, ...]  # each (x_m, y_m): where the host expects them at T; the same as `points` for fingers at rest
     null: Place  # (x_m, y_m): a finger that shall feel nothing
     detuning: float = 1.0  # ratio of the plate's modal frequencies to those of which responses are known
+
+    @property
+    def needed(self) -> tuple[Place, ...]:
+        """Places whose responses composing may need: where fingers are expected, and the pad of the one that shall feel nothing."""
+        return (*self.expected, *pad_places(*self.null))
 
 
 def still(family: str, points: Sequence[Place], null: Place, detuning: float = 1.0) -> FingerScene:

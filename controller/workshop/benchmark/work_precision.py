@@ -70,7 +70,7 @@ def work_precision(
     """Measure errors and costs of all methods. Plain values, as `tests/workshop/benchmark/work_precision.schema.json` says."""
     surroundings = environment()  # first: the load of the machine is still that of others
     drawn = scenes(board, seed, effort.each, effort.random_scenes)
-    places = [place for scene in drawn for place in (*scene.expected, scene.null)]
+    places = [place for scene in drawn for place in scene.needed]
     with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
         laboratory = Laboratory(board, Path(folder), places)
         try:

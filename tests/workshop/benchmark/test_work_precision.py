@@ -15,7 +15,7 @@ from controller.errors import ConfigError
 from controller.workshop.benchmark import baselines, plate_under_test
 from controller.workshop.benchmark import work_precision as module
 from controller.workshop.benchmark.device.interleaved import interleaved
-from controller.workshop.benchmark.fingers_scenes import scenes
+from controller.workshop.benchmark.fingers_scenes import scenes, still
 from controller.workshop.benchmark.methods import designs, device, modal_bank, registry
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.benchmark.pareto import cost, front
@@ -153,18 +153,22 @@ def test_the_command_writes_figures_and_says_where_it_cannot(coarse, monkeypatch
 def test_every_method_gives_words(small_board, tmp_path):
     places = [(0.0417, 0.0332), (0.0603, 0.0471)]
     quiet = (0.05, 0.02)
-    laboratory = Laboratory(small_board, tmp_path, [*places, quiet])
+    laboratory = Laboratory(small_board, tmp_path, still("1 off grid", places, quiet).needed)
     try:
         methods = [method for method in registry.all_candidates(laboratory) if not method.slow]
         laboratory.prepare(places)
+        said = {}
         assert len({(method.curve, method.setting) for method in methods}) == len(methods)
         for method in methods:
             points = [(*place, 1.0) for place in places[: method.most_fingers]]
             words = method.words_of(method.run(points, quiet))
+            said[method.curve, method.setting] = words.tolist()
             assert words.dtype == "u4"
             assert 0 < len(words) <= small_board.waveform.samples
             assert method.memory_bytes > 0
             assert method.wire_bytes in {72} or method.wire_bytes > 4 * len(words)
+        pitch = f"{small_board.bank.pitch_mm:g} mm"
+        assert said["device, another finger still", pitch] != said["device, compiled kernel", pitch], "the bank has its pad"
     finally:
         laboratory.close()
 
