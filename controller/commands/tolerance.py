@@ -47,7 +47,11 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     command.add_argument("--points", type=natural, default=250, metavar="N", help="points of a calibration (default: 250)")
     command.add_argument("--snr-db", type=float, default=40.0, metavar="DB", help="of its records (default: 40)")
     command.add_argument(
-        "--alone", type=natural, default=6, metavar="N", help="of these, on which each tolerance varies alone; 0: none (default: 6)"
+        "--alone",
+        type=natural,
+        default=6,
+        metavar="N",
+        help="of --plates, on which each tolerance varies alone; 0: none (default: 6)",
     )
     command.add_argument("--plot", metavar="FILE", help="draw it (.png, .svg, .pdf)")
     command.add_argument(
