@@ -51,7 +51,7 @@ def dask_errors(where: str) -> Iterator[None]:
             lost = f"a task has lost its worker {error.allowed_failures + 1} times, the last was {error.last_worker.address}"
             raise WorkersError(f"{where}: {lost}: it may need more memory; {KEPT}") from error
         if isinstance(error, CancelledError):
-            raise WorkersError(f"{where}: the scheduler is lost ({said}); {KEPT}") from error
+            raise WorkersError(f"{where}: the scheduler is lost; {KEPT}") from error
         why = f"{type(error).__name__}: {said}" if said else type(error).__name__
         raise WorkersError(f"{where}: dask failed ({why}); {KEPT}") from error
 
