@@ -185,10 +185,11 @@ def bank_describe(options: argparse.Namespace) -> int:
 
 def _expected(options: argparse.Namespace, path: Path) -> dict[str, Any]:
     """What a bank is expected to do on this panel; of a bank of another board only that it is one."""
-    board, header = load_board(find_board(options.board), several=True), header_of(path)
-    if header.board_digest != board.fpga_boards[0].digest():
+    board = load_board(find_board(options.board), several=True)
+    if header_of(path).board_digest != board.fpga_boards[0].digest():
         return {"said": f"nothing: the bank is not of board {board.name!r} (--board says which it is)"}
-    expected = expected_of(header, board)
+    with Bank.open(path, board) as bank:
+        expected = expected_of(bank.header, board)
     figures = None if expected is None else expected.figures()
     return {"said": in_words(figures)} | (figures or {})
 

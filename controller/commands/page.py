@@ -41,6 +41,7 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     parser.add_argument("--socket", metavar="PATH", help="the panel's application socket (default: the settings')")
     parser.add_argument("--port", type=int, metavar="N", help="TCP port, 0: any that is free (default: the settings')")
     parser.add_argument("--demo", action="store_true", help="simulate a panel, and let the page do everything with it")
+    parser.add_argument("--board", metavar="B", help="with --demo: that is simulated, by name or folder (default: simulated)")
     parser.set_defaults(command=run)
 
 
@@ -50,6 +51,9 @@ def run(options: argparse.Namespace) -> int:
 
     if options.demo and options.socket:
         raise UsageError("--demo: has a panel and socket of its own; leave out --socket")
+    if options.board and not options.demo:
+        raise UsageError("--board: is of the panel that --demo simulates; without it the panel is the socket's")
+    board = options.board or "simulated"
     file = Path(options.settings) if options.settings else None
     changed = {name: value for name in ("www", "socket", "port") if (value := getattr(options, name)) is not None}
     settings = load_settings(file)
@@ -60,8 +64,8 @@ def run(options: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory(prefix="haptic-panel-") as folder:
         socket = str(Path(folder) / "panel.sock")
         origins = settings.origins if file else {"self": ("operate",)}
-        changed |= {"socket": socket, "origins": origins, "field": settings.field or _field()}
-        with _simulated_panel(socket):
+        changed |= {"socket": socket, "origins": origins, "field": settings.field or _field(board)}
+        with _simulated_panel(socket, board):
             return _serve(_with(settings, changed), file)
 
 
@@ -89,24 +93,25 @@ def _serve(settings: PageSettings, file: Path | None) -> int:
     return 0
 
 
-def _field() -> str:
+def _field(board: str) -> str:
     """File of the field view of the panel that is simulated; empty if it cannot be kept: the demo goes on without."""
     from controller.device.board.board import load_board
     from controller.device.board.lookup import find_board
     from controller.workshop.physics.pictures.field_file import kept_field
 
     try:
-        return str(kept_field(load_board(find_board("simulated"))))
+        return str(kept_field(load_board(find_board(board), several=True)))
     except ConfigError as error:
         tell(f"no field view: {error}", Priority.WARNING)
         return ""
 
 
 @contextlib.contextmanager
-def _simulated_panel(socket: str) -> Iterator[None]:
+def _simulated_panel(socket: str, board: str) -> Iterator[None]:
     """`haptic-panel serve` as another process, which plays by now, and ends with this one."""
     read_end, write_end = os.pipe()
-    command = [sys.executable, "-m", "controller", "serve", "--fingers", str(FINGERS), "--ready-fd", str(write_end), "--", socket]
+    command = [sys.executable, "-m", "controller", "serve", "--board", board, "--fingers", str(FINGERS)]
+    command += ["--ready-fd", str(write_end), "--", socket]
     traces = os.environ | {"RUNTIME_DIRECTORY": str(Path(socket).parent)}
     with os.fdopen(read_end, "rb") as answer:
         panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(write_end,), start_new_session=True, env=traces)

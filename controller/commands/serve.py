@@ -66,12 +66,11 @@ def run(options: argparse.Namespace) -> int:
     from controller.device.board.lookup import find_board
     from controller.device.board.records import as_record
     from controller.device.touch.recordings.recording import Recording
-    from controller.workshop.bank_builder.build import build_bank
-    from controller.workshop.bank_builder.request import BankRequest
+    from controller.workshop.bank_builder.own_bank import Order
     from controller.workshop.simulation.served_panel import ghostly, moving, replayed, serve
 
     require_within(options, {"touched_s": (0, 1e9), "ghosts": (0, 1)})
-    board = load_board(find_board(options.board))
+    board = load_board(find_board(options.board), several=True)
     asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
     settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
     if options.background:
@@ -93,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
         path = Path(folder) / "whole plate.bank"
         tell(f"building a bank of the whole plate, {PITCH_M * 1e3:g} mm from cell to cell: some seconds")
-        report = build_bank(BankRequest(board, path, PITCH_M, progress=True))
+        report = Order(board, PITCH_M).build(path)
         tell(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
         started_s = time.monotonic()
         with Bank.open(path, board) as bank:

@@ -12,12 +12,7 @@ from controller.device.service.installation import is_installed
 
 
 def expected_of(header: Header, board: Board, plate: Board | None = None) -> Expectation | None:
-    """Expectation of a bank of a board; `plate` is what is there of a simulated panel, if it is not known from the board.
-
-    None of a bank of several FPGAs, too, each of which says its own share alone.
-    """
-    if board.link.fpga:
-        return None
+    """Expectation of a bank of a board; `plate` is what is there of a simulated panel, if it is not known from the board."""
     return Expectation.of(header, board, _identity(board, plate), datetime.now(tz=UTC).date())
 
 

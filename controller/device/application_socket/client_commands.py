@@ -149,7 +149,7 @@ def declare_requests(parser: argparse.ArgumentParser) -> None:
     state = commands.add_parser("state", help="print the panel's state")
     state.add_argument("--follow", action="store_true", help="and after each change, until Ctrl-C")
     channel = commands.add_parser("test-channel", help="play a chirp on one channel alone: its patch moves and no other")
-    channel.add_argument("channel", type=int, metavar="N", help="0 to 31, as `describe` numbers the patches")
+    channel.add_argument("channel", type=int, metavar="N", help="as `describe` numbers the patches")
     commands.add_parser("trace", help="have written what the loop did in the last seconds; the log says where")
     commands.add_parser("figures", help="print counters and latencies")
     describe = commands.add_parser("describe", help="print plate, patches, axes, scene, effects, limits, versions, last faults")

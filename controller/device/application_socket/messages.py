@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta, Raw, Struct
 
+from controller.device.board.panel import CHANNELS, FPGAS_MAX
 from controller.device.scene.layers import MOST_SHIFT_MM, RefusedRegion, Scale
 
 LINE_BYTES = 8192  # longest line of a client, with its newline, but for `LONG`
@@ -133,7 +134,7 @@ class Stop(Request, frozen=True, kw_only=True, tag="stop", gc=False):
 class ChannelTest(Request, frozen=True, kw_only=True, tag="test_channel", gc=False):
     """Play a chirp through the band on one channel alone: its patch moves and no other; answered as `PlayRequest`."""
 
-    channel: Annotated[int, Meta(ge=0, le=31)]
+    channel: Annotated[int, Meta(ge=0, le=CHANNELS * FPGAS_MAX - 1)]
 
 
 class WriteTrace(Request, frozen=True, kw_only=True, tag="trace", gc=False):

@@ -260,7 +260,7 @@ def why_unknown(provenance: Provenance | None, panel: str | None) -> str:
 def in_words(figures: dict[str, Any] | None) -> str:
     """`Expectation.figures` in a line; None: of a bank that says no amplitude."""
     if figures is None:
-        return "no amplitude is stated: build the bank again (none is with a [finger] in board.toml, or several FPGAs)"
+        return "no amplitude is stated: build the bank again (none is with a [finger] in board.toml)"
     finger, bare = (Interval(*figures[name]).in_words() for name in ("finger_um", "bare_um"))
     felt = f"a finger of 30 to 150 mg feels {finger} of a pulse"
     if figures["cause"]:

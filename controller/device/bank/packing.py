@@ -1,7 +1,8 @@
 """Drive words and quantised responses, of which a bank entry consists.
 
 Word n is sample n of an emission and bit q of it is channel q, little-endian, so the FPGA plays an
-entry word by word and a memoryview of the bank goes to the wire as it is.
+entry word by word and a memoryview of the bank goes to the wire as it is. The words of several FPGAs
+have a column for each, (sample, FPGA); an entry is of one.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from controller.device.board.panel import CHANNELS
 
-__all__ = ["CHANNELS", "WORD", "channel_bits", "drive_words", "edges", "quantise"]
+__all__ = ["CHANNELS", "WORD", "as_words", "channel_bits", "drive_words", "edges", "framed", "quantise"]
 
 WORD = np.dtype("<u4")
 SCALE_BITS = 13  # a response is stored 1/8192 coarser at most
@@ -27,24 +28,26 @@ def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDA
     end of the emission: every sample adds `|response|` (paper, section III-A).
 
     `drive_order` (sample, channel), in any unit, has the sample played first first. Above zero plays high, below zero low; exactly
-    zero gains nothing, so the channel stays at its idle bit: no edge, no energy. Returns the words (sample,), first played first.
-    Raises ValueError if `drive_order` is not finite or not (sample, 32), or `idle_word` is not 32 bits.
+    zero gains nothing, so the channel stays at its idle bit: no edge, no energy. Returns the words, (sample,), first played first;
+    of several FPGAs (sample, FPGA). Raises ValueError if `drive_order` is not finite or not (sample, 32 for each FPGA), or
+    `idle_word` has more bits.
     """
     _check(drive_order)
-    if not 0 <= idle_word < 1 << CHANNELS:
-        raise ValueError(f"idle word {idle_word:#x} is not {CHANNELS} bits")
+    if not 0 <= idle_word < 1 << drive_order.shape[1]:
+        raise ValueError(f"idle word {idle_word:#x} is not {drive_order.shape[1]} bits")
     words = _pack(drive_order > 0)
     if idle_word:
-        words |= _pack(drive_order >= 0) & WORD.type(idle_word)
+        words |= _pack(drive_order >= 0) & as_words(idle_word, words)
     return words
 
 
 def _pack(bits: NDArray[np.bool_]) -> NDArray[np.uint32]:
-    return np.packbits(bits, axis=1, bitorder="little").view(WORD)[:, 0]
+    words = np.packbits(bits, axis=1, bitorder="little").view(WORD)
+    return words[:, 0] if words.shape[1] == 1 else words
 
 
 def _check(drive_order: NDArray[np.number[Any]]) -> None:
-    if drive_order.ndim != 2 or drive_order.shape[1] != CHANNELS:
+    if drive_order.ndim != 2 or not drive_order.shape[1] or drive_order.shape[1] % CHANNELS:
         raise ValueError(f"response is {drive_order.shape}, not (sample, {CHANNELS})")
     if not np.isfinite(drive_order).all():
         raise ValueError("response has values that are not finite")
@@ -52,15 +55,26 @@ def _check(drive_order: NDArray[np.number[Any]]) -> None:
 
 def channel_bits(words: NDArray[np.uint32]) -> NDArray[np.uint8]:
     """Unpack drive words into (sample, channel) zeros and ones; inverse of the packing."""
-    as_bytes = np.ascontiguousarray(words, WORD).view(np.uint8).reshape(-1, WORD.itemsize)
+    as_bytes = np.ascontiguousarray(words, WORD).view(np.uint8).reshape(len(words), WORD.itemsize * math.prod(words.shape[1:]))
     return np.unpackbits(as_bytes, axis=1, bitorder="little")
 
 
+def as_words(word: int, like: NDArray[np.uint32]) -> NDArray[np.uint32]:
+    """A word of all channels, bit q is channel q, as drive words of one sample, of as many FPGAs as `like` is."""
+    row = np.frombuffer(word.to_bytes(WORD.itemsize * math.prod(like.shape[1:]), "little"), WORD)
+    return row.reshape(1, *like.shape[1:])
+
+
+def framed(before: int, words: NDArray[np.uint32], after: int) -> NDArray[np.uint32]:
+    """Drive words with one before and one behind."""
+    return np.concatenate([as_words(before, words), words, as_words(after, words)])
+
+
 def edges(words: NDArray[np.uint32]) -> NDArray[np.intp]:
-    """Edges (changes of level) of each channel, (32,), from the first to the last of drive words, (sample,)."""
+    """Edges (changes of level) of each channel, (channel,), from the first to the last of drive words, (sample,)."""
     bits = channel_bits(words[1:] ^ words[:-1])
     if not len(bits):
-        return np.zeros(CHANNELS, np.intp)
+        return np.zeros(bits.shape[1], np.intp)
     eight_channels = np.add.reduceat(bits.view("<u8"), np.arange(0, len(bits), 255), axis=0)  # no byte carries into the next
     counts: NDArray[np.intp] = eight_channels.view(np.uint8).sum(axis=0, dtype=np.intp)
     return counts

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 
@@ -95,8 +96,11 @@ class Bank:
             for bank in opened:
                 bank.close()
             raise
-        opened[0].others = tuple(opened[1:])
-        return opened[0]
+        whole, said_um = opened[0], [bank.header.amplitude_um or () for bank in opened]
+        whole.others = tuple(opened[1:])
+        together = [math.fsum(of_each) for of_each in zip(*said_um, strict=False)]  # what each moves adds up; or nothing is said
+        whole.header = replace(whole.header, parameters=whole.header.parameters | {"amplitude_um": together})
+        return whole
 
     def close(self) -> None:
         """Close the file, or those of all FPGAs."""

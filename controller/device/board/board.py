@@ -133,6 +133,11 @@ class Board(Record, frozen=True):
         return msgspec.structs.replace(self, actuators=own, link=link)
 
     @property
+    def channels(self) -> int:
+        """Outputs of all its FPGAs, with or without a patch."""
+        return CHANNELS * max(len(self.link.fpga), 1)
+
+    @property
     def idle_word(self) -> int:
         """Drive word of the idle levels: bit q is the level of channel q."""
         return sum(a.idle << a.channel for a in self.actuators)

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from controller.device.bank.packing import CHANNELS
+from controller.device.board.panel import CHANNELS
 
 SAMPLES_A_PERIOD: Final = 6  # at least; a bit clock too slow for the band's end goes as far as that
 

@@ -7,12 +7,14 @@ or down is the same for all: as suits the first one best.
 
 from __future__ import annotations
 
+import numpy as np
+
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
+from controller.device.board.panel import CHANNELS
 from controller.device.fpga.frames import Waveform, joined
 from controller.device.kernel import MAX_FOCI
 from controller.device.waveforms.selection import CHANNEL, Key, Selection
-from controller.errors import BankError
 
 
 def selection_of(bank: Bank, board: Board, snap_m: float, *, ready: bool = True) -> Selection:
@@ -32,6 +34,7 @@ class WideSelection(Selection):
         ]
         super().__init__(bank, snap_m, board.fpga_boards[0].idle_word, board.waveform.band_hz, ready=False)
         self._of_each = of_each
+        self._idle_words = [part.idle_word for part in board.fpga_boards]
         self._polarities = bytearray(MAX_FOCI)
 
     @property
@@ -47,11 +50,17 @@ class WideSelection(Selection):
     def waveform(self, key: Key, polarities: bytearray | None = None) -> Waveform:
         """As in `Selection`, of all FPGAs."""
         if not isinstance(key, int) and key[0][2] == CHANNEL:
-            raise BankError("the test of a channel is for panels of one FPGA yet")
+            return self._chirp(key[0][0])
         if polarities is None:
             polarities = self._polarities
             polarities[:] = bytes(MAX_FOCI)
         return joined([one.waveform(key, polarities) for one in self._of_each])
+
+    def _chirp(self, channel: int) -> Waveform:
+        """The test of a channel: the other FPGAs stay at their idle levels."""
+        number, own = divmod(channel, CHANNELS)
+        still = [memoryview(np.full(self._bank.samples, idle, "<u4").tobytes()) for idle in self._idle_words]
+        return joined([*still[:number], self._of_each[number].waveform(((own, 0, CHANNEL),)), *still[number + 1 :]])
 
     def recheck(self, key: Key) -> None:
         """As in `Selection`."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +64,7 @@ class Order:
         return None if self.scene is None or self.compact else reached(self.board, self.scene, self.pitch_m)
 
     def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
-        """Build it, its file beside or in place of another; for several FPGAs a file for each, of which the first is reported.
+        """Build it, its file beside or in place of another; for several FPGAs a file for each; the report is of all of them.
 
         `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`. Raises
         ConfigError or BankError.
@@ -72,7 +72,8 @@ class Order:
         files = fpga_files(path, len(self.board.link.fpga))
         own = fpga_files(self.own_path, len(self.board.link.fpga))
         reports = [self.build_one(*each, cells, **how) for each in zip(self.board.fpga_boards, files, own, strict=True)]
-        return reports[0]
+        whole = {name: sum(getattr(one, name) for one in reports) for name in ("bytes", "seconds")}
+        return replace(reports[-1], path=str(path), worst_edge_rate_hz=max(one.worst_edge_rate_hz for one in reports), **whole)
 
     def build_one(self, board: Board, path: Path, own: Path, cells: NDArray[np.bool_] | None, **how: Any) -> BuildReport:
         """Build the file of one FPGA, of the patches that it drives; `own` is where `run` looks for it."""

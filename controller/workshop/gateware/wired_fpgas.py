@@ -166,6 +166,7 @@ class SimulatedFpgas(LinkGroup):
             SimulatedLink(one.link, now_s, member, bus) for one, member in zip(board.fpga_boards, self.panel.members, strict=True)
         ]
         super().__init__(self.timed)
+        self.gateware = self.panel.members[0]  # which advances all
         self.clock_hz = board.link.clock_hz
         self.tick, self.time_s = self.timed[0].tick, self.timed[0].time_s
 

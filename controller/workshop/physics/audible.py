@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
@@ -64,7 +64,7 @@ def surface_spectrum(
     modes = modes_of(board) if modes is None else modes
     forces = channel_forces(board, modes)
     first = idle_word if before_word is None else before_word
-    levels = channel_bits(np.concatenate([[first], words, [idle_word]]).astype("<u4")).astype(np.float64)
+    levels = channel_bits(framed(first, words, idle_word)).astype(np.float64)
     steps = np.diff(levels, axis=0) * board.driver.supply_v
     driver = DriverResponse.of(board.driver)
     poles = StepResponse.of(modes, driver).poles

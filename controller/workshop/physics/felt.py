@@ -73,7 +73,7 @@ def felt_amplitudes_um(
 def felt_by_all_um(
     board: Board,
     modes: Modes,
-    volts: Floats,  # (emission, sample, 32): above rest
+    volts: Floats,  # (emission, sample, channel): above rest
     fingers_m: ArrayLike,
     load: FeltLoad = LIGHT_TOUCH,
 ) -> Floats:

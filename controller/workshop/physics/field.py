@@ -8,7 +8,7 @@ deflection by the idle levels never changes, so neither a finger nor a vibromete
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -101,18 +101,6 @@ class Field:
             near_force=np.zeros((modes.count, 0)),
             early_driver_amplitudes=settled,
             scale=scale,
-        )
-
-    def plus(self, other: Field) -> Field:
-        """What both move together: fields of the same modes at the same time, each of patches of its own."""
-        return replace(
-            self,
-            pole_amplitudes=self.pole_amplitudes + other.pole_amplitudes,
-            driver_amplitudes=self.driver_amplitudes + other.driver_amplitudes,
-            level=self.level + other.level,
-            near_s=np.concatenate([self.near_s, other.near_s]),
-            near_force=np.concatenate([self.near_force, other.near_force], axis=1),
-            early_driver_amplitudes=self.early_driver_amplitudes + other.early_driver_amplitudes,
         )
 
     @cached_property

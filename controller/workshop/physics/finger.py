@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.modes.modes import Modes
@@ -111,7 +111,7 @@ def point_motion(
     bits = int(np.ceil(WINDOW_LENGTHS * (len(words) + after_s / period_s)))
     window_s = bits * period_s
     s = np.asarray(DYING / window_s + 2j * np.pi / window_s * np.arange(bits), np.complex128)
-    levels = channel_bits(np.concatenate([[board.idle_word], words, [board.idle_word]]).astype("<u4")).astype(np.float64)
+    levels = channel_bits(framed(board.idle_word, words, board.idle_word)).astype(np.float64)
     steps = np.diff(levels, axis=0) * board.driver.supply_v
     dying = np.exp(-DYING / bits * np.arange(len(steps)))
     volts = np.fft.fft(steps * dying[:, None], bits, axis=0)

@@ -28,8 +28,8 @@ def balanced_weights(responses: NDArray[np.floating[Any]]) -> NDArray[np.float64
     more positive points than negative ones. Balanced weights are then the smallest `sum |sum w h|`, which is the largest share
     that the worst point can have with these polarities.
 
-    `responses` (point, sample, 32) are band-limited, in drive order, of 1 to about 12 points. Weights (point,) are relative to the
-    sum of the absolute values of the point's response; 0 for one that is zero throughout.
+    `responses` (point, sample, channel) are band-limited, in drive order, of 1 to about 12 points. Weights (point,) are relative to
+    the sum of the absolute values of the point's response; 0 for one that is zero throughout.
     """
     flat = responses.reshape(len(responses), -1)
     sizes = np.abs(flat).sum(axis=1)
@@ -52,9 +52,9 @@ def balanced_weights(responses: NDArray[np.floating[Any]]) -> NDArray[np.float64
 def focus(responses: NDArray[np.floating[Any]], weights: Sequence[float], idle_word: int) -> NDArray[np.uint32]:
     """Drive words that focus on one or several points at the end of the emission.
 
-    `responses` (point, sample, 32) are band-limited, in drive order (`ResponseModel.drive_order_responses`), m per V. Each point
-    has a weight; a negative one pushes the other way. Bits of `idle_word` are played where the sum is exactly zero. Returns
-    (sample,). Raises ValueError if there is no point, or not one finite weight for each.
+    `responses` (point, sample, channel) are band-limited, in drive order (`ResponseModel.drive_order_responses`), m per V. Each
+    point has a weight; a negative one pushes the other way. Bits of `idle_word` are played where the sum is exactly zero. Returns
+    (sample,), or (sample, FPGA). Raises ValueError if there is no point, or not one finite weight for each.
     """
     if responses.ndim != 3 or len(responses) == 0 or len(weights) != len(responses):
         raise ValueError(f"{len(weights)} weights do not fit responses of shape {responses.shape}")

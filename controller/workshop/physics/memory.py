@@ -43,12 +43,12 @@ def loaded_bytes(modes: Modes, samples: int, bit_clock_hz: float) -> float:
     return 2 * resonances + 8.0 * POINTS_LOADED * CHANNELS * (2 * samples + rests)
 
 
-def focus_bytes(modes: Modes, samples: int, times: int) -> float:
+def focus_bytes(modes: Modes, samples: int, times: int, channels: int = CHANNELS) -> float:
     """Bytes in which a focus is computed and evaluated by the twin at this many times around T, in float64."""
     kernels = 2 * 8.0 * samples * modes.count
-    at_points = 8.0 * (POINTS_PER_GEMM + 1) * CHANNELS * modes.count
-    state = 8.0 * (8 * CHANNELS + 4 * times) * modes.count
-    shown = 8.0 * 4 * samples * POINTS_PER_GEMM * CHANNELS
+    at_points = 8.0 * (POINTS_PER_GEMM + 1) * channels * modes.count
+    state = 8.0 * (8 * channels + 4 * times) * modes.count
+    shown = 8.0 * 4 * samples * POINTS_PER_GEMM * channels
     at_times = max(at_points + state + shown, radiation_bytes(modes))  # its sound is computed last
     return BASE_BYTES + WORKING_BYTES + TABLE_BYTES + kernels + at_times
 

@@ -20,9 +20,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import as_words, channel_bits
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.device.fpga.capture import Capture
 from controller.workshop.physics.field import Field, FocusScale
 from controller.workshop.physics.focusing import balanced_weights, focus
@@ -47,7 +46,7 @@ POLES_AT_ONCE = 512  # 25 MB of exponentials
 
 
 class GroupState(NamedTuple):
-    """State that a group of steps adds by the tick of its last step: amplitudes of plate poles (pole,) and driver poles (2, 32)."""
+    """What a group of steps adds by the tick of its last step: amplitudes of poles, (pole,) and (2, channel) of the drivers."""
 
     plate: Complex
     driver: Complex
@@ -62,7 +61,7 @@ class Work:
 
 
 class PlateTwin:
-    """A simulated plate behind 32 pins.
+    """A simulated plate behind the pins of an FPGA, or of several.
 
     Modes above `highest_hz` are left out, `mode_cut_hz` by default; `modes` take the place of those of the board's plate. Of the
     `remembered` groups (0.1 MB each) the one not used for longest goes first.
@@ -98,13 +97,13 @@ class PlateTwin:
         the focus tick itself counts as after it.
         """
         ticks = capture.ticks.astype(np.int64)
-        words = np.zeros(len(ticks) + 1, np.uint32)  # step i goes from words[i] to words[i + 1]
+        words = np.zeros((len(ticks) + 1, *capture.words.shape[1:]), np.uint32)  # step i goes from words[i] to words[i + 1]
         np.copyto(words[1:], capture.words, where=capture.hv != 0)
         focus_ticks = capture.focus_ticks.astype(np.int64)
         bit_ticks = clock_hz * self.board.waveform.bit_period_s
         cuts = _cuts(ticks, focus_ticks, bit_ticks)
-        idle = self._volts(np.array([self.board.idle_word], np.uint32))[0]
-        plate, driver = np.zeros(self.step.poles.size, np.complex128), np.zeros((2, CHANNELS), np.complex128)
+        idle = self._volts(as_words(self.board.idle_word, words))[0]
+        plate, driver = np.zeros(self.step.poles.size, np.complex128), np.zeros((2, self.board.channels), np.complex128)
         now = group = 0
         early, early_driver, early_end = 0, driver, 0  # tick and state of the drivers after the first `early_end` steps
         around_ticks = self.scale.around_s[-1] * clock_hz
@@ -189,11 +188,11 @@ class PlateTwin:
         whole = np.rint(ago_bits).astype(np.int64)
         count = self.step.poles.size
         if np.array_equal(whole, ago_bits) and whole[0] < MAX_GROUP_BITS:
-            spread = np.zeros((int(whole[0]) + 1, CHANNELS))
+            spread = np.zeros((int(whole[0]) + 1, self.board.channels))
             spread[whole] = steps
             table = self._decay_table()
             if table is not None:
-                summed = (table[:, : len(spread)] @ spread).reshape(2, count, CHANNELS)
+                summed = (table[:, : len(spread)] @ spread).reshape(2, count, self.board.channels)
                 rung = np.einsum("pq,rpq->rp", self._pole_forces, summed)
             else:
                 rung = self._rung(np.arange(float(len(spread))) * period, spread)
@@ -203,11 +202,11 @@ class PlateTwin:
         return GroupState(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
 
     def _volts(self, words: NDArray[np.uint32]) -> Floats:
-        """Voltage of each channel's stage: (word, 32)."""
+        """Voltage of each channel's stage: (word, channel)."""
         return channel_bits(words).astype(np.float64) * self.board.driver.supply_v
 
     def _rung(self, ago_s: Floats, steps: Floats) -> Floats:
-        """Sum of steps of voltage, (step, 32), each as old as `ago_s`, over channels: real and imaginary part of each pole."""
+        """Sum of steps of voltage, (step, channel), each as old as `ago_s`, over channels: real and imaginary part of each pole."""
         rung = np.empty((2, self.step.poles.size))
         for first in range(0, self.step.poles.size, POLES_AT_ONCE):
             some = slice(first, first + POLES_AT_ONCE)

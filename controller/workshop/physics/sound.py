@@ -14,7 +14,7 @@ from numpy.polynomial.chebyshev import chebpts1, chebvander
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.workshop.physics.audible import REST_TAUS
 from controller.workshop.physics.modes.modes import Modes
@@ -70,7 +70,7 @@ class PlateSound:
         count = int(HEARD_HZ * period_s)
         frequency: Floats = np.arange(1, count + 1) / period_s
         first = idle_word if before_word is None else before_word
-        levels = channel_bits(np.concatenate([[first], words, [idle_word]]).astype("<u4")).astype(np.float64)
+        levels = channel_bits(framed(first, words, idle_word)).astype(np.float64)
         steps = np.diff(levels, axis=0) * self._board.driver.supply_v
         ends_hz = [1 / period_s, (count + 1) / period_s]
         slopes = zoom_fft(steps, ends_hz, count, fs=self._board.waveform.bit_clock_hz, axis=0)

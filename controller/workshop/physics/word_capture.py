@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import as_words, channel_bits
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
 
 
 def volts_above_idle(board: Board, words: NDArray[np.uint32]) -> NDArray[np.float64]:
-    """Voltage of each channel's stage above that at rest: (sample, 32)."""
-    above = channel_bits(words).astype(np.float64) - channel_bits(np.array([board.idle_word], np.uint32))
+    """Voltage of each channel's stage above that at rest: (sample, channel)."""
+    above = channel_bits(words).astype(np.float64) - channel_bits(as_words(board.idle_word, words))
     above *= board.driver.supply_v
     return above
 
@@ -28,14 +28,15 @@ def capture_of_words(
     length = len(words) * bit_ticks
     emission = np.arange(len(words) + 1) * bit_ticks
     ticks = np.concatenate([[0], (starts[:, None] + emission).ravel()])
-    played = np.concatenate([[idle_word], np.tile(np.append(words, np.uint32(idle_word)), repetitions)]).astype(np.uint32)
+    idle = as_words(idle_word, words)
+    played = np.concatenate([idle, *[words, idle] * repetitions])
     last = np.append(ticks[1:] != ticks[:-1], True)  # back to back, the next emission's first word counts
     ticks, played = ticks[last], played[last]
-    changed = np.append(played[0] != 0, played[1:] != played[:-1])
+    changed = np.diff(played, axis=0, prepend=np.zeros_like(idle)).reshape(len(played), -1).any(axis=1)
     ticks, played = ticks[changed], played[changed]
     return Capture(
         ticks=ticks.astype(np.uint64),
         words=played,
-        hv=np.ones(len(played), np.uint8),
+        hv=np.ones(played.shape, np.uint8),
         focus_ticks=(starts + length).astype(np.uint64),
     )

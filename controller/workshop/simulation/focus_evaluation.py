@@ -8,16 +8,13 @@ from __future__ import annotations
 
 import contextlib
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import reduce
 from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.board.board import Board
-from controller.device.fpga.capture import Capture
 from controller.device.scene.emission import Emission
 from controller.device.touch.recordings.recording import Track
 from controller.workshop.physics.field import Field, FocusMetrics
@@ -74,38 +71,9 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Evalu
     return evaluated
 
 
-class SeveralTwins:
-    """A plate behind the pins of several FPGAs: what each moves adds up."""
-
-    def __init__(self, board: Board) -> None:
-        modes = modes_of(board)
-        self._twins = [PlateTwin(one, modes=modes) for one in board.fpga_boards]
-        self.scale = self._twins[0].scale
-
-    def fields(self, captures: Sequence[Capture], clock_hz: float) -> Iterator[Field]:
-        """As of `PlateTwin`, at the foci of the first FPGA's capture."""
-        at_foci = [replace(capture, focus_ticks=captures[0].focus_ticks) for capture in captures]
-        each = [twin.fields(capture, clock_hz) for twin, capture in zip(self._twins, at_foci, strict=True)]
-        for fields in zip(*each, strict=True):
-            yield reduce(Field.plus, fields)
-
-    def exact_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
-        """As of `PlateTwin`: the sum of what each FPGA's patches give."""
-        found: Floats = np.sum([twin.exact_amplitudes(points_m) for twin in self._twins], axis=0)
-        return found
-
-    def reference_amplitude(self, x_m: float, y_m: float) -> float:
-        """As of `PlateTwin`."""
-        return sum(twin.reference_amplitude(x_m, y_m) for twin in self._twins)
-
-
-def _fields(run: Run) -> Iterator[tuple[PlateTwin | SeveralTwins, Field]]:
+def _fields(run: Run) -> Iterator[tuple[PlateTwin, Field]]:
     """The twin as it is at every focus of a run, with its displacement then."""
     drift = run.drift
-    if run.plate.link.fpga:
-        together = SeveralTwins(run.plate)
-        yield from ((together, field) for field in together.fields(run.captures, run.link.clock_hz))
-        return
     if drift is None:
         twin = PlateTwin(run.plate)
         yield from ((twin, field) for field in twin.fields(run.capture, run.link.clock_hz))
@@ -120,9 +88,7 @@ def _fields(run: Run) -> Iterator[tuple[PlateTwin | SeveralTwins, Field]]:
         yield from ((twin, field) for field in twin.fields(part, run.link.clock_hz))
 
 
-def _judge_moment(
-    run: Run, twin: PlateTwin | SeveralTwins, field: Field, time_s: float, emissions: tuple[Emission, ...]
-) -> list[Focus]:
+def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissions: tuple[Emission, ...]) -> list[Focus]:
     """Evaluate all foci of one emission, each where its finger was."""
     places = [_place(run.tracks, emission, time_s) for emission in emissions]
     exact_m = twin.exact_amplitudes(tuple(places))

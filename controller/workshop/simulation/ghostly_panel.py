@@ -17,6 +17,7 @@ from controller.device.touch import event_codes as ev
 from controller.device.touch.event_codes import Protocol
 from controller.device.touch.event_reader import AxisInfo, DeviceDescription, Event
 from controller.workshop.gateware.simulated_link import SimulatedLink
+from controller.workshop.gateware.wired_fpgas import SimulatedFpgas
 
 Place = tuple[float, float]  # mm on the plate
 Finger = tuple[float, float, Place | Callable[[float], Place]]  # begin and end in s; place, or place at a time
@@ -151,7 +152,7 @@ def finger_places(fingers: Sequence[Finger], at_s: float) -> dict[str, Place]:
     return {name: _at(place, at_s) for name, place in down}
 
 
-def pins_of(link: SimulatedLink) -> Callable[[float], bool]:
+def pins_of(link: SimulatedLink | SimulatedFpgas) -> Callable[[float], bool]:
     """Return the `disturbed` of a panel in front of this link's gateware.
 
     Captures of the link are consumed. It says whether a channel pin changed between the last call and a time in s.
@@ -161,7 +162,7 @@ def pins_of(link: SimulatedLink) -> Callable[[float], bool]:
     def moved(at_s: float) -> bool:
         tick = link.tick(at_s)
         link.gateware.advance(max(tick, link.gateware.now))
-        ticks = [*ahead, *link.take_capture().ticks.tolist()]
+        ticks = [*ahead, *(tick for capture in link.take_captures() for tick in capture.ticks.tolist())]
         ahead[:] = [later for later in ticks if later > tick]
         return len(ahead) < len(ticks)
 

@@ -53,7 +53,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "resident": counters.resident,
         "heartbeats": counters.heartbeats,
         "host_silent": counters.host_silent,
-        "outputs_off": not any(capture.hv[-1:].any() or capture.words[-1:].any() for capture in run.captures),
+        "outputs_off": not (run.capture.hv[-1:].any() or run.capture.words[-1:].any()),
         "bytes_sent": run.link.bytes_sent,
         "gateware_speed": round(run.link.speed, 3),  # times real time
         "scheduled": counters.scheduled,
@@ -134,10 +134,8 @@ def _figures(foci: list[Focus]) -> dict[str, Any]:
 def _felt_um(run: Run, tracked: list[Focus]) -> float | None:
     """What a light touch feels (`physics.felt`) of the pulse with the median `exact_share`, with all its fingers on the plate.
 
-    None without one, on a plate that drifts, of several FPGAs, and where this would take seconds.
+    None without one, on a plate that drifts, and where this would take seconds.
     """
-    if len(run.captures) > 1:
-        return None
     known = sorted((focus for focus in tracked if np.isfinite(focus.exact_share)), key=lambda focus: focus.exact_share)
     if not known or run.drift is not None or (modes := modes_of(run.plate)).count > MOST_MODES:
         return None

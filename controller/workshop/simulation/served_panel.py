@@ -35,7 +35,8 @@ from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.recordings.replay import RecordingSource
 from controller.device.touch.source import TouchSource
 from controller.log import Priority, log
-from controller.workshop.gateware.simulated_link import SimulatedLink, open_simulated
+from controller.workshop.gateware.simulated_link import SimulatedLink
+from controller.workshop.gateware.wired_fpgas import SimulatedFpgas, open_simulated_panel
 from controller.workshop.simulation.ghostly_panel import GhostlyPanel, Ghosts, pins_of
 
 REPORT_S = 1 / 60
@@ -55,7 +56,7 @@ class Touched(NamedTuple):
     """Who touches the panel."""
 
     # Makes the touches of a board's panel before a link, from a time in s of the host's clock on
-    touches: Callable[[Board, SimulatedLink, float], TouchSource]
+    touches: Callable[[Board, SimulatedLink | SimulatedFpgas, float], TouchSource]
     takes_pins: bool  # whether they consume what the pins did
 
 
@@ -70,7 +71,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touche
     populate(bank, scene, board.scene)
     layers = LayerPreparer(board, bank, cells_of(bank, scene, board.scene))
     commands = CommandSocket(board, settings)
-    link = open_simulated(board, clock.now_s)
+    link = open_simulated_panel(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
     begin_s = clock.now_s() + 0.2
     source = tracked(touched.touches(board, link, begin_s), board)
@@ -88,7 +89,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touche
         housekeeping.progress(now_s)
         if now_s >= drain_s and not touched.takes_pins:
             drain_s = now_s + DRAIN_S
-            link.take_capture()
+            link.take_captures()
 
     notifier = Notifier("")
     trace = TraceFile.from_environment(board.name, board.waveform.duration_s)
@@ -118,7 +119,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched: Touche
 def replayed(recording: Recording) -> Touched:
     """Fingers of a recording, from the start once; those that it leaves down are lifted after its last event."""
 
-    def touches(board: Board, _link: SimulatedLink, begin_s: float) -> TouchSource:
+    def touches(board: Board, _link: object, begin_s: float) -> TouchSource:
         return RecordingSource(recording, recording.axes(board), begin_s)
 
     return Touched(touches, takes_pins=False)
@@ -127,7 +128,7 @@ def replayed(recording: Recording) -> Touched:
 def ghostly(seconds: float, fingers: int, probability: float) -> Touched:
     """A panel in front of the pins, with fingers that move, and ghosts."""
 
-    def touches(board: Board, link: SimulatedLink, begin_s: float) -> TouchSource:
+    def touches(board: Board, link: SimulatedLink | SimulatedFpgas, begin_s: float) -> TouchSource:
         moved = [
             (begin_s, begin_s + seconds, lambda at_s, number=number: _place_mm(number, at_s - begin_s)) for number in range(fingers)
         ]

@@ -17,7 +17,7 @@ import numpy as np
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.fpga.capture import Capture
+from controller.device.fpga.capture import Capture, merged
 from controller.device.fpga.session import Session
 from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.playing.records import Played
@@ -63,7 +63,7 @@ class Run:
     source: RecordingSource
     tracks: dict[int, Track]  # by the loop's finger number: all contacts of that finger joined
     counters: Counters
-    captures: list[Capture]  # of each FPGA
+    capture: Capture  # of all FPGAs; its foci are those of the first
     played: list[Played]
     link: SimulatedLink | SimulatedFpgas
     start_s: float
@@ -75,11 +75,6 @@ class Run:
     plate: Board  # whose plate is played on
     drift: Drift | None
     bit_clock: BitClock | None  # that follows the plate's temperature
-
-    @property
-    def capture(self) -> Capture:
-        """That of the first FPGA, in whose ticks the foci of all are."""
-        return self.captures[0]
 
 
 def play(
@@ -123,7 +118,7 @@ def play(
         source=source,
         tracks={finger: Track.joined(finger, parts) for finger, parts in contacts.items()},
         counters=assembly.counters,
-        captures=link.take_captures(),
+        capture=merged(link.take_captures()),
         played=played,
         link=link,
         start_s=start_s,

@@ -84,7 +84,7 @@ def test_a_channel_is_tested_at_the_place_of_its_patch_and_answered_as_a_play(pa
     assert (channel, x_m, y_m) == (5, pytest.approx(patch.x_mm * 1e-3), pytest.approx(patch.y_mm * 1e-3))
     panel.socket.outcome(ticket, Outcome.PLAYED, 2e-3)
     assert panel.ask(client) == [{"kind": "answer", "id": 1, "outcome": "played", "age_ms": 2.0}]
-    for wrong in (-1, 32, 5.5, "5", None):
+    for wrong in (-1, 128, 5.5, "5", None):
         (answer,) = panel.ask(client, {**TEST, "channel": wrong, "id": 2})
         assert (answer["outcome"], answer["reason"][:10]) == ("refused", "channel = ")
 

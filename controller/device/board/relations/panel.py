@@ -39,7 +39,7 @@ def coarse(board: Board, pitch_mm: float) -> Iterator[str]:
 @refuses("`actuators`")
 def _count(board: Board) -> Iterator[str]:
     """There are 1 to 32 for each FPGA."""
-    most = CHANNELS * max(len(board.link.fpga), 1)
+    most = board.channels
     if not 1 <= len(board.actuators) <= most:
         yield f"actuators are {len(board.actuators)}; a board has 1 to {most} channels"
 

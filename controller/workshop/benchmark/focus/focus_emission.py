@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.panel import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
@@ -56,7 +56,7 @@ def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb
     `memory_mb` is in MB of 10^6 bytes, `DEFAULT_MB` by default. Raises ConfigError if it does not fit into `memory_mb`.
     """
     twin = PlateTwin(board)
-    needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s) + len(PULSE))
+    needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s) + len(PULSE), board.channels)
     require(needed_bytes, memory_mb, f"a focus on {board.name!r} with {twin.modes.count} modes")
     places = np.array(points_m)
     words = focus(twin.words_source.drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
@@ -146,8 +146,7 @@ def emission_figures(emission: FocusEmission, period_s: float) -> Figures:
     integrated = mapped_energy(plate, field, bending_wavelength_m(plate, highest_hz))
     total_j = float(energy.kinetic_j[0] + energy.potential_j[0])
     integrated_j = float(integrated.kinetic_j[0] + integrated.potential_j[0])
-    idle = np.array([board.idle_word], np.uint32)
-    levels = channel_bits(np.concatenate([idle, emission.words, idle]).astype("<u4")).astype(np.int8)
+    levels = channel_bits(framed(board.idle_word, emission.words, board.idle_word)).astype(np.int8)
     heat_uj = resistor_loss_j(board.driver, levels, waveform.bit_period_s) * 1e6
     edges = (levels[1:] != levels[:-1]).sum(axis=0)
     used = sorted(actuator.channel for actuator in board.actuators)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.device.bank.packing import drive_words
 from controller.device.board.board import Board
 from controller.workshop.gateware.model.pins import ramp_bits
 from controller.workshop.physics.sound import PlateSound, decibels
@@ -43,5 +44,6 @@ def ramp_samples(board: Board, ramp_ms: float) -> int:
 
 
 def ramp_words(board: Board, bits: NDArray[np.bool_]) -> Words:
-    """Drive words of a ramp, (sample,): the idle word where the ramp's bit is high, else 0."""
-    return np.where(bits, np.uint32(board.idle_word), np.uint32(0))
+    """Drive words of a ramp: the idle word where the ramp's bit is high, else 0."""
+    idle = [board.idle_word >> channel & 1 for channel in range(board.channels)]
+    return drive_words(np.outer(bits, idle))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import as_words, channel_bits
 from controller.workshop.physics.modes.modes import slowest_decay_s
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.driver import DriverResponse
@@ -44,12 +44,13 @@ def focus_series(twin: PlateTwin, words: NDArray[np.uint32], point_m: tuple[floa
     """Play words on a plate at rest at the idle word, and watch one point until some decay times after T."""
     board = twin.board
     rest = int(min(np.ceil(REST_TAUS * slowest_decay_s(twin.modes) / board.waveform.bit_period_s), 4 * len(words)))
-    played = np.concatenate([words, np.full(rest, board.idle_word)]).astype("<u4")
+    idle = as_words(board.idle_word, words)
+    played = np.concatenate([words, *[idle] * rest])
     levels = np.repeat(channel_bits(played).astype(np.float64) * board.driver.supply_v, PARTS, axis=0)
-    idle = channel_bits(np.array([board.idle_word], "<u4")).astype(np.float64) * board.driver.supply_v
+    idle_v = channel_bits(idle).astype(np.float64) * board.driver.supply_v
     period_s = board.waveform.bit_period_s / PARTS
     shape = twin.modes.shapes([point_m])[0]
-    moved = [motion.displacement @ shape for motion in modal_history(twin.step, twin.forces, levels - idle, period_s)]
+    moved = [motion.displacement @ shape for motion in modal_history(twin.step, twin.forces, levels - idle_v, period_s)]
     used = sorted(actuator.channel for actuator in board.actuators)
     channels = np.array(used[:: max(1, len(used) // SHOWN_CHANNELS)][:SHOWN_CHANNELS])
     time_s: Floats = (np.arange(len(levels), dtype=np.float64) + 1) * period_s - len(words) * board.waveform.bit_period_s
@@ -58,7 +59,7 @@ def focus_series(twin: PlateTwin, words: NDArray[np.uint32], point_m: tuple[floa
         displacement_m=np.concatenate(moved),
         channels=channels,
         stage_v=levels[:, channels],
-        piezo_v=_behind(DriverResponse.of(board.driver), levels[:, channels], idle[:, channels], period_s),
+        piezo_v=_behind(DriverResponse.of(board.driver), levels[:, channels], idle_v[:, channels], period_s),
     )
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.device.bank.packing import as_words
 from controller.errors import ConfigError
 from controller.workshop.physics.field import map_axis
 from controller.workshop.physics.memory import BASE_BYTES, TABLE_BYTES, require
@@ -107,7 +108,7 @@ class Movie:
     def amplitudes(self, twin: PlateTwin, words: NDArray[np.uint32]) -> Iterator[Floats]:
         """Displacement of each mode in m at the frames, some after the others: (frame, mode)."""
         board = twin.board
-        played = np.full(int(self.bits[-1]) + 1, board.idle_word, np.uint32)
+        played = np.repeat(as_words(board.idle_word, words), int(self.bits[-1]) + 1, axis=0)
         count = min(len(words), len(played))
         played[:count] = words[:count]
         volts = volts_above_idle(board, played)

@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.workshop.physics.modes.modes import Modes, slowest_decay_s
 from controller.workshop.physics.modes.plate_modes import in_words, modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
@@ -37,7 +36,8 @@ class ResponseModel:
     def __init__(self, board: Board, highest_hz: float | None = None, modes: Modes | None = None) -> None:
         self.plate_modes = modes_of(board, highest_hz) if modes is None else modes
         self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
-        self.forces = channel_forces(board, self.plate_modes)  # (mode, 32): N per V
+        self.forces = channel_forces(board, self.plate_modes)  # (mode, channel): N per V
+        self._channels = board.channels
         self.provenance = Provenance("modelled", in_words(board, self.plate_modes))
         waveform = board.waveform
         self.bit_clock_hz = waveform.bit_clock_hz
@@ -89,9 +89,9 @@ class ResponseModel:
         *,
         band_limited: bool = False,  # the waveform's band only, zero phase
         dtype: DTypeLike = np.float64,
-        out: NDArray[np.floating[Any]] | None = None,  # (point, sample, 32): filled and returned
+        out: NDArray[np.floating[Any]] | None = None,  # (point, sample, channel): filled and returned
     ) -> NDArray[np.floating[Any]]:
-        """Responses in the order of time (point, sample, 32), m per V held for one bit period.
+        """Responses in the order of time (point, sample, channel), m per V held for one bit period.
 
         Zero for channels without an actuator. Raises ValueError if `out` has another shape or type.
         """
@@ -147,7 +147,7 @@ class ResponseModel:
         self, points_m: ArrayLike, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]] | None
     ) -> NDArray[np.floating[Any]]:
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
-        shape = (len(points), len(kernel), CHANNELS)
+        shape = (len(points), len(kernel), self._channels)
         if out is None:
             out = np.empty(shape, kernel.dtype)
         if out.shape != shape or out.dtype != kernel.dtype:
@@ -165,19 +165,19 @@ class ResponseModel:
         forces, driven, product = self._workspace(kernel)
         for first in range(0, len(points), POINTS_PER_GEMM):
             some = points[first : first + POINTS_PER_GEMM]
-            columns = len(some) * CHANNELS
+            columns = len(some) * self._channels
             np.multiply(self.plate_modes.shapes(some, kernel.dtype)[:, None, :], forces, out=driven[: len(some)])
             result = product[: len(kernel) * columns].reshape(len(kernel), columns)
             np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
-            out[first : first + len(some)] = result.reshape(len(kernel), len(some), CHANNELS).swapaxes(0, 1)
+            out[first : first + len(some)] = result.reshape(len(kernel), len(some), self._channels).swapaxes(0, 1)
 
     def _workspace(self, kernel: NDArray[np.floating[Any]]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-        """Forces (32, mode), modal forces at points (point, 32, mode) and room for a product; kept."""
+        """Forces (channel, mode), modal forces at points (point, channel, mode) and room for a product; kept."""
         key = (kernel.dtype.str, len(kernel))
         if key not in self._workspaces:
             self._workspaces[key] = (
                 np.ascontiguousarray(self.forces.T, kernel.dtype),
-                np.empty((POINTS_PER_GEMM, CHANNELS, self.modes), kernel.dtype),
-                np.empty(len(kernel) * POINTS_PER_GEMM * CHANNELS, kernel.dtype),
+                np.empty((POINTS_PER_GEMM, self._channels, self.modes), kernel.dtype),
+                np.empty(len(kernel) * POINTS_PER_GEMM * self._channels, kernel.dtype),
             )
         return self._workspaces[key]

@@ -39,7 +39,7 @@ class ResponseSource(Protocol):
         dtype: DTypeLike = np.float64,
         out: NDArray[np.floating[Any]] | None = None,
     ) -> NDArray[np.floating[Any]]:
-        """Responses at `points_m`, (point, 2) in m, in the order of time: (point, sample, 32), m per V held for one bit period.
+        """Responses at `points_m`, (point, 2) in m, in the order of time: (point, sample, channel), m per V held for a bit period.
 
         Sample j is the displacement (j + 1) bit periods after the start of the pulse. Zero for channels without an actuator.
         """
@@ -54,5 +54,5 @@ class ResponseSource(Protocol):
     ) -> NDArray[np.floating[Any]]:
         """What a bank keeps: `drive_order_responses`, then what the band leaves out as means over `REST_SAMPLES`.
 
-        (point, sample + row of rest, 32).
+        (point, sample + row of rest, channel).
         """

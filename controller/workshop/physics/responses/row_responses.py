@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.board.panel import CHANNELS
 from controller.workshop.physics.modes.modes import TensorFactors
 
 Reals = NDArray[np.floating[Any]]
@@ -30,8 +29,8 @@ def in_rows(points_m: NDArray[np.float64]) -> bool:
 class RowResponses:
     """Sum over modes of shape(point) kernel(sample) force(channel), for points in rows.
 
-    `factors` are those of the modes' shapes, `forces` (mode, 32), `kernel` (sample, mode) in float32 or float64, the type of the
-    result.
+    `factors` are those of the modes' shapes, `forces` (mode, channel), `kernel` (sample, mode) in float32 or float64, the type of
+    the result.
     """
 
     def __init__(self, factors: TensorFactors, forces: NDArray[np.float64], kernel: Reals) -> None:
@@ -42,12 +41,12 @@ class RowResponses:
         self._forces = forces[by_order].astype(kernel.dtype)
         self._kernel = np.ascontiguousarray(kernel[:, by_order])
         self._orders = [slice(first, last) for first, last in pairwise(ends)]  # the modes of each factor along x
-        self._summed = np.empty((len(self._orders), len(kernel), CHANNELS), kernel.dtype)
+        self._summed = np.empty((len(self._orders), len(kernel), forces.shape[1]), kernel.dtype)
 
     def fill(self, points_m: NDArray[np.float64], out: Reals) -> None:
         """Compute the responses of points (point, 2), fastest when the points of a row follow each other.
 
-        `out` (point, sample, 32) is C-contiguous, of the kernel's type.
+        `out` (point, sample, channel) is C-contiguous, of the kernel's type.
         """
         kernel, summed = self._kernel, self._summed
         rows_m, row_of = np.unique(points_m[:, 1], return_inverse=True)

@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
 
@@ -87,12 +86,12 @@ class StepResponse:
 
 
 def channel_forces(board: Board, modes: Modes) -> Floats:
-    """Force on each mode in N per V on each channel: (mode, 32), zero where a channel has no actuator.
+    """Force on each mode in N per V on each channel: (mode, channel), zero where a channel has no actuator.
 
     Positive moments bend the plate towards +z at the patch; `moment_n_per_v` times the patch
     integral of the Laplacian, with its sign.
     """
-    force = np.zeros((modes.count, CHANNELS))
+    force = np.zeros((modes.count, board.channels))
     for a in board.actuators:
         force[:, a.channel] = -board.driver.moment_n_per_v * modes.coupling(a)
     return force

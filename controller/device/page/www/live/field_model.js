@@ -1,6 +1,6 @@
 // The plate model in a browser: what `haptic-panel focus` computes for a point, from the modes in a field file (field_file.py).
 const MAGIC = "HPfield1", TYPES = { int8: Int8Array, uint16: Uint16Array, float32: Float32Array };
-const CHANNELS = 32, AFTER_S = 0.4e-3, FINEST = 240; // points of the grid along the longer side
+const AFTER_S = 0.4e-3, FINEST = 240; // points of the grid along the longer side
 
 export class FieldModel {
   constructor(buffer) {
@@ -9,6 +9,7 @@ export class FieldModel {
     const end = start + new DataView(buffer).getUint32(MAGIC.length, true);
     Object.assign(this, JSON.parse(new TextDecoder().decode(bytes.subarray(start, end))));
     for (const [name, { type, offset, count }] of Object.entries(this.sections)) this[name] = new TYPES[type](buffer, end + offset, count);
+    this.idle_words ??= [this.idle_word]; // of each FPGA
     this.frames = this.samples + Math.round(AFTER_S / this.bit_period_s); // frame n: the end of bit n
     const step_m = Math.max(this.length_m, this.width_m) / FINEST;
     [this.columns, this.rows] = [this.length_m, this.width_m].map((extent_m) => Math.max(2, Math.round(extent_m / step_m)));
@@ -23,19 +24,20 @@ export class FieldModel {
     return Float64Array.from(this.half_waves_x, (m, k) => x.of[m] * y.of[this.half_waves_y[k]]);
   }
 
-  // Bits of the emission that focuses on a point: the sign of its responses reversed in time; bit q of word n is of channel q.
+  // Bits of the emission that focuses on a point: the sign of its responses reversed in time. A sample has a word for each FPGA;
+  // bit q of the first is of channel q, of the next of channel 32 + q.
   words(x_m, y_m) {
-    const { samples, modes, response, response_scale, forces } = this, shape = this.shapes(x_m, y_m);
-    const words = new Uint32Array(samples), sum = new Float32Array(samples);
-    for (let q = 0; q < CHANNELS; q++) {
+    const { samples, modes, response, response_scale, forces, idle_words } = this, fpgas = idle_words.length, shape = this.shapes(x_m, y_m);
+    const words = new Uint32Array(samples * fpgas), sum = new Float32Array(samples);
+    for (let q = 0; q < 32 * fpgas; q++) {
       sum.fill(0);
       for (let k = 0; k < modes; k++) {
         const weight = shape[k] * forces[q * modes + k] * response_scale[k];
         for (let j = 0, at = k * samples; j < samples; j++) sum[j] += weight * response[at + j];
       }
       for (let j = 0; j < samples; j++) {
-        const value = sum[samples - 1 - j], bit = value === 0 ? (this.idle_word >>> q) & 1 : Number(value > 0);
-        words[j] |= bit << q;
+        const value = sum[samples - 1 - j], bit = value === 0 ? (idle_words[q >> 5] >>> q) & 1 : Number(value > 0);
+        words[j * fpgas + (q >> 5)] |= bit << q; // shifts are modulo 32
       }
     }
     return words;
@@ -43,19 +45,21 @@ export class FieldModel {
 
   // Displacement of each mode at the end of each bit, in m from rest at the idle word, which follows the emission: [frame * modes + mode].
   play(words) {
-    const { modes, frames, forces, term_mode, term_turn, term_residue } = this, terms = term_mode.length;
+    const { modes, frames, forces, idle_words, term_mode, term_turn, term_residue } = this, terms = term_mode.length;
     const found = new Float32Array(frames * modes), pushed = new Float64Array(modes), level = new Float64Array(modes);
     const re = new Float64Array(terms), im = new Float64Array(terms);
-    let before = this.idle_word >>> 0;
+    const fpgas = idle_words.length;
+    let before = idle_words;
     for (let frame = 0; frame < frames; frame++) {
-      const word = frame < words.length ? words[frame] : this.idle_word >>> 0;
+      const now = frame < this.samples ? words.subarray(frame * fpgas, (frame + 1) * fpgas) : idle_words;
       pushed.fill(0);
-      for (let q = 0, changed = word ^ before; changed; q++, changed >>>= 1) {
-        if (!(changed & 1)) continue;
-        const volts = (word >>> q) & 1 ? this.supply_v : -this.supply_v;
+      for (let q = 0; q < 32 * fpgas; q++) {
+        const high = (now[q >> 5] >>> q) & 1;
+        if (high === ((before[q >> 5] >>> q) & 1)) continue;
+        const volts = high ? this.supply_v : -this.supply_v;
         for (let k = 0, at = q * modes; k < modes; k++) pushed[k] += forces[at + k] * volts;
       }
-      before = word;
+      before = now;
       const out = found.subarray(frame * modes, (frame + 1) * modes);
       for (let k = 0; k < modes; k++) out[k] = (level[k] += pushed[k] * this.static[k]);
       for (let t = 0; t < terms; t++) { // a step at the start of the bit is a bit old at its end
