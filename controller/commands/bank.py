@@ -22,8 +22,8 @@ from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import find_board
-from controller.device.board.paths import bank_path, build_line, fpga_files, is_there
+from controller.device.board.lookup import find_board, fpga_files
+from controller.device.board.paths import bank_path, build_line, is_there
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
 from controller.errors import BankError, UsageError
@@ -93,7 +93,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def bank_build(options: argparse.Namespace) -> int:
     """Build a bank for a board: for the whole plate, or for the cells that a scene can reach."""
-    board = named_board(options.board, several=True)
+    board = named_board(options.board)
     if options.optimise is None and asked_for(options):
         raise UsageError("--workers, --dask and --scheduler-file are of use with --optimise: a plain bank takes seconds")
     with _builder_installed(bank_path(board)):
@@ -185,7 +185,7 @@ def bank_describe(options: argparse.Namespace) -> int:
 
 def _expected(options: argparse.Namespace, path: Path) -> dict[str, Any]:
     """What a bank is expected to do on this panel; of a bank of another board only that it is one."""
-    board = load_board(find_board(options.board), several=True)
+    board = load_board(find_board(options.board))
     if header_of(path).board_digest != board.fpga_boards[0].digest():
         return {"said": f"nothing: the bank is not of board {board.name!r} (--board says which it is)"}
     with Bank.open(path, board) as bank:
@@ -197,7 +197,7 @@ def _expected(options: argparse.Namespace, path: Path) -> dict[str, Any]:
 def bank_verify(options: argparse.Namespace) -> int:
     """Check every bit of a bank."""
     path = _bank_file(options).path
-    fpgas = 0 if options.file else len(load_board(find_board(options.board), several=True).link.fpga)
+    fpgas = 0 if options.file else len(load_board(find_board(options.board)).link.fpga)
     try:
         found = [verify_bank(file, progress_bar("bytes")) for file in fpga_files(path, fpgas)]
     except BankError as error:
@@ -224,7 +224,7 @@ def _bank_file(options: argparse.Namespace) -> FoundBank:
     """The file given, else the bank that the board plays."""
     if options.file:
         return FoundBank(Path(options.file), "given")
-    board = load_board(find_board(options.board), several=True)
+    board = load_board(find_board(options.board))
     found = find_bank(board)
     if not is_there(found.path):
         raise BankError(f"{found.path}: there is no such bank yet; build it: {build_line(found.path, board)}")

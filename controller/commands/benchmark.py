@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from controller.commands.common.arguments import natural
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.commands.common.tables import benchmark_table
-from controller.device.board.board import load_board
+from controller.device.board.board import load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 from controller.errors import ConfigError
 
@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
     """Measure, write figures and diagrams, and print the Pareto fronts."""
     from controller.workshop.benchmark.work_precision import FULL, QUICK, work_precision
 
-    board = load_board(find_board(options.board))
+    board = of_one_fpga(load_board(find_board(options.board)))
     folder = Path(options.out)
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -96,7 +96,7 @@ def skipping(options: argparse.Namespace) -> int:
     """Print what skipping saves; 1 if it changes output bits that it must not change."""
     from controller.workshop.benchmark.device.skipping import all_cases, table
 
-    found = all_cases(load_board(find_board(options.board)), options.no_skip, options.repeats, progress_bar("scenes"))
+    found = all_cases(of_one_fpga(load_board(find_board(options.board))), options.no_skip, options.repeats, progress_bar("scenes"))
     show(options, found, lambda figures: "\n\n".join(map(table, figures["cases"])))
     return int(any(case["must_be_exact"] and not case["exact_bits"] for case in found["cases"]))
 
@@ -107,7 +107,7 @@ def paper(options: argparse.Namespace) -> int:
     from controller.workshop.benchmark.paper.paper_row import markdown, paper_table
 
     picture = picture_path(options)
-    board = load_board(find_board(options.board))
+    board = of_one_fpga(load_board(find_board(options.board)))
     found = paper_figures(board, QUICK if options.quick else FULL, options.seed, progress_bar("paper"))
     if picture:
         from controller.workshop.benchmark.paper.plot_paper import plot_paper

@@ -70,7 +70,7 @@ def board_check(options: argparse.Namespace) -> int:
     Raises ConfigError or TouchError if board, scene or recording is invalid, or the board is refused as a whole.
     """
     folder = find_board(options.name or options.board)
-    board = load_board(folder, several=True)
+    board = load_board(folder)
     if is_installed("workshop"):  # where bitstreams are built
         from controller.workshop.gateware.fpga_part import FILE, check_top, find_part
 

@@ -50,7 +50,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def examine(options: argparse.Namespace) -> int:
     """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
     require_within(options, LINK_RANGES)
-    board = load_board(find_board(options.board or own_board()), several=True)
+    board = load_board(find_board(options.board or own_board()))
     real = MonotonicClock()
     findings = look(board, real.now_s, touch_panel_of(board)) + _releases()
     figures: dict[str, Any] = {}

@@ -70,7 +70,7 @@ def focus(options: argparse.Namespace) -> int:
     picture, movie = picture_path(options), movie_path(options)
     if options.finger_load and not options.at:
         raise UsageError("--finger-load is of a focus: give --at X_MM Y_MM too")
-    board = load_board(find_board(options.board), several=True)
+    board = load_board(find_board(options.board))
     if options.field_out:
         return _write_field(options, board)
     if options.figures:

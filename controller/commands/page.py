@@ -100,7 +100,7 @@ def _field(board: str) -> str:
     from controller.workshop.physics.pictures.field_file import kept_field
 
     try:
-        return str(kept_field(load_board(find_board(board), several=True)))
+        return str(kept_field(load_board(find_board(board))))
     except ConfigError as error:
         tell(f"no field view: {error}", Priority.WARNING)
         return ""

@@ -90,7 +90,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the board's panel, or simulate it."""
-    board = named_board(options.board, several=True)
+    board = named_board(options.board)
     devices = board.link.kind != "simulated" or (board.touch.has_device and not board.link.device)
     if devices and options.link is None:
         return _serve(options, board)

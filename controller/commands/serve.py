@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
     from controller.workshop.simulation.served_panel import ghostly, moving, replayed, serve
 
     require_within(options, {"touched_s": (0, 1e9), "ghosts": (0, 1)})
-    board = load_board(find_board(options.board), several=True)
+    board = load_board(find_board(options.board))
     asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
     settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
     if options.background:

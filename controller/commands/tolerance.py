@@ -11,7 +11,7 @@ from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.worker_options import add_worker_options, workers_of
 from controller.console import tell
-from controller.device.board.board import load_board
+from controller.device.board.board import load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def tolerance(options: argparse.Namespace) -> int:
         return _intervals(options, tolerances)
     picture = picture_path(options)
     study = Study(
-        named_board(options.board),
+        of_one_fpga(named_board(options.board)),
         tolerances,
         options.seed,
         options.places,

@@ -420,6 +420,34 @@ def test_nothing_is_loaded_that_bring_up_would_refuse_or_while_another_program_h
     assert len(loader()) == 1
 
 
+@pytest.fixture
+def pair(panel):
+    """The panel with the second half of its patches on an FPGA of their own."""
+    text = (panel / "board.toml").read_text()
+    text = re.sub(r"channel = (1[6-9]|2\d|3[01])", lambda line: f"channel = {int(line[1]) + 16}", text)
+    text = re.sub(r'^(device = ".*/spidev"|configured_line = ".*")\n', "", text, flags=re.MULTILINE)
+    text = text.replace('"{bitstream}"]', '"--ftdi-serial", "{cable}", "{bitstream}"]')
+    fpgas = "".join(
+        f'[[link.fpga]]\ndevice = "/nowhere/spidev0.{number}"\ncable = "{name}"\n\n' for number, name in enumerate("AB")
+    )
+    (panel / "board.toml").write_text(text.replace("[gateware]", f"{fpgas}[gateware]"))
+    return panel
+
+
+def test_each_of_several_fpgas_is_loaded_with_its_own_bitstream_by_its_cable(tools, pair, loader, capsys):
+    files = [pair / "panel.bit", pair / "panel.fpga1.bit"]
+    assert main(["gateware", "build", "--board", str(pair), "--out", str(files[0])]) == 0
+    assert "panel.fpga1.bit: there is no such bitstream" in said(capsys, "load", "--board", pair, code=78)
+    assert loader() == [], "none, unless there is one for each"
+    assert main(["gateware", "build", "--board", str(pair), "--fpga", "1", "--out", str(files[1])]) == 0
+    assert main(["gateware", "load", "--board", str(pair)]) == 0
+    calls = [f"--board ulx3s --write-sram --ftdi-serial {cable} {file}" for cable, file in zip("AB", files, strict=True)]
+    assert loader() == calls
+    assert main(["gateware", "load", str(files[0]), "--fpga", "1", "--board", str(pair), "--flash"]) == 0
+    assert loader()[2:] == [f"--board ulx3s --write-flash --ftdi-serial B {files[0]}"]
+    assert "for which FPGA? give --fpga N, from 0 to 1" in said(capsys, "load", files[0], "--board", pair, code=2)
+
+
 def test_a_loader_that_is_not_there_and_boards_that_have_none(tools, panel, capsys, monkeypatch, tmp_path):
     assert main(["gateware", "build", "--board", str(panel), "--out", str(panel / "panel.bit")]) == 0
     monkeypatch.setenv("PATH", str(tmp_path))

@@ -21,7 +21,7 @@ from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.model import GatewareModel
 from controller.workshop.gateware.wired_fpgas import LINE_TICKS, SimulatedFpgas
 
-BOARD = load_board(find_board("simulated_64"), several=True)
+BOARD = load_board(find_board("simulated_64"))
 HZ = BOARD.link.clock_hz
 SHUT_TICKS = HZ // 10_000  # 100 us
 PARTS = [memoryview(np.random.default_rng(seed).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)) for seed in (7, 8)]

@@ -25,8 +25,7 @@ from panel_board import table
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import LinkedFpga, LinkSettings
-from controller.device.board.lookup import find_board
-from controller.device.board.paths import fpga_files
+from controller.device.board.lookup import find_board, fpga_files
 from controller.device.doctor.doctor import look
 from controller.device.fpga.exchange import FpgaReset, OutOfStep
 from controller.device.fpga.frames import Play, joined
@@ -39,7 +38,7 @@ from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
 
 NAMES = ["TRIGGER", "PERMIT", "CONFIGURED0", "CONFIGURED1"]
-SIMULATED = load_board(find_board("simulated_64"), several=True)
+SIMULATED = load_board(find_board("simulated_64"))
 LINK = LinkSettings(
     kind="spi",
     clock_hz=80_000_000,
@@ -306,7 +305,7 @@ def served_board():
     text = text.replace("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 250.0").replace("../simulated/scene", "scene")
     (SERVED / "board.toml").write_text(text)
     (SERVED / "scene.toml").write_text(CLICK)
-    board, bank = load_board(SERVED, several=True), SERVED / "served.bank"
+    board, bank = load_board(SERVED), SERVED / "served.bank"
     for one, path in zip(board.fpga_boards, fpga_files(bank, 2), strict=True):
         build_bank(BankRequest(one, path, 70e-3))
     with Bank.open(bank, board) as opened:

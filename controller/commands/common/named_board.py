@@ -12,20 +12,21 @@ from controller.errors import UsageError
 from controller.log import Priority
 
 
-def named_board(name: str, *, several: bool = False) -> Board:
-    """Read and check a board, and say on stderr what of it is odd; `several` FPGAs as in `load_board`.
+def named_board(name: str) -> Board:
+    """Read and check a board, and say on stderr what of it is odd.
 
     Raises ConfigError if there is no such board, or it is refused.
     """
-    board = load_board(find_board(name), several=several)
+    board = load_board(find_board(name))
     for odd in judge(board).odd:
         tell(f"{board.folder / 'board.toml'}: {odd}", Priority.WARNING)
     return board
 
 
-def add_fpga(step: argparse.ArgumentParser) -> None:
+def add_fpga(step: argparse.ArgumentParser, *, all_by_default: bool = False) -> None:
     """Declare --fpga."""
-    step.add_argument("--fpga", type=int, default=0, metavar="N", help="of several FPGAs, which one (default: 0, the first)")
+    default, said = (None, "all") if all_by_default else (0, "0, the first")
+    step.add_argument("--fpga", type=int, default=default, metavar="N", help=f"of several FPGAs, which one (default: {said})")
 
 
 def with_one_fpga(board: Board, number: int) -> Board:

@@ -72,7 +72,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def gateware_check(options: argparse.Namespace) -> int:
     """Check an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
     require_within(options, LINK_RANGES)
-    board = load_board(find_board(options.board), several=True)
+    board = load_board(find_board(options.board))
     if options.device:
         if board.link.fpga:
             raise ConfigError("--device: a board of several FPGAs plays over SPI alone: leave it out")

@@ -45,7 +45,7 @@ def gateware_build(options: argparse.Namespace) -> int:
     from controller.workshop.gateware.island_proof import prove_island
 
     folder = find_board(options.board)
-    board = with_one_fpga(named_board(options.board, several=True), options.fpga)
+    board = with_one_fpga(named_board(options.board), options.fpga)
     top, part = find_part(folder, options.top)
     check_top(board, top, part.constraints)
     device = options.device or part.devices[0]

@@ -56,12 +56,12 @@ def gateware_info(options: argparse.Namespace) -> int:
 def _board_to_compare(named: str | None, identity: Identity) -> Board | None:
     """The board that was named; else that of the bitstream, None if this computer does not have it."""
     if named:
-        return load_board(find_board(named), several=True)
+        return load_board(find_board(named))
     try:
         folder = find_board(identity.board)
     except ConfigError:
         return None
-    return load_board(folder, several=True)
+    return load_board(folder)
 
 
 def _table(reported: dict[str, Any]) -> str:

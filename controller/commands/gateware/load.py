@@ -1,4 +1,4 @@
-"""`haptic-panel gateware load`: a bitstream into an FPGA, by the program that board.toml names."""
+"""`haptic-panel gateware load`: a bitstream into each FPGA, by the program that board.toml names."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ import contextlib
 import fcntl
 import os
 import shlex
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
+from controller.commands.common.named_board import add_fpga, with_one_fpga
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board, load_board
@@ -17,7 +19,7 @@ from controller.device.board.lookup import find_board
 from controller.device.fpga.bitstream import differences, read_identity
 from controller.device.fpga.bitstream_loader import ATTEMPTS
 from controller.device.service.drivers import bitstream_path, gateware_hash
-from controller.errors import ConfigError, GatewareError, LinkError
+from controller.errors import ConfigError, GatewareError, LinkError, UsageError
 from controller.programs import CannotStart, ProgramError, run_program
 
 TO_MEMORY, TO_FLASH = "--write-sram", "--write-flash"  # of openFPGALoader
@@ -28,28 +30,43 @@ PACKAGES = {"openFPGALoader": "openfpgaloader"}  # Debian's, by program
 def add(step: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     step.add_argument("file", nargs="?", metavar="FILE", help="the bitstream (default: gateware.bitstream of the board)")
+    add_fpga(step, all_by_default=True)
     step.add_argument("--flash", action="store_true", help="write the flash, where a lost supply goes back to, not the memory")
     step.set_defaults(command=gateware_load)
 
 
 def gateware_load(options: argparse.Namespace) -> int:
-    """Load a bitstream that the board's bring-up would take, while nothing else uses the board; the link stays silent."""
+    """Load bitstreams that the board's bring-up would take, while nothing else uses the board; the link stays silent.
+
+    All FPGAs are loaded, one after the other, unless one is asked for; and none, unless what is for each would be taken.
+    """
     board = load_board(find_board(options.board))
+    boards = board.fpga_boards if options.fpga is None else (with_one_fpga(board, options.fpga),)
+    if options.file and len(boards) > 1:
+        raise UsageError(f"{options.file}: for which FPGA? give --fpga N, from 0 to {len(boards) - 1}")
+    files = [Path(options.file) if options.file else bitstream_path(one) for one in boards]
+    steps = [_step(one, file, options) for one, file in zip(boards, files, strict=True)]
+    for step in steps:
+        step()
+    loaded = [{"file": str(file), "flash": options.flash} for file in files]
+    figures = {**loaded[0], **({"fpgas": loaded} if len(loaded) > 1 else {})}
+    show(options, figures, lambda _: "\n".join(f"{file}: loaded" for file in files))
+    return 0
+
+
+def _step(board: Board, file: Path, options: argparse.Namespace) -> Callable[[], None]:
+    """What loads the one FPGA of a board with a file; raises ConfigError if nothing does, or the bring-up would not take it."""
     has_flash = board.link.kind == "simulated" and board.link.device  # a simulated panel that is another than board.toml says
     command = [] if has_flash else _command(board, flash=options.flash)
-    file = Path(options.file) if options.file else bitstream_path(board)
     if not file.is_file():
         raise ConfigError(f"{file}: there is no such bitstream: haptic-panel gateware build --board {options.board} --out {file}")
     if complaints := differences(read_identity(file), board, gateware_hash()):
         raise ConfigError(f"{file}: bring-up would refuse it: {'; '.join(complaints)}")
     if command:
-        _run(board, [word.replace("{bitstream}", str(file)) for word in command], flash=options.flash)
-    else:
-        from controller.workshop.gateware.actual_panel import load_flash
+        return partial(_run, board, [word.replace("{bitstream}", str(file)) for word in command], flash=options.flash)
+    from controller.workshop.gateware.actual_panel import load_flash
 
-        load_flash(board, file)
-    show(options, {"file": str(file), "flash": options.flash}, lambda done: f"{done['file']}: loaded")
-    return 0
+    return partial(load_flash, board, file)
 
 
 def _command(board: Board, *, flash: bool) -> list[str]:

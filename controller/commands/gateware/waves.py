@@ -11,7 +11,7 @@ from controller.commands.bank import open_bank
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import show
 from controller.console import tell
-from controller.device.board.board import simulated
+from controller.device.board.board import of_one_fpga, simulated
 from controller.device.scene.scene import load_scene
 from controller.device.scene.scene_file import find_scene
 from controller.device.service.drivers import recording_path
@@ -95,7 +95,7 @@ def _script(options: argparse.Namespace) -> InputScript:
     from controller.workshop.gateware.input_script import InputRecorder
     from controller.workshop.simulation import simulated_run
 
-    board = simulated(named_board(options.board))
+    board = simulated(of_one_fpga(named_board(options.board)))
     scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     recording = Recording.open(recording_path(board, options.replay))

@@ -15,7 +15,7 @@ from controller.device.bank.file_format import VERSION as BANK_FORMAT
 from controller.device.bank.file_format import Section
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import data_folder, find_board
+from controller.device.board.lookup import data_folder, find_board, fpga_files
 from controller.device.board.paths import user_cache
 from controller.device.fpga.bitstream import differences, read_identity
 from controller.device.fpga.build_hash import build_hash
@@ -88,12 +88,11 @@ def make_release(options: argparse.Namespace) -> int:
     for name, board in boards.items():
         contents |= {f"boards/{name}/{path}": file for path, file in _files(board.folder)}
     pieces = {}
-    for file in options.bank:
-        names, found = _bank(file, boards)
-        for path in (f"banks/{name}.bank" for name in names):
+    for given in options.bank:
+        for path, file in _banks(given, boards):
             if path in pieces:
                 raise UsageError(f"{file}: is a second bank for {path}: give one for each board")
-            contents[path], pieces[path] = file, found
+            contents[path], pieces[path] = file, _bank_pieces(file)
             made_by[path] = _bank_made_by(file)
     contents |= _gateware(options.gateware, boards)
     made_by |= {path: _gateware_made_by(file) for path, file in contents.items() if path.startswith("gateware/")}
@@ -189,14 +188,24 @@ def _files(folder: Path) -> Iterator[tuple[str, Path]]:
             yield str(name), path
 
 
-def _bank(file: Path, boards: Mapping[str, Board]) -> tuple[list[str], list[tuple[int, int]]]:
-    """Boards that a bank is for, and what changes of it as one."""
+def _banks(file: Path, boards: Mapping[str, Board]) -> Iterator[tuple[str, Path]]:
+    """Of a bank's file, and those of a board's further FPGAs beside it, the names in the release; for each board that it is for."""
     with Bank.open(file) as bank:
-        fitting = [name for name, board in boards.items() if board.digest() == bank.header.board_digest]
-        if not fitting:
-            raise BankError(f"{file}: was built for another board than {', '.join(boards) or 'none, as no --board is given'}")
+        digest = bank.header.board_digest
+    fitting = {name: board for name, board in boards.items() if board.fpga_boards[0].digest() == digest}
+    if not fitting:
+        raise BankError(f"{file}: was built for another board than {', '.join(boards) or 'none, as no --board is given'}")
+    for name, board in fitting.items():
+        Bank.open(file, board).close()
+        fpgas = len(board.link.fpga)
+        yield from zip(map(str, fpga_files(Path("banks") / f"{name}.bank", fpgas)), fpga_files(file, fpgas), strict=True)
+
+
+def _bank_pieces(file: Path) -> list[tuple[int, int]]:
+    """What changes of a bank as one."""
+    with Bank.open(file) as bank:
         sections = sorted(bank.sections.values(), key=lambda section: section.offset)
-    return fitting, [piece for section in sections for piece in _pieces(section)]
+    return [piece for section in sections for piece in _pieces(section)]
 
 
 def _pieces(section: Section) -> Iterator[tuple[int, int]]:
@@ -234,13 +243,13 @@ def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, P
     if len(found) < len(files):
         raise UsageError("two bitstreams have the same name: boards know them by their names")
     for name, board in boards.items():
-        if board.gateware is None:
-            continue
-        loaded = Path(board.bitstream).name
-        file = found.get(loaded, board.folder / loaded)
-        if loaded not in found and not file.is_file():
-            build = shlex.join(["haptic-panel", "gateware", "build", "--board", board.called])
-            raise UpdateError(f"board {name} loads {loaded}: give it with --gateware, or put it beside its board.toml: {build}")
-        if complaints := differences(read_identity(file), board, build_hash(data_folder("fpga_rtl"))):
-            raise UpdateError(f"{file}: bring-up of board {name} would refuse it: {'; '.join(complaints)}")
+        for number, one in enumerate(board.fpga_boards if board.gateware else ()):
+            loaded = Path(one.bitstream).name
+            file = found.get(loaded, board.folder / loaded)
+            if loaded not in found and not file.is_file():
+                of = ["--fpga", str(number)] if number else []
+                build = shlex.join(["haptic-panel", "gateware", "build", "--board", board.called, *of])
+                raise UpdateError(f"board {name} loads {loaded}: give it with --gateware, or put it beside its board.toml: {build}")
+            if complaints := differences(read_identity(file), one, build_hash(data_folder("fpga_rtl"))):
+                raise UpdateError(f"{file}: bring-up of board {name} would refuse it: {'; '.join(complaints)}")
     return {f"gateware/{name}": file for name, file in found.items()}

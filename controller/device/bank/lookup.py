@@ -88,7 +88,7 @@ def _of_another_board(path: Path, board: Board) -> str:
     """How a bank differs from what a board needs; empty: it does not, or is damaged, which opening it tells."""
     try:
         with Bank.open(path) as bank:
-            if bank.header.board_digest != board.digest():
+            if bank.header.board_digest != board.fpga_boards[0].digest():
                 return "is of another board"
             return wrong_pitch(bank, board)
     except BankError:

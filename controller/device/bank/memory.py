@@ -47,4 +47,4 @@ def memory_fit(board: Board, memory_bytes: int | None = None) -> MemoryFit:
         memory_bytes = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") if given_mb is None else round(1e6 * given_mb)
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     full = Header("", b"", grid, board.waveform.bit_clock_hz, board.waveform.samples, grid.cells, {"composes": True})
-    return MemoryFit(memory_bytes, full.file_bytes, board.compose.method == "bank")
+    return MemoryFit(memory_bytes, full.file_bytes * len(board.fpga_boards), board.compose.method == "bank")

@@ -19,7 +19,8 @@ from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.response_entries import ResponseEntries
 from controller.device.bank.tables import read_tables
 from controller.device.board.board import Board
-from controller.device.board.paths import build_line, fpga_files
+from controller.device.board.lookup import fpga_files
+from controller.device.board.paths import build_line
 from controller.errors import BankError
 from controller.regular_file import open_regular
 
@@ -98,7 +99,9 @@ class Bank:
             raise
         whole, said_um = opened[0], [bank.header.amplitude_um or () for bank in opened]
         whole.others = tuple(opened[1:])
-        together = [math.fsum(of_each) for of_each in zip(*said_um, strict=False)]  # what each moves adds up; or nothing is said
+        together = [
+            float(f"{math.fsum(of_each):.4g}") for of_each in zip(*said_um, strict=False)
+        ]  # what each moves adds up; or nothing is said
         whole.header = replace(whole.header, parameters=whole.header.parameters | {"amplitude_um": together})
         return whole
 

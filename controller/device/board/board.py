@@ -19,7 +19,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
-from controller.device.board.lookup import board_places, in_system_folder
+from controller.device.board.lookup import board_places, fpga_files, in_system_folder
 from controller.device.board.panel import CHANNELS, Actuator, AssumedFinger, BankSettings, Compose, Driver, Limits, Plate, Waveform
 from controller.device.board.parts import Parts, followed
 from controller.device.board.patches import Patches
@@ -96,7 +96,7 @@ class Board(Record, frozen=True):
 
     @property
     def bitstream(self) -> str:
-        """File that its FPGA is loaded with: as board.toml names it, else after its folder."""
+        """File that its FPGA is loaded with, of several the first: as board.toml names it, else after its folder."""
         named = self.gateware.bitstream if self.gateware is not None else None
         return named or f"{self.key}.bit"
 
@@ -129,8 +129,13 @@ class Board(Record, frozen=True):
         )
         its, link = self.link.fpga[number], self.link
         device, configured = its.device or link.device, its.configured_line or link.configured_line
-        link = msgspec.structs.replace(link, device=device, configured_line=configured, fpga=())
-        return msgspec.structs.replace(self, actuators=own, link=link)
+        link, gateware = msgspec.structs.replace(link, device=device, configured_line=configured, fpga=()), self.gateware
+        if gateware is not None:
+            load = tuple(word.replace("{cable}", its.cable) for word in gateware.load)
+            file = str(fpga_files(Path(self.bitstream), number + 1)[number])
+            gateware = msgspec.structs.replace(gateware, load=load, bitstream=file)
+        patches = self.patches and self.patches.with_places(self.plate, self.actuators)  # those of all are on the plate
+        return msgspec.structs.replace(self, actuators=own, link=link, gateware=gateware, patches=patches)
 
     @property
     def channels(self) -> int:
@@ -185,23 +190,25 @@ def sha256(data: bytes) -> bytes:
     raise AssertionError("every Python has hashlib")
 
 
-def load_board(path: Path, without: Collection[Relation] = (), *, several: bool = False) -> Board:
+def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
     """Read and check a board.toml.
 
-    `path` is the file, or the folder that holds it. A board of several FPGAs is refused unless the caller serves them (`several`).
-    A board may break the relations between keys in `without`: a command that mends these keys has to read them first. Raises
-    ConfigError, naming file, key and value; all keys that are missing or unknown, and all relations that refuse (`relations`).
+    `path` is the file, or the folder that holds it. A board may break the relations between keys in `without`: a command that mends
+    these keys has to read them first. Raises ConfigError, naming file, key and value; all keys that are missing or unknown, and all
+    relations that refuse (`relations`).
     """
     file = path / "board.toml" if path.is_dir() else path
     board = as_board(f"{file}: ", read_tables(file))
     if refused := judge(board, without).refused:
         raise ConfigError(f"{file}: {'; '.join(refused)}")
-    if board.link.fpga and not several:
-        raise ConfigError(
-            f"{file}: link.fpga: this serves boards of one FPGA; with {len(board.link.fpga)} there are board check, bank build,"
-            " bank info, bank verify, doctor, gateware build, check and info, and run"
-        )
     return msgspec.structs.replace(board, folder=file.parent)
+
+
+def of_one_fpga(board: Board) -> Board:
+    """The board, for what serves boards of one FPGA; raises ConfigError if it has several."""
+    if board.link.fpga:
+        raise ConfigError(f"board {board.name!r}: link.fpga: this serves boards of one FPGA, not of {len(board.link.fpga)}")
+    return board
 
 
 def as_board(before: str, tables: dict[str, Any]) -> Board:

@@ -47,10 +47,13 @@ class LinkedFpga(Record, frozen=True, kw_only=True):
     Attributes:
     device: Its own chip select, /dev/spidevB.C; of a simulated one left out.
     configured_line: Input: as `link.configured_line`, of this FPGA alone. Each FPGA has one, or none has.
+    cable: What stands for `{cable}` in `gateware.load`: by what the loader knows this FPGA from the others, such as the serial
+        number of its USB.
     """
 
     device: str = ""
     configured_line: str = ""
+    cable: str = ""
 
 
 class LinkSettings(Record, frozen=True, kw_only=True):
@@ -152,10 +155,12 @@ class GatewareLoading(Record, frozen=True, kw_only=True):
     """How an FPGA is loaded that answers with another gateware than this software's, before its outputs may be on.
 
     Attributes:
-    load: Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file. It is to load the
-        FPGA's memory, not its flash: what the flash holds is what a lost supply goes back to.
+    load: Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file, and of several FPGAs
+        `{cable}` for `link.fpga.cable`. It is to load the FPGA's memory, not its flash: what the flash holds is what a lost supply
+        goes back to.
     bitstream: The file: in the folder `gateware` of the release that runs, else beside board.toml. Left out: `NAME.bit`, after the
         board's folder, as `haptic-panel gateware build` calls it; so a copy of a board does not load the bitstream of the original.
+        Those of further FPGAs are `NAME.fpga1.bit` and so on.
     limit_s: Longest time that it may take; then it is ended, and the FPGA refused.
     """
 

@@ -37,6 +37,11 @@ def find_board(name_or_path: str) -> Path:
     raise ConfigError(f"board {name_or_path!r} not found; there are: {', '.join(known) or 'none'} (or a folder with a board.toml)")
 
 
+def fpga_files(path: Path, fpgas: int) -> list[Path]:
+    """Files of the bank, or the bitstream, at `path`: one for each FPGA, the first at `path` itself."""
+    return [path, *(path.with_name(f"{path.stem}.fpga{number}{path.suffix}") for number in range(1, fpgas))]
+
+
 def own_board() -> str:
     """Name of the board of this device: `panel`, which its service runs, else the simulated one."""
     return "panel" if any((place / "panel/board.toml").is_file() for place in _system_places()) else "simulated"

@@ -327,8 +327,8 @@ class Compose(Record, frozen=True):
         twenty-fifth of the size. Banks of more than a quarter of the memory become compact.
     max_error: Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
     max_time_us: Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel
-        on the machine of the benchmark.
-    max_bank_mb: Bound of the size of the bank's file, in MB of 10^6 bytes; without it there is none.
+        on the machine of the benchmark; of several FPGAs for the words of each.
+    max_bank_mb: Bound of the size of the bank, in MB of 10^6 bytes; without it there is none.
     memory_mb: Memory of the machine that plays, in MB of 10^6 bytes; without it, that of the machine that asks.
     """
 

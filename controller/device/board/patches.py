@@ -64,6 +64,12 @@ class Patches(Record, frozen=True):
                     raise ValueError(f"patches: that at {x_mm:g}, {y_mm:g} mm lies on that at {other_x_mm:g}, {other_y_mm:g} mm")
         return tuple(Patch(x_mm, y_mm, size_mm) for x_mm, y_mm in centres)
 
+    def with_places(self, plate: Plate, actuators: Sequence[Actuator]) -> Patches:
+        """The same with size and centres, whatever actuators a board has; raises ValueError as `on`."""
+        places = self.on(plate, actuators)
+        centres_mm = tuple((patch.x_mm, patch.y_mm) for patch in places)
+        return msgspec.structs.replace(self, size_mm=places[0].size_mm, centres_mm=centres_mm)
+
 
 def discs(actuators: Sequence[Actuator]) -> list[list[Actuator]]:
     """Groups of actuators that are near each other: the sectors of one disc."""

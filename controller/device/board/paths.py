@@ -62,11 +62,6 @@ def bank_path(board: Board, pitch_m: float | None = None) -> Path:
     return state_folder(board) / "banks" / f"{name}.v{BANK_FORMAT}.bank"
 
 
-def fpga_files(path: Path, fpgas: int) -> list[Path]:
-    """Files of the bank, or the bitstream, at `path`: one for each FPGA, the first at `path` itself."""
-    return [path, *(path.with_name(f"{path.stem}.fpga{number}{path.suffix}") for number in range(1, fpgas))]
-
-
 def earlier_bank_path(board: Board) -> Path:
     """Path of a board's bank before names included formats."""
     return state_folder(board) / "banks" / f"{board.key}.bank"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from controller.device.board.board import Board
-from controller.device.board.paths import fpga_files
+from controller.device.board.lookup import fpga_files
 from controller.device.doctor.finding import Finding
 from controller.device.fpga.bitstream import differences, read_identity
 from controller.device.service.drivers import gateware_hash
@@ -44,7 +44,7 @@ def way(board: Board, findings: Iterable[Finding] = ()) -> list[WayStep]:
     )
     built = [f"{command.format('gateware build')}{f' --fpga {n}' * (n > 0)} --out {file}" for n, file in enumerate(bitstreams)]
     load = f"{command.format('gateware load')} --flash"
-    if board.link.fpga:
+    if board.link.fpga and board.gateware is None:
         load = "each into its flash, by the tool of its board, such as openFPGALoader"
     calibrated = [
         f"{command.format('calibrate plan')} --out points.csv",

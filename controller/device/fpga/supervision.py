@@ -84,9 +84,14 @@ class Supervision:
         configuration.write_settings(self.exchange, self._board, self.bit_period)
 
     @property
+    def of_each(self) -> tuple[Supervision, ...]:
+        """What supervises each FPGA."""
+        return (self,)
+
+    @property
     def exchanges(self) -> tuple[Exchange, ...]:
         """The exchange with each FPGA."""
-        return (self.exchange,)
+        return tuple([one.exchange for one in self.of_each])
 
     @property
     def on_anywhere(self) -> bool:

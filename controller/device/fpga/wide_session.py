@@ -11,17 +11,21 @@ the others shut for NO_PERMIT. Raised is what the first one had, with the number
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Final
+from typing import Final, TypeVar
 
 from controller.device.board.board import Board
 from controller.device.fpga.belief import BUSY
-from controller.device.fpga.exchange import Exchange, OutOfStep, Refused
+from controller.device.fpga.configuration import IncompatibleFpga
+from controller.device.fpga.exchange import OutOfStep, Refused
 from controller.device.fpga.frames import Play, Waveform, parted
 from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.registers import Fault, Register, Start, State
 from controller.device.fpga.session import Session
 from controller.device.fpga.status import Status
+from controller.device.fpga.supervision import Supervision
 from controller.errors import ControllerError, FaultError, LinkError
+
+Answer = TypeVar("Answer")
 
 ANY: Final = State.HV_ENABLE | BUSY  # of a state: true if it is of one FPGA; the others if they are of all
 
@@ -52,20 +56,19 @@ class WideSession(Session):
         return self.may_be_on or any(one.may_be_on for one in self._others)
 
     @property
-    def exchanges(self) -> tuple[Exchange, ...]:
-        """As in `Supervision`; a heartbeat is due when the first FPGA needs one."""
-        return (self.exchange, *[one.exchange for one in self._others])
+    def of_each(self) -> tuple[Supervision, ...]:
+        """As in `Supervision`."""
+        return (self, *self._others)
 
     def bring_up(self) -> None:
-        """As in `Supervision`, of all FPGAs; then the ticks of each are compared.
+        """As in `Supervision`, of all FPGAs, also if one of them is being loaded; then the ticks of each are compared.
 
         Raises LinkError if the trigger line does not reach one of them.
         """
-        for named, one in zip(self._of[1:], self._others, strict=True):
-            with named:
-                one.bring_up()
-        with self._of[0]:
-            super().bring_up()
+        others_first = [*self._of[1:], self._of[0]]  # then none has a fault of before
+        _, failed = self._from_all([*[one.bring_up for one in self._others], super().bring_up], others_first)
+        if failed:
+            raise min(failed, key=_rank)
         self.compare_ticks()
 
     def arm(self) -> float:
@@ -81,13 +84,7 @@ class WideSession(Session):
 
     def disarm(self) -> float:
         """As in `Session`, of all FPGAs, also if one of them does not answer; when the last ramp ends."""
-        ends_s, failed = [], []
-        for named, disarm in zip(self._of, (super().disarm, *[one.disarm for one in self._others]), strict=True):
-            try:
-                with named:
-                    ends_s.append(disarm())
-            except (LinkError, FaultError) as error:
-                failed.append(error)
+        ends_s, failed = self._from_all([super().disarm, *[one.disarm for one in self._others]])
         if failed:
             raise min(failed, key=_rank)
         self.ramp_end_s = max(ends_s)
@@ -104,7 +101,7 @@ class WideSession(Session):
 
         Raises OutOfStep if they have played different numbers of emissions.
         """
-        statuses, failed = self._ask_all(super().heartbeat)
+        statuses, failed = self._from_all([super().heartbeat, *[one.heartbeat for one in self._others]])
         if failed:
             self._all_asked = min(failed, key=_rank)
             raise self._all_asked
@@ -119,7 +116,7 @@ class WideSession(Session):
         """As in `Supervision`: all FPGAs are asked, before a fault of another than the one that was at work is cleared."""
         if error is self._all_asked or not self.on_anywhere:
             return error
-        _, failed = self._ask_all(super().heartbeat)
+        _, failed = self._from_all([super().heartbeat, *[one.heartbeat for one in self._others]])
         return min([error, *failed], key=_rank)
 
     def play(self, play: Play, *, stop: bool) -> None:
@@ -189,16 +186,19 @@ class WideSession(Session):
             ticks.append(one.exchange.read(Register.TRIGGER_TIME_HIGH) << 32 | low)
         self.ahead_ticks = [tick - ticks[0] for tick in ticks[1:]]
 
-    def _ask_all(self, first: Callable[[], Status]) -> tuple[list[Status], list[LinkError | FaultError]]:
-        """A heartbeat to each FPGA, `first` that of the first one: their answers, and the errors of those that gave none."""
-        statuses, failed = [], []
-        for named, heartbeat in zip(self._of, (first, *[one.heartbeat for one in self._others]), strict=True):
+    def _from_all(
+        self, asks: Sequence[Callable[[], Answer]], of: Sequence[_Named] = ()
+    ) -> tuple[list[Answer], list[LinkError | FaultError]]:
+        """What each FPGA answers, in their order unless `of` says another, and the errors of those that do not."""
+        answers: list[Answer] = []
+        failed: list[LinkError | FaultError] = []
+        for named, ask in zip(of or self._of, asks, strict=True):
             try:
                 with named:
-                    statuses.append(heartbeat())
+                    answers.append(ask())
             except (LinkError, FaultError) as error:
                 failed.append(error)
-        return statuses, failed
+        return answers, failed
 
     def _upload_others(self, slot: int, parts: Sequence[Waveform]) -> None:
         for named, one, part in zip(self._of[1:], self._others, parts, strict=True):
@@ -241,12 +241,13 @@ class WideSession(Session):
 
 
 def _rank(error: ControllerError) -> int:
-    """Place of an error among those of all FPGAs: a fault of its own first, then an error of the link; what others cause last.
+    """Place of an error among those of all FPGAs: what stays and a fault of its own first, then an error of the link; what others
+    cause last.
 
     An FPGA that hears nothing while the host waits for another is HOST_SILENT; NO_PERMIT is what the wire makes of either.
     """
     if not isinstance(error, FaultError):
-        return 1
+        return 0 if isinstance(error, IncompatibleFpga) else 1
     others = Fault(error.faults) & ~Fault.NO_PERMIT
     return 3 if error.faults == Fault.NO_PERMIT else 2 if others == Fault.HOST_SILENT else 0
 

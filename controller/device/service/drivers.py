@@ -62,13 +62,17 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
 
 def await_session(board: Board, now_s: Callable[[], float], open_fpga: OpenLink = open_link) -> tuple[Link, Session]:
     """Link and session of an FPGA, or several, that may not be connected yet; nothing is sent before `bring_up`."""
+    link: Link
+    session: Session
     if board.link.fpga:
-        group = LazyGroup(lambda: open_fpga(board, now_s), len(board.link.fpga), now_s)
-        return group, WideSession(group, board, gateware_hash(), now_s, bring_up=False)
-    link = LazyLink(lambda: open_fpga(board, now_s), now_s)
-    session = Session(link, board, gateware_hash(), now_s, bring_up=False)
-    if board.gateware is not None:
-        session.loader = BitstreamLoader(board.gateware, bitstream_path(board), now_s)
+        link = group = LazyGroup(lambda: open_fpga(board, now_s), len(board.link.fpga), now_s)
+        session = WideSession(group, board, gateware_hash(), now_s, bring_up=False)
+    else:
+        link = LazyLink(lambda: open_fpga(board, now_s), now_s)
+        session = Session(link, board, gateware_hash(), now_s, bring_up=False)
+    for one, own in zip(session.of_each, board.fpga_boards, strict=True):
+        if own.gateware is not None:
+            one.loader = BitstreamLoader(own.gateware, bitstream_path(own), now_s)
     return link, session
 
 

@@ -142,8 +142,9 @@ def _connect(
     clock = MonotonicClock()
     link, session = await_session(board, clock.now_s, open_fpga)
     stack.callback(link.close)
-    if session.loader is not None:
-        stack.callback(session.loader.close)
+    for one in session.of_each:
+        if one.loader is not None:
+            stack.callback(one.loader.close)
     reader = await_panel(board) if replay is None else None
     if reader is not None:
         live = LiveSource(reader, board)

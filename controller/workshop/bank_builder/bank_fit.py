@@ -15,6 +15,7 @@ from controller.device.bank.inspection import bounds_of, verify_bank, wrong_pitc
 from controller.device.bank.provenance import MODEL_VERSION
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
+from controller.device.board.lookup import fpga_files
 from controller.device.board.paths import is_there
 from controller.device.board.records import BYTES_MAX
 from controller.errors import BankError
@@ -35,10 +36,18 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     `cells`, of the board's grid, are those that it must have; further cells are kept when it is built again because cells are
     missing. Raises BankError if this user may not read it.
     """
+    files = zip(board.fpga_boards, fpga_files(path, len(board.link.fpga)), strict=True)
+    found = [_fit(file, one, board, cells) for one, file in files]
+    reasons = [one.reason for one in found if one.reason]
+    return Fit(reasons[0] if reasons else "", np.logical_or.reduce([one.cells for one in found]))
+
+
+def _fit(path: Path, one: Board, board: Board, cells: NDArray[np.bool_]) -> Fit:
+    """As `fit`, of the file of one FPGA of a board."""
     if not is_there(path):
         return Fit("there is none yet", cells)
     try:
-        with Bank.open(path, board) as bank:
+        with Bank.open(path, one) as bank:
             if wrong := wrong_pitch(bank, board):
                 return Fit(wrong, cells)
             model_counts = bank.header.provenance is None or not bank.header.provenance.from_measurements

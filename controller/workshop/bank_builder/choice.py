@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -98,6 +98,7 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
             found.append(Setting(pitch_mm, snap_mm, True, worst, time_us, lone_us, _bytes(board, grid, cells, composes=True)))
     if board.compose.method == "compact" or not alone:
         found += _compact_settings(board, scene, words_source(yielding_alike(board), bare))
+    found = [replace(one, bytes=len(board.fpga_boards) * one.bytes) for one in found]  # a file for each
     return [one for one in found if one.compact] if board.compose.method == "compact" else found
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
-from controller.device.bank.packing import CHANNELS, channel_bits, drive_words
+from controller.device.bank.packing import as_words, channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.device.board.relations.panel import coarse
 from controller.errors import ConfigError
@@ -103,12 +103,12 @@ def _cell_places(grid: Grid, cells: NDArray[np.intp]) -> Floats:
 
 def _responses(board: Board, source: ResponseSource, places_m: Floats) -> NDArray[np.floating[Any]]:
     rows = board.waveform.samples + math.ceil(board.waveform.samples / REST_SAMPLES)
-    return source.entry_responses(places_m, out=np.empty((len(places_m), rows, CHANNELS), np.float32))
+    return source.entry_responses(places_m, out=np.empty((len(places_m), rows, board.channels), np.float32))
 
 
 def _displacement(words: NDArray[np.uint32], whole: NDArray[np.floating[Any]], idle_word: int) -> float:
-    """Displacement at T from rest at the idle word, for each volt, of words at a place with a whole response (sample, 32)."""
-    idle_bits = channel_bits(np.array([idle_word], np.uint32))[0].astype(np.float32)
+    """Displacement at T from rest at the idle word, for each volt, of words at a place with a whole response (sample, channel)."""
+    idle_bits = channel_bits(as_words(idle_word, words))[0].astype(np.float32)
     return float(np.vdot(channel_bits(words) - idle_bits, whole))
 
 

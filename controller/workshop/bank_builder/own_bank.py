@@ -18,7 +18,8 @@ from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.board.paths import bank_path, build_line, fpga_files
+from controller.device.board.lookup import fpga_files
+from controller.device.board.paths import bank_path, build_line
 from controller.device.scene.coverage import cells_needed
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
@@ -30,6 +31,7 @@ from controller.workshop.bank_builder.compact.design import compact_grid, compac
 from controller.workshop.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.plate import wave_scale
+from controller.workshop.physics.responses.part_of_responses import PartOfResponses
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 SMALLEST_PITCH_MM = 0.5
@@ -66,32 +68,38 @@ class Order:
     def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
         """Build it, its file beside or in place of another; for several FPGAs a file for each; the report is of all of them.
 
-        `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`. Raises
-        ConfigError or BankError.
+        `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`, of which a
+        `source` is of the channels of all. Raises ConfigError or BankError.
         """
-        files = fpga_files(path, len(self.board.link.fpga))
-        own = fpga_files(self.own_path, len(self.board.link.fpga))
-        reports = [self.build_one(*each, cells, **how) for each in zip(self.board.fpga_boards, files, own, strict=True)]
+        if self.choice is None:  # what was chosen keeps the bounds of its error
+            refuse_coarse(self.board, self.pitch_m)
+        how = {"progress": True, **how}
+        wanted = BankRequest(
+            self.board,
+            path,
+            self.pitch_m,
+            self.cells if cells is None else cells,
+            emitters=self.scene.emitters if self.scene else (),
+            scene=self.scene_file.name if self.scene_file else None,
+            overwrite=path == self.own_path,
+            choice=self.choice,
+            compact=self.compact,
+            **how,
+        )
+        reports = [build_bank(request) for request in of_each_fpga(wanted)]
         whole = {name: sum(getattr(one, name) for one in reports) for name in ("bytes", "seconds")}
         return replace(reports[-1], path=str(path), worst_edge_rate_hz=max(one.worst_edge_rate_hz for one in reports), **whole)
 
-    def build_one(self, board: Board, path: Path, own: Path, cells: NDArray[np.bool_] | None, **how: Any) -> BuildReport:
-        """Build the file of one FPGA, of the patches that it drives; `own` is where `run` looks for it."""
-        refuse_coarse(board, self.pitch_m)
-        return build_bank(
-            BankRequest(
-                board,
-                path,
-                self.pitch_m,
-                self.cells if cells is None else cells,
-                emitters=self.scene.emitters if self.scene else (),
-                scene=self.scene_file.name if self.scene_file else None,
-                overwrite=path == own,
-                choice=self.choice,
-                compact=self.compact,
-                **{"progress": True, **how},
-            )
-        )
+
+def of_each_fpga(request: BankRequest) -> list[BankRequest]:
+    """What is built for each FPGA of a board: of the patches that it drives, from their responses."""
+    board, source = request.board, request.source
+    if not board.link.fpga:
+        return [request]
+    return [
+        replace(request, board=one, path=file, source=None if source is None else PartOfResponses(source, number))
+        for number, (one, file) in enumerate(zip(board.fpga_boards, fpga_files(request.path, len(board.link.fpga)), strict=True))
+    ]
 
 
 def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None = None, *, compact: bool = False) -> Order:
@@ -142,18 +150,10 @@ def own_bank(board: Board, scene: Scene, scene_file: Path) -> Bank:
 
     Raises BankError if it does not suit and was measured, or cannot be built.
     """
-    path, fpgas = find_bank(board).path, len(board.link.fpga)
-    for one, file, to in zip(board.fpga_boards, fpga_files(path, fpgas), fpga_files(bank_path(board), fpgas), strict=True):
-        if _renewed(one, scene, scene_file, file, to):
-            path = bank_path(board)
-    return Bank.open(path, board)
-
-
-def _renewed(board: Board, scene: Scene, scene_file: Path, path: Path, to: Path) -> bool:
-    """Build the bank of one FPGA at `to` unless the one at `path` suits; whether it was built. Raises as `own_bank`."""
+    path, to = find_bank(board).path, bank_path(board)
     wanted, found = _wanted(board, scene, scene_file, path)
     if not found.reason:
-        return False
+        return Bank.open(path, board)
     if measured_at(path):
         raise BankError(
             f"{path}: {found.reason}; its responses were measured, so it is not replaced by one from the plate model: build it"
@@ -162,8 +162,8 @@ def _renewed(board: Board, scene: Scene, scene_file: Path, path: Path, to: Path)
     tell(f"building the bank {path}: {found.reason}; {int(found.cells.sum()):,} cells, some seconds")
     if aim := optimised_for(path):
         tell(f"its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}")
-    warn_of_pitch(to, wanted.build_one(board, to, to, found.cells))
-    return True
+    warn_of_pitch(to, wanted.build(to, found.cells))
+    return Bank.open(to, board)
 
 
 def warn_of_pitch(path: Path, report: BuildReport) -> None:

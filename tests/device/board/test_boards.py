@@ -48,7 +48,7 @@ def ports_of(board):
 
 @each_row("name", ALL)
 def test_every_board_loads(name):
-    board = load_board(find_board(name), several=True)
+    board = load_board(find_board(name))
     assert board.name == name
     assert (board.folder / board.scene).is_file()
     assert (board.folder / board.touch.recording).is_file()

@@ -92,6 +92,13 @@ EDGES_HZ = 0.25 / worst_edge_j(BOARD.driver)
 RAMP_MS = 53e3 * 0.25 / (500e3 * RAMP_EDGES) * 1e3
 MODES_HZ = 50 * (WAVE_MM * 1e-3) ** 2 * HIGH / (math.pi * 0.21 * 0.148)
 TWO = (LinkedFpga(device="/dev/spidev0.0"), LinkedFpga(device="/dev/spidev0.1"))
+
+
+def cabled(*cables):
+    """Two FPGAs, each with its cable."""
+    return tuple(msgspec.structs.replace(one, cable=cable) for one, cable in zip(TWO, cables, strict=True))
+
+
 CELLS_MM = math.sqrt(210 * 148 * 1000 * BANK_BYTES / 4e9)
 
 # of each relation: what a board is that just keeps it, and one that just breaks it
@@ -102,9 +109,10 @@ JUST = {
         {"actuators": patch(31, channel=32), "link__fpga": TWO},
         {"actuators": patch(31, channel=64), "link__fpga": TWO},
     ),
-    "_together": (
-        {"link__fpga": TWO, "gateware": None, "patches": None},
-        {"link__fpga": TWO, "gateware": None, "patches": None, "compose": Compose(method="auto")},
+    "_together": ({"link__fpga": TWO}, {"link__fpga": TWO, "link__kind": "serial"}),
+    "_cables": (
+        {"link__fpga": cabled("A", "B"), "gateware__load": ("load", "{cable}", "{bitstream}")},
+        {"link__fpga": cabled("A", "A"), "gateware__load": ("load", "{cable}", "{bitstream}")},
     ),
     "_on_plate": ({"actuators": patch(0, x_mm=2.3)}, {"actuators": patch(0, x_mm=2.29)}),
     "_apart": ({"actuators": patch(0, x_mm=31.5 - 4.6)}, {"actuators": patch(0, x_mm=31.5 - 4.59)}),
@@ -240,7 +248,7 @@ def test_every_relation_has_a_rule_of_one_sentence():
 
 @each_row("name", sorted(file.parent.name for file in data_folder("boards").glob("*/board.toml")))
 def test_nothing_of_a_shipped_board_is_refused_or_odd(name):
-    assert judge(load_board(find_board(name), several=True)) == ((), ())
+    assert judge(load_board(find_board(name))) == ((), ())
 
 
 @each_row(
@@ -327,9 +335,22 @@ def test_a_line_is_known_by_number_too_and_only_on_one_chip():
 def test_what_fpgas_have_of_their_own_and_what_they_share_does_not_collide(first, second, link, said):
     fpga = tuple(msgspec.structs.replace(one, **keys) for one, keys in zip(TWO, (first, second), strict=True))
     keys = {f"link__{key}": value for key, value in {"device": "", "configured_line": "", **link}.items()}
-    board = changed(BOARD, link__fpga=fpga, actuators=patch(31, channel=32), gateware=None, patches=None, **keys)
+    board = changed(BOARD, link__fpga=fpga, actuators=patch(31, channel=32), gateware=None, **keys)
     (refused,) = judge(board).refused
     assert said in refused
+
+
+@each_row(
+    ("fpga", "load", "said"),
+    [
+        (TWO, ("{bitstream}",), "gateware.load names no {cable}: several FPGAs are loaded one by one"),
+        ((), ("{bitstream}", "{cable}"), "gateware.load names a {cable}: those are of the FPGAs in link.fpga, and there is none"),
+        (cabled("A", ""), ("{bitstream}", "{cable}"), "link.fpga[1].cable = '': each FPGA needs one of its own"),
+    ],
+)
+def test_what_loads_several_fpgas_knows_each_by_its_cable(fpga, load, said):
+    (refused,) = NAMED["_cables"].broken(changed(BOARD, link__fpga=fpga, gateware__load=load))
+    assert refused.startswith(said)
 
 
 @each_row(("line", "of"), [("GPIO3", "touch.bus"), ("GPIO10", "link.device"), ("11", "link.device")])

@@ -12,7 +12,7 @@ from controller.device.doctor.several_fpgas import examine_links
 from controller.device.service.drivers import open_session
 from controller.workshop.gateware.wired_fpgas import SimulatedFpgas
 
-WHOLE = load_board(find_board("simulated_64"), several=True)
+WHOLE = load_board(find_board("simulated_64"))
 BOARD = msgspec.structs.replace(  # its memory is read word by word
     WHOLE,
     link=msgspec.structs.replace(WHOLE.link, slots=1),

@@ -5,20 +5,25 @@ import re
 import signal
 import sys
 
+import msgspec
 import pytest
 from tables import each_row
 
 from controller.clocks import VirtualClock
 from controller.device.board.board import load_board
-from controller.device.board.devices import GatewareLoading
+from controller.device.board.devices import GatewareLoading, LinkedFpga
 from controller.device.board.lookup import find_board
 from controller.device.fpga.bitstream_loader import BitstreamLoader
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.configuration import IncompatibleFpga
 from controller.device.fpga.session import Session
+from controller.device.service.drivers import await_session, gateware_hash
 from controller.errors import LinkError
+from controller.workshop.gateware.actual_panel import gateware_of
+from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.model import GatewareModel
 from controller.workshop.gateware.simulated_link import SimulatedLink
+from controller.workshop.gateware.wired_fpgas import SimulatedFpgas
 
 BUILD, OTHER = 0x1234ABCD, 7
 BOARD = load_board(find_board("simulated"))
@@ -219,3 +224,70 @@ def test_it_ends_with_the_service(tmp_path):
     process = bench.loader._process
     bench.loader.close()
     assert process.returncode == -signal.SIGKILL
+
+
+class Pair:
+    """Two FPGAs of one panel with another gateware each, which is that of a file once a loader has written it."""
+
+    def __init__(self, folder, program=LOAD):
+        board = load_board(find_board("simulated_64"))
+        cables = tuple(LinkedFpga(cable=str(folder / name)) for name in ("A", "B"))
+        loading = GatewareLoading(load=(sys.executable, "-c", program, "{bitstream}", "{cable}"), bitstream="own.bit", limit_s=5.0)
+        link = msgspec.structs.replace(board.link, fpga=cables)
+        self.board = msgspec.structs.replace(board, link=link, gateware=loading, folder=folder)
+        (folder / "own.bit").write_text(str(gateware_hash()))
+        (folder / "own.fpga1.bit").write_text(str(gateware_hash()))
+        self.clock = VirtualClock()
+        self.fpgas = None
+        _, self.session = await_session(self.board, self.clock.now_s, self.opened)
+        self.said = []
+
+    def opened(self, board, now_s):
+        self.fpgas = SimulatedFpgas(board, now_s)
+        for number in range(2):
+            self.configure(number, OTHER)
+        return self.fpgas
+
+    def configure(self, number, build):
+        """An FPGA just out of reset, with this gateware."""
+        panel, ready_ticks = self.fpgas.panel, list(self.fpgas.panel.ready_ticks)
+        model, now = GatewareModel(gateware_of(self.board.fpga_boards[number], build)), panel.now
+        panel.gatewares = tuple(model if n == number else one for n, one in enumerate(panel.gatewares))
+        ready_ticks[number] = now
+        panel.ready_ticks = tuple(ready_ticks)
+        for which in Permit:
+            model.permit(0, level=True, which=which)
+
+    def bring_up(self):
+        """As the loop retries it, until it is good or refused."""
+        while True:
+            try:
+                return self.session.bring_up()
+            except IncompatibleFpga:
+                raise
+            except LinkError as error:
+                self.said.append(str(error))
+                for number, one in enumerate(self.session.of_each):
+                    if one.loader._process is not None:
+                        os.waitid(os.P_PID, one.loader._process.pid, os.WEXITED | os.WNOWAIT)
+                    loaded = self.board.folder / "AB"[number]
+                    if loaded.exists():
+                        self.configure(number, int(loaded.read_text()))
+                        loaded.unlink()
+
+
+def test_each_of_several_is_loaded_with_its_own_file_at_its_own_cable_and_both_at_once(tmp_path):
+    pair = Pair(tmp_path)
+    pair.bring_up()
+    assert len(pair.said) <= 2, "both are loaded while the first is waited for"
+    assert all(re.match(r"FPGA [01]: the FPGA's BUILD_HASH is 0x00000007", said) for said in pair.said)
+    assert pair.session.arm() > 0
+
+
+def test_one_of_several_that_cannot_be_loaded_is_named(tmp_path):
+    pair = Pair(tmp_path)
+    (tmp_path / "own.fpga1.bit").unlink()
+    with pytest.raises(IncompatibleFpga, match=r"FPGA 1: .*own\.fpga1\.bit: there is no such bitstream to load"):
+        pair.bring_up()
+    for one in pair.session.of_each:
+        one.loader.close()

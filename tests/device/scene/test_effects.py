@@ -266,7 +266,7 @@ def test_commands_can_play_all_but_spots_what_a_moving_finger_feels_and_what_the
 @each_row("name", sorted(file.parent.name for file in data_folder("boards").glob("*/board.toml")))
 @each_row("effect", sorted(library()))
 def test_every_effect_of_the_library_can_be_named_by_a_region_or_a_command_of_every_board(scene_of, name, effect):
-    board = load_board(data_folder("boards") / name, several=True)
+    board = load_board(data_folder("boards") / name)
     if library()[effect].occasions == ("command",):
         assert effect in scene_of(square(CLICK), board=board).effects
     else:

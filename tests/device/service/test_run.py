@@ -23,9 +23,9 @@ from patience import communicate, wait_for
 from controller.cli import main
 from controller.device.application_socket.client import PanelClient
 from controller.device.board.board import load_board
+from controller.device.board.lookup import fpga_files
 from controller.device.board.panel_state import PanelState
 from controller.device.board.panel_status import read_now, read_status
-from controller.device.board.paths import fpga_files
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.service.drivers import gateware_hash
 from controller.errors import ControllerError
@@ -412,7 +412,7 @@ def test_two_fpgas_play_for_a_finger_as_one_panel(folder, panel):
     text, halved = re.subn(r"channel = (1[6-9]|2\d|3[01])", lambda found: f"channel = {int(found[1]) + 16}", file.read_text())
     assert halved == 16
     file.write_text(text + "\n[[link.fpga]]\n\n[[link.fpga]]\n")
-    board, bank = load_board(file, several=True), folder / "halves.bank"
+    board, bank = load_board(file), folder / "halves.bank"
     for one, path in zip(board.fpga_boards, fpga_files(bank, 2), strict=True):
         build_bank(BankRequest(one, path, 30e-3))
     service = Service(folder, bank)

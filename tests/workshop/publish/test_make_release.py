@@ -13,6 +13,7 @@ import tomllib
 import zipfile
 from pathlib import Path
 
+import msgspec
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -21,12 +22,15 @@ from tiny_release import wheel
 
 from controller.cli import main
 from controller.commands.update import make_release as update_make_release
+from controller.device.bank import lookup as bank_lookup
+from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.fpga.bitstream import Identity, sealed
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.device.update.download.bank_index import read_index
+from controller.workshop.bank_builder.own_bank import Order as BankOrder
 from controller.workshop.publish.lock_file import BUILT, Target, read_lock, wanted
 from controller.workshop.publish.release_folder import read_release
 
@@ -95,6 +99,25 @@ def test_the_same_inputs_make_the_same_bytes_whoever_makes_them(place, bank_file
     index = read_index((place / "a" / bank.index_target).read_bytes(), "index")
     assert index.size_bytes == bank_file.stat().st_size
     assert sum(1 for _ in index) > 100
+
+
+def test_banks_of_several_fpgas_go_together_and_are_played_together(place, capsys, monkeypatch):
+    board = load_board(find_board("simulated_64"))
+    board = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, pitch_mm=12.0, coarse=True))
+    first = place / "own.bank"
+    BankOrder(board, 12e-3).build(first, progress=False)
+    assert make(place, "a", "--board", "simulated_64", "--bank", first) == 0
+    paths = {file.path for file in read_release(place / "a").files}
+    assert {"banks/simulated_64.bank", "banks/simulated_64.fpga1.bank"} <= paths
+    monkeypatch.setattr(bank_lookup, "running_release", lambda: place / "a")
+    found = bank_lookup.find_bank(board)
+    assert found.of_release
+    with Bank.open(found.path, board) as bank:
+        assert len(bank.others) == 1
+    (place / "own.fpga1.bank").unlink()
+    capsys.readouterr()
+    assert make(place, "b", "--board", "simulated_64", "--bank", first) == 78
+    assert re.fullmatch(r"haptic-panel: .*own\.fpga1\.bank: cannot be read .*\n", capsys.readouterr().err)
 
 
 def test_one_version_is_informed_wherever_one_is_reported(place, bank_file):

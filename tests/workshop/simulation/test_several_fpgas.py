@@ -11,14 +11,18 @@ import msgspec
 import numpy as np
 import pytest
 from scripted_evemu import evemu
+from tables import each_row
 
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.device.application_socket.client import PanelClient
 from controller.device.bank.reader import Bank
+from controller.device.board.board import load_board
 from controller.device.board.devices import LinkedFpga
-from controller.device.board.lookup import find_board
-from controller.device.board.paths import bank_path, fpga_files
+from controller.device.board.lookup import find_board, fpga_files
+from controller.device.board.panel import Compose
+from controller.device.board.patches import Patches
+from controller.device.board.paths import bank_path
 from controller.device.fpga.frames import parted
 from controller.device.scene.scene import load_scene
 from controller.device.service.drivers import open_session
@@ -29,6 +33,7 @@ from controller.errors import BankError
 from controller.workshop.bank_builder.own_bank import own_bank
 from controller.workshop.benchmark.focus.focus_emission import emission_at, emission_figures, evaluated_foci
 from controller.workshop.gateware.wired_fpgas import SimulatedFpgas
+from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.simulation.drift import ASSUMED, Drift
 from controller.workshop.simulation.focus_evaluation import judge
 from controller.workshop.simulation.ghostly_panel import pins_of
@@ -118,6 +123,50 @@ def refused_without_the_others(split, path):
         Bank.open(path, split)
 
 
+@each_row(
+    "changes",
+    [
+        {"compose": Compose(method="compact", max_error=0.3)},
+        {"compose": Compose(method="auto", max_error=0.3)},
+        {"patches": Patches(mass_kg_m2=3.0, stiffness_ratio=1.5)},
+    ],
+    ids=["compact", "auto", "patches that stiffen the plate"],
+)
+def test_banks_of_any_kind_are_as_of_the_same_panel_with_one(changes, tmp_path, monkeypatch):
+    monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path))
+    scene_file = tmp_path / "scene.toml"
+    scene_file.write_text(SCENE.replace("75.0", "25.0").replace("65.0", "20.0").replace("50.0", "10.0"))
+    found = []
+    for fpgas in (1, 2):
+        on = msgspec.structs.replace(small_board(fpgas), **changes, folder=tmp_path / str(fpgas))
+        scene = load_scene(scene_file, on)
+        with own_bank(on, scene, scene_file) as bank:
+            found.append((bank.header.amplitude_um, bank.grid, bank.header.compact is None))
+        written_ns = [file.stat().st_mtime_ns for file in fpga_files(bank_path(on), fpgas)]
+        own_bank(on, scene, scene_file).close()
+        assert [file.stat().st_mtime_ns for file in fpga_files(bank_path(on), fpgas)] == written_ns, "it suits"
+        modes = {modes_of(one).count for one in (on, *on.fpga_boards)}
+        assert len(modes) == 1, "the plate of each has the patches of all"
+    (one_um, *one), (two_um, *two) = found
+    assert two == one
+    assert two_um == pytest.approx(one_um, rel=0.1)
+
+
+def small_board(fpgas):
+    """A plate of 60 by 50 mm with four discs, the last two of which two FPGAs leave to the second."""
+    board = load_board(find_board("simulated"))
+    corners = [(x, y) for x in (10.0, 45.0) for y in (10.0, 35.0)]
+    places = [(x + dx, y + dy) for x, y in corners for dx in (0.0, 5.0) for dy in (0.0, 5.0)]
+    patches = tuple(
+        msgspec.structs.replace(board.actuators[n], channel=n + 24 * (fpgas > 1 and n >= 8), x_mm=x, y_mm=y)
+        for n, (x, y) in enumerate(places)
+    )
+    plate = msgspec.structs.replace(board.plate, length_mm=60.0, width_mm=50.0)
+    link = msgspec.structs.replace(board.link, fpga=(LinkedFpga(),) * fpgas if fpgas > 1 else ())
+    waveform = msgspec.structs.replace(board.waveform, duration_ms=0.4)  # how compact banks are made takes its square
+    return msgspec.structs.replace(board, plate=plate, actuators=patches, link=link, waveform=waveform)
+
+
 def test_a_focus_of_both_is_that_of_the_same_patches_on_one(board, split):
     points_m = [(0.1, 0.07), (0.06, 0.09)]
     one, both = (emission_at(on, points_m) for on in (board, split))
@@ -170,9 +219,9 @@ def test_it_is_served_as_one_panel(tmp_path):
 
 
 def test_commands_for_one_fpga_refuse_a_board_of_several_in_one_line(capsys):
-    for command in (["gateware", "load"], ["calibrate", "plan"]):
+    for command in (["gateware", "waves"], ["benchmark", "paper"]):
         assert main([*command, "--board", "simulated_64"]) == 78, command
         out, err = capsys.readouterr()
         assert not out
         assert len(err.splitlines()) == 1
-        assert "link.fpga: this serves boards of one FPGA; with 2 there are" in err
+        assert "link.fpga: this serves boards of one FPGA, not of 2" in err

@@ -70,19 +70,26 @@ def _fpgas(board: Board) -> Iterator[str]:
         yield f"link.fpga[{min(idle)}] has no channel: give it actuators with channels from {CHANNELS * min(idle)} on"
 
 
-@refuses("`link.fpga`, `patches`, `gateware`, `compose.method`")
+@refuses("`link.fpga`, `kind`")
 def _together(board: Board) -> Iterator[str]:
-    """Several FPGAs are not loaded by the host, and play a bank as `bank` says on a plate that its patches do not stiffen."""
-    if not board.link.fpga:
+    """Several FPGAs have a trigger line, which a serial link has not."""
+    if board.link.fpga and board.link.kind == "serial":
+        yield "link.fpga: several FPGAs begin together by a trigger line, which link.kind = 'serial' has not: connect them by SPI"
+
+
+@refuses("`link.fpga.cable`, `gateware.load`")
+def _cables(board: Board) -> Iterator[str]:
+    """What loads several FPGAs knows one from the other."""
+    if board.gateware is None or not any("{cable}" in word for word in board.gateware.load):
+        if board.gateware is not None and board.link.fpga:
+            yield "gateware.load names no {cable}: several FPGAs are loaded one by one, each known by its link.fpga.cable"
         return
-    for key, given in (
-        ("patches", board.patches is not None),
-        ("gateware", board.gateware is not None),
-        ("compose.method", board.compose.method != "bank"),
-        ("link.kind", board.link.kind == "serial"),
-    ):
-        if given:
-            yield f"link.fpga: several FPGAs do not go with this {key} yet: take it out"
+    cables = [one.cable for one in board.link.fpga]
+    if not cables:
+        yield "gateware.load names a {cable}: those are of the FPGAs in link.fpga, and there is none"
+    for number, cable in enumerate(cables):
+        if not cable or cable in cables[:number]:
+            yield f"link.fpga[{number}].cable = {cable!r}: each FPGA needs one of its own, by which gateware.load knows it"
 
 
 @refuses("`actuators.x_mm`, `y_mm`, `size_mm`, `plate.length_mm`, `width_mm`")

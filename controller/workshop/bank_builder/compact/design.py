@@ -63,7 +63,7 @@ class CompactDesign:
         random = np.random.default_rng(SEED)
         points_m = random.uniform((0, 0), (plate.length_m, plate.width_m), (PLACES, 2))
         rows = waveform.samples + math.ceil(waveform.samples / REST_SAMPLES)
-        responses = source.entry_responses(points_m, out=np.empty((PLACES, rows, CHANNELS), np.float32)).astype(np.float64)
+        responses = source.entry_responses(points_m, out=np.empty((PLACES, rows, board.channels), np.float32)).astype(np.float64)
         in_band, rest = responses[:, : waveform.samples], responses[:, waveform.samples :]
         beyond_hz = BEYOND_BAND * (waveform.band_high_hz - waveform.band_low_hz)
         power, hz = _spectrum(in_band, waveform.bit_period_s)
