@@ -11,9 +11,9 @@ from controller.device.board.lookup import find_board
 from controller.device.fpga.exchange import HostSilent, OutOfStep, Refused
 from controller.device.fpga.frames import Play, ReadyFrames, joined, parted
 from controller.device.fpga.recovery import Action, Recovery, action_for
-from controller.device.fpga.registers import Control, Fault, Result, Start, State
+from controller.device.fpga.registers import Control, Fault, Register, Result, Start, State
 from controller.device.fpga.session import Session
-from controller.device.fpga.wide_session import WideSession
+from controller.device.fpga.wide_session import APART_TICKS, WideSession
 from controller.device.service.drivers import await_session, open_session
 from controller.errors import FaultError, LinkError
 from controller.workshop.gateware.actual_panel import gateware_of
@@ -288,6 +288,44 @@ def test_fpgas_that_have_played_different_numbers_of_emissions_are_out_of_step(p
     panel.wait(4e-3)
     with pytest.raises(OutOfStep, match="have played 0, 1 emissions"):
         session.heartbeat()
+
+
+@each_row("ticks", [2, 3, -3])
+def test_fpgas_that_drift_apart_while_they_play_are_switched_off(ticks):
+    """A crystal of its own: the second one sees the edge at another tick of what it counts."""
+    panel = Panel(GatewareModel)
+    session, second = panel.session, panel.link.panel.gatewares[1]
+    trigger = second.trigger
+    second.trigger = lambda tick, high_ticks: trigger(tick + ticks, high_ticks)
+    session.upload_and_play(Play(1), WORDS, stop=False)
+    session.trigger()
+    panel.wait(5e-3)
+    if abs(ticks) <= APART_TICKS:
+        session.heartbeat()
+        return
+    with pytest.raises(OutOfStep, match=rf"FPGA 1 counts {ticks} ticks more than FPGA 0 .*: have all run") as said:
+        session.heartbeat()
+    recovery = Recovery(session, BOARD)
+    recovery.begin(said.value, panel.clock.now_s())
+    panel.clock._now_s = recovery.off_by_s
+    panel.off_ticks()
+
+
+def test_the_ticks_are_looked_at_once_a_second_and_only_after_a_trigger(panel):
+    session, looks = panel.session, []
+    read = session.exchange.read
+    session.exchange.read = lambda register: looks.append(register) or read(register)
+    session.upload(1, WORDS)
+    for _ in range(30):  # 1.5 s
+        session.play(Play(1), stop=False)
+        session.trigger()
+        panel.wait(50e-3)
+        session.heartbeat()
+    assert looks == [Register.TRIGGER_TIME_LOW] * 2
+    for _ in range(30):
+        panel.wait(50e-3)
+        session.heartbeat()
+    assert len(looks) == 3, "of the last edge"
 
 
 def test_a_repetition_that_ends_once_more_on_one_of_them_is_no_reason_to_switch_off(panel):

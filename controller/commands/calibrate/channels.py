@@ -6,18 +6,23 @@ import argparse
 import os
 import select
 import sys
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import closing
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
-from controller.commands.common.fpga_link import fpga_link
+from controller.commands.common.fpga_link import fpga_link, fpga_links
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
+from controller.device.board.panel import CHANNELS
 from controller.device.service.drivers import open_session, open_touch
 from controller.device.touch.live_source import LiveSource
 from controller.device.touch.reports import FAULTS, describe_warnings
-from controller.device.touch_calibration.channel_map import ChannelMap, channel_map
+from controller.device.touch_calibration.channel_map import ChannelMap, Place, channel_map
 from controller.device.touch_calibration.channel_survey import survey
 from controller.errors import UsageError
 
@@ -62,27 +67,43 @@ def channels(options: argparse.Namespace) -> int:
     if (options.swapped or options.dead) and not simulated:
         raise UsageError("--swapped and --dead are for a simulated board: on a real one the wires are what they are")
     clock: Clock = VirtualClock() if simulated else MonotonicClock()
-    link, _ = fpga_link(board, clock.now_s)
-    try:
-        source, person = _before(board, link, options)
-        try:
-            session = open_session(link, board, clock.now_s)
-            tell("Put a finger where the glass buzzes, and hold it still; lift it. If nothing buzzes, press Enter. Ctrl-C ends it.")
-            places = {}
-            for channel, place in survey(session, board, clock, source, asked, person, lambda one: tell(f"channel {one} buzzes")):
-                places[channel] = place
-        finally:
-            source.close()
-    finally:
-        link.close()
+    places: dict[int, Place | None] = {}
+    warnings = Counter[str]()
+    tell("Put a finger where the glass buzzes, and hold it still; lift it. If nothing buzzes, press Enter. Ctrl-C ends it.")
+    whole, each = _opened(board, clock)
+    with closing(whole):
+        for number, (one, link) in enumerate(zip(board.fpga_boards, each, strict=True)):
+            first = CHANNELS * number
+            own = [channel - first for channel in asked if first <= channel < first + CHANNELS]
+            if own:
+                source, person = _before(board, number, link, options)
+                with closing(source):
+                    session = open_session(link, one, clock.now_s)
+                    felt = survey(session, one, clock, source, own, person, partial(_ask, first))
+                    places |= {first + channel: place for channel, place in felt}
+                warnings += source.warnings
     found = channel_map(board, places)
-    faults = describe_warnings({kind: source.warnings[kind] for kind in FAULTS})
+    faults = describe_warnings({kind: warnings[kind] for kind in FAULTS})
     show(options, _figures(board, found) | {"touch_panel": faults}, _table)
     return 1 if found.wrong else 0
 
 
-def _before(board: Board, link: Link, options: argparse.Namespace) -> tuple[TouchSource, Person]:
-    """The touches of a board's panel, and who makes them."""
+def _opened(board: Board, clock: Clock) -> tuple[Link, Sequence[Link]]:
+    """The link to an FPGA, or to all of several, and that to each, which were all brought up: one with a fault stops the others."""
+    if not board.link.fpga:
+        link, _ = fpga_link(board, clock.now_s)
+        return link, [link]
+    links, _ = fpga_links(board, clock.now_s)
+    open_session(links, board, clock.now_s)
+    return links, links.links
+
+
+def _ask(first: int, channel: int) -> None:
+    tell(f"channel {first + channel} buzzes")
+
+
+def _before(board: Board, number: int, link: Link, options: argparse.Namespace) -> tuple[TouchSource, Person]:
+    """The touches of a board's panel, and who makes them, where the channels of one FPGA buzz."""
     if board.link.kind != "simulated":
         return open_touch(board), AtTerminal()
     from controller.workshop.gateware.actual_panel import ActualPanel, actual_panel, rewired
@@ -93,7 +114,7 @@ def _before(board: Board, link: Link, options: argparse.Namespace) -> tuple[Touc
     real = actual_panel(board).of(board)
     if options.swapped or options.dead:
         real = ActualPanel(actuators=rewired(real, options.swapped, options.dead)).of(real)
-    person = FeelingPerson(board, link, real)
+    person = FeelingPerson(board, link, real.fpga_boards[number])
     return LiveSource(person.panel, board), person
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from controller.workshop.calibration.recording.simulated_recorder import SimulatedRecorder
     from controller.workshop.calibration.records.measurement_file import MeasurementFile
     from controller.workshop.gateware.simulated_link import SimulatedLink
+    from controller.workshop.gateware.wired_fpgas import SimulatedFpgas
 
 MOVE_S = 600.0  # that the program which moves the head may take
 TRIES = 3  # of a point, before the measurement ends
@@ -78,7 +79,7 @@ def measure(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.records.measurement_writer import claim, write_measurement, write_records
     from controller.workshop.calibration.records.points import read_points
     from controller.workshop.gateware.actual_panel import actual_panel
-    from controller.workshop.gateware.simulated_link import open_simulated
+    from controller.workshop.gateware.wired_fpgas import open_simulated_panel
 
     board = load_board(find_board(options.board))
     _check(options, board)
@@ -88,7 +89,7 @@ def measure(options: argparse.Namespace) -> int:
     names, points_m = read_points(Path(options.points), board)
     words = drive_words(board, options.drive)
     clock: Clock = VirtualClock() if board.link.kind == "simulated" else MonotonicClock()
-    simulation = open_simulated(board, clock.now_s) if isinstance(clock, VirtualClock) else None
+    simulation = open_simulated_panel(board, clock.now_s) if isinstance(clock, VirtualClock) else None
     recorder = _recorder(options)
     link: Link = simulation or open_link(board, clock.now_s, unhurried=True)
     try:
@@ -132,7 +133,9 @@ def measure(options: argparse.Namespace) -> int:
     return 0
 
 
-def _simulated_sensor(options: argparse.Namespace, board: Board, link: SimulatedLink, clock: Clock, sync: int) -> SimulatedRecorder:
+def _simulated_sensor(
+    options: argparse.Namespace, board: Board, link: SimulatedLink | SimulatedFpgas, clock: Clock, sync: int
+) -> SimulatedRecorder:
     """A sensor on the simulated plate that is asked for."""
     from controller.workshop.calibration.recording.simulated_recorder import SimulatedRecorder
 
@@ -173,12 +176,7 @@ def _settings(options: argparse.Namespace, board: Board, recorder: Recorder, fir
             first_sample_us=0.0 if recorder.triggered else first_us,
             **sensitivity,
         ),
-        drive=WordsDrive(
-            file="drive.npy",
-            bit_clock_hz=board.waveform.bit_clock_hz,
-            supply_v=board.driver.supply_v,
-            idle_word=board.idle_word,
-        ),
+        drive=WordsDrive.of(board),
     )
 
 

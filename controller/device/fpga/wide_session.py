@@ -10,7 +10,9 @@ the others shut for NO_PERMIT. Raised is what the first one had, with the number
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Final, TypeVar
 
 from controller.device.board.board import Board
@@ -27,6 +29,8 @@ from controller.errors import ControllerError, FaultError, LinkError
 
 Answer = TypeVar("Answer")
 
+APART_TICKS: Final = 2  # by which PLLs on one oscillator may differ
+WATCHED_S: Final = 1.0  # from one look at the last trigger to the next, while something is played
 ANY: Final = State.HV_ENABLE | BUSY  # of a state: true if it is of one FPGA; the others if they are of all
 
 
@@ -45,6 +49,8 @@ class WideSession(Session):
         ]
         self._resident: list[Waveform | None] = [None] * len(self._others)  # in place of waveforms that are there
         self.ahead_ticks = [0] * len(self._others)  # by which the ticks of each are ahead of the first one's
+        self._looked_s = -math.inf  # when the last trigger was looked at
+        self._triggered = False  # since then
         self._emissions: list[int] = []  # of each when they last were at rest; empty: not known
         self._all_asked: ControllerError | None = None  # the error that was raised when all had been asked last
         self._of = [_Named(number) for number in range(len(boards))]
@@ -99,7 +105,7 @@ class WideSession(Session):
     def heartbeat(self) -> Status:
         """As in `Session`, of all FPGAs; the status of the first one, with the state of all.
 
-        Raises OutOfStep if they have played different numbers of emissions.
+        Raises OutOfStep if they have played different numbers of emissions, or do not count the ticks of one clock.
         """
         statuses, failed = self._from_all([super().heartbeat, *[one.heartbeat for one in self._others]])
         if failed:
@@ -110,6 +116,7 @@ class WideSession(Session):
             state = state & status.state | (state | status.state) & ANY
         if self._armed and not state & BUSY:
             self._compare_emissions([status.emissions for status in statuses])
+            self._watch_ticks()
         return statuses[0]._replace(state=state)
 
     def cause_of(self, error: ControllerError) -> ControllerError:
@@ -154,6 +161,7 @@ class WideSession(Session):
     def trigger(self) -> float:
         """As in `Session`: one edge starts what waits in all FPGAs."""
         at_s = super().trigger()
+        self._triggered = True
         for one in self._others:
             one.belief.triggered()
         return at_s
@@ -229,6 +237,22 @@ class WideSession(Session):
             self.counters.misplaced += 1
             if play.emissions != 1:
                 raise OutOfStep(f"a repetition has begun on FPGA 0 that another refused, and was ended: {error}") from error
+
+    def _watch_ticks(self) -> None:
+        """Once a second, of the last edge of the trigger: whether the ticks of all are as far apart as they were."""
+        now_s = self._now_s()
+        if not self._triggered or now_s < self._looked_s + WATCHED_S:
+            return
+        self._triggered, self._looked_s = False, now_s
+        lows, failed = self._from_all([partial(one.exchange.read, Register.TRIGGER_TIME_LOW) for one in self.of_each])
+        if failed:
+            raise min(failed, key=_rank)
+        for number, (low, ahead_ticks) in enumerate(zip(lows[1:], self.ahead_ticks, strict=True), 1):
+            more = (low - lows[0] - ahead_ticks + (1 << 31)) % (1 << 32) - (1 << 31)
+            if abs(more) > APART_TICKS:
+                raise OutOfStep(
+                    f"FPGA {number} counts {more} ticks more than FPGA 0 since they were compared: have all run from one oscillator"
+                )
 
     def _compare_emissions(self, emissions: list[int]) -> None:
         """Compare how many emissions each FPGA has had since they were last at rest, as they are now."""

@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.records.drives import held_spectrum
 from controller.workshop.calibration.transfers import RawBins
@@ -39,9 +38,9 @@ class DirectWaves:
 
     delay_s: float  # by which what happened is later in the records than they say
     factor: float  # of the wavenumber, on that of board.toml
-    # (32, 32): row: data of a channel; column: patch of a channel. 1 where it is as board.toml says; NaN without data or patch
+    # (channel, channel): row: data of one; column: patch of one. 1 where it is as board.toml says; NaN without data or patch
     strength: Floats
-    error: Floats  # (32,): of a row's numbers, standard deviation
+    error: Floats  # (channel,): of a row's numbers, standard deviation
 
 
 def direct_transfer(board: Board, bins: RawBins, points_m: Floats, factor: float = 1.0) -> Complex:
@@ -75,8 +74,8 @@ def direct_waves(
     board: Board,
     bins: RawBins,
     points_m: Floats,  # (point, 2)
-    transfers: NDArray[np.complexfloating],  # (point, 32, bin): in m s per V
-    resolved: NDArray[np.bool_],  # (point, 32)
+    transfers: NDArray[np.complexfloating],  # (point, channel, bin): in m s per V
+    resolved: NDArray[np.bool_],  # (point, channel)
     widest_s: float,  # delays are looked for from minus this to this; half of the longest record at most
 ) -> DirectWaves | None:
     """Regression of transfer functions on the direct wave.
@@ -107,9 +106,9 @@ def direct_waves(
         return np.asarray((1 + RIDGE) * np.linalg.solve(whitened, (on_each * scale).T).T * scale)  # 1 of a patch alone
 
     elsewhere = np.stack([strength(delay_s + away_s) for away_s in ELSEWHERE_S])
-    whole = np.full((CHANNELS, CHANNELS), np.nan)
+    whole = np.full((board.channels,) * 2, np.nan)
     whole[np.ix_(channels, channels)] = strength(delay_s)
-    error = np.full(CHANNELS, np.nan)
+    error = np.full(board.channels, np.nan)
     error[channels] = np.sqrt((elsewhere**2).mean(axis=(0, 2)))
     return DirectWaves(delay_s, factor, whole, error)
 

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.workshop.calibration import point_fit, wave_fit
 from controller.workshop.calibration.cores import cores, on_all_cores
 from controller.workshop.calibration.cosines import Cosines, Lattice
@@ -73,14 +72,14 @@ def foreseen(board: Board, folder: Path, pitch_m: float, clock: Callable[[], flo
         return (clock() - begun) / count
 
     point_s = timed(lambda: list(on_all_cores(lambda one: deconvolution.learn(measurement.records(one), 0.0), some)), len(some))
-    solve_s = timed(lambda: krige(fitted_m, *_ones(few, fitted_m), _waves(board, few)), len(few.frequency_hz))
+    solve_s = timed(lambda: krige(fitted_m, *_ones(board, few, fitted_m), _waves(board, few)), len(few.frequency_hz))
     lattice, errors = Lattice.found_in(points_m), False
     if lattice is not None and lattice.covers(*plate_m):
-        field: SpectralField = Cosines.of(_ones(bins, lattice.points())[0], lattice.x_m.size, plate_m)
+        field: SpectralField = Cosines.of(_ones(board, bins, lattice.points())[0], lattice.x_m.size, plate_m)
         solves = wave_fit.SOLVES
     else:
         errors = errors_looked_for(board, len(there))
-        field = _waves(board, bins).field(points_m, _ones(bins, points_m)[0])
+        field = _waves(board, bins).field(points_m, _ones(board, bins, points_m)[0])
         solves = wave_fit.SOLVES * (1 + errors) + point_fit.SOLVES * errors + len(bins.frequency_hz)
     spread_m = cells_m[np.linspace(0, len(cells_m) - 1, CELLS).astype(int)]
     cell_s = timed(lambda: (bins.rest(spectra := field.at(spread_m)), bins.band_limited(spectra)), CELLS)
@@ -92,7 +91,7 @@ def _waves(board: Board, bins: Bins) -> Waves:
     return Waves.of(Dispersion.of(board.plate), bins, board, wave_fit.EDGE_VARIANCES[-1])
 
 
-def _ones(bins: Bins, points_m: NDArray[np.float64]) -> tuple[Spectra, NDArray[np.bool_]]:
+def _ones(board: Board, bins: Bins, points_m: NDArray[np.float64]) -> tuple[Spectra, NDArray[np.bool_]]:
     """Spectra (bin, point, channel), all known."""
-    spectra = np.ones((len(bins.frequency_hz), len(points_m), CHANNELS), np.complex64)
+    spectra = np.ones((len(bins.frequency_hz), len(points_m), board.channels), np.complex64)
     return spectra, np.ones(spectra.shape[1:], bool)

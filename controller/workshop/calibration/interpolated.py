@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
 from controller.workshop.calibration.kriging import Prior, SpectralField, foreseen_shares
 from controller.workshop.calibration.plate_size import GlassSize
@@ -76,6 +75,7 @@ class InterpolatedResponses:
         self.samples = bins.samples
         self.bit_clock_hz = board.waveform.bit_clock_hz
         self.plate_m = (board.plate.length_m, board.plate.width_m)
+        self._channels = board.channels
         self.bins = bins
         self.field = field
         self._reach = reach
@@ -105,7 +105,7 @@ class InterpolatedResponses:
         Raises CalibrationError if a point is too far from all that were measured; ValueError if `out` has another shape or type.
         """
         points = self._checked(points_m)
-        out = _room(out, (len(points), self.samples, CHANNELS), dtype)
+        out = _room(out, (len(points), self.samples, self._channels), dtype)
         for first in range(0, len(points), POINTS_AT_ONCE):
             some = slice(first, first + POINTS_AT_ONCE)
             spectra = self.field.at(points[some])
@@ -126,7 +126,7 @@ class InterpolatedResponses:
         """As `ResponseSource` says; outside the band, rows of rest hold what was measured there. Errors as in `responses`."""
         points = self._checked(points_m)
         rows = self.bins.rest_rows
-        out = _room(out, (len(points), self.samples + rows, CHANNELS), dtype)
+        out = _room(out, (len(points), self.samples + rows, self._channels), dtype)
         for first in range(0, len(points), POINTS_AT_ONCE):
             some = slice(first, first + POINTS_AT_ONCE)
             spectra = self.field.at(points[some])

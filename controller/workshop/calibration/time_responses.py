@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.workshop.calibration.checking.checks import NOISY_COHERENCE
 from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.learned import LearnedResponses
@@ -37,9 +36,9 @@ def responses_in_time(
     """
     bins, count = deconvolution.bins, len(measurement.names)
     samples = min(samples, bins.length - round(EARLY_S[1] * bins.bit_clock_hz))
-    responses = np.zeros((count, samples, CHANNELS), np.float32)
-    known = np.zeros((count, CHANNELS), bool)
-    coherence, noise = (np.full((count, CHANNELS), np.nan) for _ in range(2))
+    responses = np.zeros((count, samples, board.channels), np.float32)
+    known = np.zeros((count, board.channels), bool)
+    coherence, noise = (np.full((count, board.channels), np.nan) for _ in range(2))
     early = slice(*(bins.length - round(time_s * bins.bit_clock_hz) for time_s in reversed(EARLY_S)))
     ringing = [0.0]
     end = slice(*(max(deconvolution.covered - round(time_s * bins.bit_clock_hz), 0) for time_s in reversed(EARLY_S)))
@@ -47,7 +46,7 @@ def responses_in_time(
         whole = bins.response(found.transfer, delay_s)
         noise[point], coherence[point] = _noise(deconvolution, found, whole, early)
         known[point] = found.resolved & ~(coherence[point] < NOISY_COHERENCE)
-        left = np.maximum((whole[:, end] ** 2).mean(axis=1) - noise[point] ** 2, 0) if end.stop else np.zeros(CHANNELS)
+        left = np.maximum((whole[:, end] ** 2).mean(axis=1) - noise[point] ** 2, 0) if end.stop else np.zeros(board.channels)
         shares = np.sqrt(left[known[point]] / np.maximum((whole[known[point], :samples] ** 2).mean(axis=1), 1e-300))
         ringing += shares[np.isfinite(shares)].tolist()
         responses[point] = np.where(known[point], whole[:, :samples].T, 0)
@@ -67,9 +66,9 @@ def responses_in_time(
 
 
 def _noise(deconvolution: Deconvolution, found: Transfers, whole: NDArray[np.floating[Any]], early: slice) -> tuple[Floats, Floats]:
-    """Standard deviation of the noise in each of a point's responses, and their coherence, (32,) both.
+    """Standard deviation of the noise in each of a point's responses, and their coherence, (channel,) both.
 
-    `whole` are the responses (32, sample); `early` are samples that hold noise alone, for responses whose variance is not known.
+    `whole` are the responses (channel, sample); `early` are samples of noise alone, for responses whose variance is not known.
     """
     bins = deconvolution.bins
     noise: Floats = np.sqrt(2 * found.variance * (bins.gain**2).sum()) * bins.step_hz

@@ -19,7 +19,7 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS, Actuator, Driver, Plate
+from controller.device.board.panel import CHANNELS, FPGAS_MAX, Actuator, Driver, Plate
 from controller.device.board.records import Record, as_record, load_toml
 from controller.device.board.relations.panel import PLACES
 from controller.device.fpga.bitstream import read_identity
@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 class ActualPatch(Record, frozen=True, kw_only=True):
     """A patch that moves, and the output that it hangs on."""
 
-    channel: Annotated[int, Meta(ge=0, lt=CHANNELS)]
+    channel: Annotated[int, Meta(ge=0, lt=CHANNELS * FPGAS_MAX)]
     x_mm: float
     y_mm: float
     size_mm: float

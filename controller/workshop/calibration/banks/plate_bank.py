@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from controller.device.board.board import Board
+from controller.device.board.board import Board, of_one_fpga
 from controller.device.scene.scene import load_scene
 from controller.device.scene.scene_file import find_scene
 from controller.errors import CalibrationError, ConfigError
@@ -64,6 +64,7 @@ class PlateBank:
         if self.pitch_mm is not None:
             refuse_coarse(self.board, self.pitch_mm * 1e-3)
         if self.aim is not None:
+            of_one_fpga(self.board)
             refuse_aim(self.board, self.aim, measured=True, compact=self.compact)
 
 

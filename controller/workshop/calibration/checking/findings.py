@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS
 from controller.workshop.calibration.checking.checks import (
     Objection,
     clipped_records,
@@ -53,7 +52,7 @@ def findings_of(
     findings += clipped_records({names[point]: found.clipped for point, found in results.items() if found.clipped})
     if missing := [names[point] for point in measurement.missing]:
         findings.append(Objection("missing", f"no records of point {listed(missing)}: left unknown", points=tuple(missing)))
-    of_living = np.array([channel in alive for channel in range(CHANNELS)])
+    of_living = np.array([channel in alive for channel in range(board.channels)])
     findings += noisy_records(responses.coherence, np.array([[p in results] for p in range(len(names))]) & of_living, names)
     return findings, wiring
 

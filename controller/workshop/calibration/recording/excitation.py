@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import hadamard
 
+from controller.device.bank import packing
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 
@@ -23,7 +24,7 @@ BEYOND: Final = 0.8, 1.06  # of the band's edges: what is swept, so that its edg
 
 
 def drive_words(board: Board, kind: Kind = "chirp", seed: int = 1) -> Words:
-    """Drive words of all emissions (emission, word); bit q is channel q.
+    """Drive words of all emissions (emission, word), or (emission, word, FPGA); bit q is channel q.
 
     "chirp": sign of a chirp through the waveform's band, whose spectrum is flat; "noise": of noise limited to it. Raises
     ConfigError if a channel has more edges than the limits of the board allow in an emission.
@@ -34,8 +35,9 @@ def drive_words(board: Board, kind: Kind = "chirp", seed: int = 1) -> Words:
     random = np.random.default_rng(0)  # else one emission drives all channels alike, and one channel plays the same in all
     signs = hadamard(order) * random.choice((-1, 1), (order, 1)) * random.choice((-1, 1), order)
     same = signs[:, : len(channels)] > 0  # (emission, channel)
-    bits = np.uint32(1) << np.array(channels, np.uint32)
-    words: Words = np.bitwise_or.reduce(np.where(same[:, None, :] == high[None, :, None], bits, np.uint32(0)), axis=2)
+    bits = np.zeros((order, len(high), board.channels), np.int8)
+    bits[:, :, channels] = same[:, None, :] == high[None, :, None]
+    words: Words = np.stack([packing.drive_words(emission) for emission in bits])
     edges_hz = np.count_nonzero(np.diff(high)) / board.waveform.duration_s
     if edges_hz > board.limits.max_edge_rate_hz:
         raise ConfigError(

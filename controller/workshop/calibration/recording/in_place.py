@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.clocks import Clock
+from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Play
 from controller.device.fpga.registers import Start
@@ -69,7 +70,7 @@ def date_now() -> str:
 class Excitation:
     """What is played at each point."""
 
-    words: NDArray[np.uint32]  # (emission, word)
+    words: NDArray[np.uint32]  # (emission, word), or (emission, word, FPGA)
     repetitions: int
     period_s: float  # least time from one emission to the next
     record_s: float  # length of a record after the first word
@@ -88,10 +89,10 @@ class InPlace:
         sync_channel: int,  # that the second track hears
     ) -> None:
         self._session, self._board, self._clock, self._recorder = session, board, clock, recorder
-        self._words = excitation.words.astype("<u4")
+        self._words = excitation.words.astype("<u4")  # sent by columns: those of each FPGA behind the other's
         self._repetitions = excitation.repetitions
         self._record_s = excitation.record_s
-        upload_s = board.link.wire_s(UPLOAD_BYTES + FRAMES_AT_MOST * FRAME_BYTES)
+        upload_s = len(board.fpga_boards) * board.link.wire_s(UPLOAD_BYTES + FRAMES_AT_MOST * FRAME_BYTES)
         self.period_s = max(excitation.period_s, self._record_s + 2 * BEFORE_S, 1.5 * upload_s / self._repetitions)
         self._lead_s = LEAD_S + 1.5 * upload_s
         self._sync_channel = sync_channel
@@ -132,7 +133,7 @@ class InPlace:
             start = emission * self._repetitions
             self._rest(selector, begin_s + (start - (self._repetitions if slots > 1 else 0)) * self.period_s)
             when_ticks = begin_ticks + start * period_ticks
-            waveform = memoryview(words.tobytes())
+            waveform = memoryview(words.T.tobytes())
             play = Play(
                 emission % slots,
                 emissions=self._repetitions,
@@ -149,7 +150,7 @@ class InPlace:
         session, recorder = self._session, self._recorder
         records = []
         for words in self._words:
-            session.upload(0, memoryview(words.tobytes()))
+            session.upload(0, memoryview(words.T.tobytes()))
             for _ in range(self._repetitions):
                 session.play(Play(0), stop=False)
                 recorder.begin(round(self._record_s * recorder.rate_hz), self._alive)
@@ -164,7 +165,7 @@ class InPlace:
         records = np.empty((len(self._words), self._repetitions, count))
         nominal = self._lead_s * rate_hz
         for emission, repetition in np.ndindex(records.shape[:2]):
-            levels = (self._words[emission] >> self._sync_channel & 1).astype(bool)
+            levels = channel_bits(self._words[emission])[:, self._sync_channel].astype(bool)
             first = not emission and not repetition
             try:
                 if first:  # what else is heard in so long a time would shift it

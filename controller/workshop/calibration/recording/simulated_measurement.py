@@ -15,10 +15,9 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.identity import simulated_identity
-from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
 from controller.workshop.calibration.frame import MeasuringFrame, middle_m
 from controller.workshop.calibration.recording.excitation import Kind, drive_words
@@ -159,12 +158,6 @@ def _settings(board: Board, real: Board, recording: RecordingSettings, faults: F
         repetitions=recording.repetitions,
         first_sample_us=-BEFORE_S * 1e6 if faults.delay_s == 0 else None,
     )
-    drive = WordsDrive(
-        file="drive.npy",
-        bit_clock_hz=board.waveform.bit_clock_hz,
-        supply_v=board.driver.supply_v,
-        idle_word=board.idle_word,
-    )
     return MeasurementFile(
         date=DATE,
         sample_rate_hz=recording.rate_hz,
@@ -172,7 +165,7 @@ def _settings(board: Board, real: Board, recording: RecordingSettings, faults: F
         panel=simulated_identity(real),
         points="points.csv",
         records=records,
-        drive=drive,
+        drive=WordsDrive.of(board),
     )
 
 
@@ -190,10 +183,9 @@ class _Plate:
     def __init__(self, board: Board, real: Board, words: NDArray[np.uint32], recording: RecordingSettings, faults: Flaws) -> None:
         self.modes = modes_of(real)
         self._real, self._quantity = real, recording.quantity
-        idle = np.full((len(words), 1), board.idle_word, np.uint32)
-        played = np.concatenate([idle, words, idle], axis=1)
+        played = [framed(board.idle_word, emission, board.idle_word) for emission in words]
         levels = np.stack([channel_bits(emission) for emission in played], axis=2).astype(np.float64)  # (word, channel, emission)
-        self._steps_v = np.diff(levels, axis=0)[:, _wiring(faults)] * real.driver.supply_v
+        self._steps_v = np.diff(levels, axis=0)[:, _wiring(board.channels, faults)] * real.driver.supply_v
         self._steps_v[:, list(faults.dead)] = 0
         self._steps_v[:, list(faults.inverted)] *= -1
         self._step_s = np.arange(words.shape[1] + 1) * board.waveform.bit_period_s
@@ -225,9 +217,9 @@ class _Plate:
         return np.fft.irfft(spectra, length, axis=2)[..., : records.shape[2]].astype(np.float32)
 
 
-def _wiring(faults: Flaws) -> list[int]:
+def _wiring(channels: int, faults: Flaws) -> list[int]:
     """Of each patch the channel that is wired to it."""
-    wired = list(range(CHANNELS))
+    wired = list(range(channels))
     for a, b in faults.swapped:
         wired[a], wired[b] = wired[b], wired[a]
     return wired

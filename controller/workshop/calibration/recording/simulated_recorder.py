@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
-from controller.device.fpga.capture import Capture
+from controller.device.fpga.capture import Capture, merged
 from controller.workshop.physics.even_motion import EvenMotion
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.motion import PlateMotion
@@ -19,15 +19,15 @@ Floats = NDArray[np.float64]
 
 
 class CapturedPins(Protocol):
-    """Of a simulated FPGA."""
+    """Of a simulated FPGA, or of several."""
 
     clock_hz: int
 
     def tick(self, time_s: float) -> int:
         """Tick at a time."""
 
-    def take_capture(self) -> Capture:
-        """Changes of the pins since the last call."""
+    def take_captures(self) -> list[Capture]:
+        """Changes of the pins of each FPGA since the last call."""
 
 
 class SimulatedRecorder:
@@ -61,7 +61,7 @@ class SimulatedRecorder:
 
     def read(self, _alive: Callable[[], None]) -> Floats:
         """(sample, 2): the sensor, and the level of the channel."""
-        capture, clock_hz = self._pins.take_capture(), self._pins.clock_hz
+        capture, clock_hz = merged(self._pins.take_captures()), self._pins.clock_hz
         step_s = (capture.ticks.astype(np.int64) - self._begun_tick) / clock_hz
         levels = channel_bits(np.where(capture.hv != 0, capture.words, np.uint32(0))).astype(np.float64)
         steps_v = np.diff(levels, axis=0, prepend=0 * levels[:1]) * self._supply_v

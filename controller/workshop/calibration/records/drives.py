@@ -11,9 +11,16 @@ from numpy.typing import NDArray
 from scipy.signal import CZT
 
 from controller.device.bank.packing import channel_bits
-from controller.device.board.panel import CHANNELS
+from controller.device.board.board import Board
 from controller.errors import CalibrationError
-from controller.workshop.calibration.records.measurement_file import DriveTable, ImpulsesDrive, SamplesDrive, SweepDrive, WordsDrive
+from controller.workshop.calibration.records.measurement_file import (
+    NAME,
+    DriveTable,
+    ImpulsesDrive,
+    SamplesDrive,
+    SweepDrive,
+    WordsDrive,
+)
 from controller.workshop.calibration.records.record_formats import load_array
 
 Floats = NDArray[np.float64]
@@ -29,7 +36,7 @@ class Drive:
 
     volts: Floats  # (emission or 1, channel or 1, sample): each sample held until the next; difference from the level at rest
     rate_hz: float  # of these samples
-    drives: NDArray[np.bool_]  # (emission, 32): which channels an emission drives
+    drives: NDArray[np.bool_]  # (emission, channel): which channels an emission drives
     held: bool = True  # whether samples are held; else they are those of a continuous drive
 
     @property
@@ -45,8 +52,8 @@ class Drive:
     def spectra(self, first_hz: float, step_hz: float, count: int, bit_period_s: float) -> Complex:
         """Each channel's drive, as a number of pulses of 1 V of one bit period.
 
-        No frequency is a multiple of 1 / `bit_period_s`. Returns (emission, 32, count) in V: what the spectrum of a response to
-        such a pulse is multiplied with.
+        No frequency is a multiple of 1 / `bit_period_s`. Returns (emission, channel, count) in V: what the spectrum of a response
+        to such a pulse is multiplied with.
         """
         frequency_hz: Floats = first_hz + step_hz * np.arange(count, dtype=np.float64)
         found = transform(self.volts, self.rate_hz, first_hz, step_hz, count)
@@ -74,45 +81,52 @@ def held_spectrum(frequency_hz: Floats, period_s: float) -> Complex:
     return spectrum
 
 
-def read_drive(folder: Path, table: DriveTable) -> Drive:
-    """The drive that a `measurement.toml` describes.
+def read_drive(folder: Path, table: DriveTable, board: Board) -> Drive:
+    """The drive that a `measurement.toml` describes, of a board's channels.
 
-    Raises CalibrationError, naming the file: absent, of another kind or shape, or too long.
+    Raises CalibrationError, naming the file: absent, of another kind or shape, or too long; or a channel that the board has not.
     """
+    if isinstance(table, WordsDrive):
+        return _words(folder, table, board)
+    if (most := max(table.channels)) >= board.channels:
+        raise CalibrationError(f"{folder / NAME}: drive.channels: {most} is beyond the {board.channels} of board {board.name!r}")
+    one_by_one: NDArray[np.bool_] = np.arange(board.channels) == np.array(table.channels)[:, None]
     match table:
-        case WordsDrive():
-            return _words(folder, table)
         case SweepDrive():
-            return Drive(_sweep(table)[None, None], _sweep_rate_hz(table), _one_by_one(table.channels), held=False)
+            return Drive(_sweep(table)[None, None], _sweep_rate_hz(table), one_by_one, held=False)
         case SamplesDrive():
-            return _samples(folder, table)
+            return Drive(_samples(folder, table), table.rate_hz, one_by_one)
         case ImpulsesDrive():
-            return Drive(np.full((1, 1, 1), table.supply_v), table.bit_clock_hz, _one_by_one(table.channels))
+            return Drive(np.full((1, 1, 1), table.supply_v), table.bit_clock_hz, one_by_one)
 
 
-def _one_by_one(channels: tuple[int, ...]) -> NDArray[np.bool_]:
-    drives: NDArray[np.bool_] = np.arange(CHANNELS) == np.array(channels)[:, None]
-    return drives
-
-
-def _words(folder: Path, table: WordsDrive) -> Drive:
+def _words(folder: Path, table: WordsDrive, board: Board) -> Drive:
     file = folder / table.file
-    words = load_array(file)
-    if words.dtype.kind != "u" or words.dtype.itemsize != 4 or words.ndim not in (1, 2) or not words.size:
-        raise CalibrationError(f"{file}: {words.dtype} {words.shape}, not drive words: uint32 (emission, word) or (word,)")
+    words, idle = load_array(file), np.array(table.idle_word, "<u4")
+    of_each = (len(board.link.fpga),) if board.link.fpga else ()
+    if words.dtype.kind != "u" or words.dtype.itemsize != 4 or words.ndim - len(of_each) not in (1, 2) or not words.size:
+        each = ", FPGA" if of_each else ""
+        raise CalibrationError(
+            f"{file}: {words.dtype} {words.shape}, not drive words: uint32 (emission, word{each}) or (word,{each[1:]})"
+        )
+    if idle.shape != of_each or words.shape[words.ndim - len(of_each) :] != of_each:
+        raise CalibrationError(
+            f"{file}: drive words and drive.idle_word are not of the {max(len(board.link.fpga), 1)} FPGAs of board {board.name!r}"
+        )
     if words.size > MOST_WORDS:
         raise CalibrationError(f"{file}: {words.size:,} drive words, more than {MOST_WORDS:,}")
-    words = np.atleast_2d(words).astype("<u4")
+    words = words.reshape(-1, words.shape[-1 - len(of_each)], *of_each).astype("<u4")
     bits = np.stack([channel_bits(emission) for emission in words]).astype(np.float64)  # (emission, word, channel)
-    levels = bits - channel_bits(np.array([table.idle_word], "<u4"))
+    levels = bits - channel_bits(idle[None])
     volts = np.ascontiguousarray(levels.swapaxes(1, 2)) * table.supply_v
     drives = np.asarray(volts.any(axis=2), np.bool_)
     if not drives.any():
-        raise CalibrationError(f"{file}: every word is the idle word {table.idle_word:#x}: nothing was played")
+        raise CalibrationError(f"{file}: every word is the idle word {idle.tolist()}: nothing was played")
     return Drive(volts, table.bit_clock_hz, drives)
 
 
-def _samples(folder: Path, table: SamplesDrive) -> Drive:
+def _samples(folder: Path, table: SamplesDrive) -> Floats:
+    """Volts, (emission or 1, 1, sample)."""
     file = folder / table.file
     volts = load_array(file)
     count = len(table.channels)
@@ -126,7 +140,7 @@ def _samples(folder: Path, table: SamplesDrive) -> Drive:
     volts = np.atleast_2d(volts).astype(np.float64)[:, None]
     if not np.isfinite(volts).all() or not volts.any(axis=2).all():
         raise CalibrationError(f"{file}: samples that are no numbers, or an emission that is silent")
-    return Drive(volts, table.rate_hz, _one_by_one(table.channels))
+    return volts
 
 
 def _sweep_rate_hz(table: SweepDrive) -> float:

@@ -11,7 +11,8 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta
 
-from controller.device.board.panel import CHANNELS
+from controller.device.board.board import Board
+from controller.device.board.panel import CHANNELS, FPGAS_MAX
 from controller.device.board.records import NotNegative, Positive, Record, load_toml
 from controller.errors import CalibrationError, ConfigError
 
@@ -20,19 +21,32 @@ FORMATS = (".npy", ".npz", ".wav", ".uff", ".unv")
 FIELDS = {"point", "emission", "channel", "repetition"}
 
 Hz = Annotated[float, Meta(ge=1e3, le=1e9)]
-Channel = Annotated[int, Meta(ge=0, lt=CHANNELS)]
+Channel = Annotated[int, Meta(ge=0, lt=CHANNELS * FPGAS_MAX)]
 Channels = Annotated[tuple[Channel, ...], Meta(min_length=1, max_length=4096)]
 Word = Annotated[int, Meta(ge=0, lt=1 << CHANNELS)]
+Words = Annotated[tuple[Word, ...], Meta(min_length=2, max_length=FPGAS_MAX)]
 Quantity = Literal["m", "m/s", "m/s^2"]
 
 
 class WordsDrive(Record, frozen=True, tag_field="kind", tag="words"):
     """Drive words as they were played: all channels at once, or one at a time where only its bit changes."""
 
-    file: str  # .npy of uint32, (emission, word) or (word,): bit q is channel q
+    # .npy of uint32, (emission, word) or (word,): bit q is channel q; of several FPGAs (emission, word, FPGA) or (word, FPGA)
+    file: str
     bit_clock_hz: Hz  # words a second
     supply_v: Positive  # a bit that is set is this voltage, one that is not is 0 V
-    idle_word: Word = 0  # levels before and after an emission
+    idle_word: Word | Words = 0  # levels before and after an emission; of several FPGAs a list, one word of each
+
+    @classmethod
+    def of(cls, board: Board) -> WordsDrive:
+        """What a board plays, in the file `drive.npy`."""
+        idle = tuple(one.idle_word for one in board.fpga_boards)
+        return cls(
+            file="drive.npy",
+            bit_clock_hz=board.waveform.bit_clock_hz,
+            supply_v=board.driver.supply_v,
+            idle_word=idle if board.link.fpga else idle[0],
+        )
 
 
 class SweepDrive(Record, frozen=True, tag_field="kind", tag="sweep"):

@@ -229,7 +229,7 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
     cannot be read.
     """
     settings = read_settings(folder)
-    drive = read_drive(folder, settings.drive)
+    drive = read_drive(folder, settings.drive, board)
     names, points_m = points_of(folder, settings, board)
     measurement = Measurement(folder, settings, names, points_m, drive)
     _refuse_foreign_files(measurement)
