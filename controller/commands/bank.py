@@ -21,7 +21,7 @@ from controller.device.bank.lookup import FoundBank, bank_as_it_is, find_bank
 from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
-from controller.device.board.board import Board, load_board
+from controller.device.board.board import Board, load_board, of_one_fpga
 from controller.device.board.lookup import find_board, fpga_files
 from controller.device.board.paths import bank_path, build_line, is_there
 from controller.device.scene.scene import Scene, load_scene
@@ -123,6 +123,7 @@ def bank_choices(options: argparse.Namespace) -> int:
     """Show the settings on the front of error, time and bytes for a scene and which `auto` chooses, or what methods buy."""
     board = load_board(find_board(options.board))
     if options.methods is not None:
+        of_one_fpga(board)
         with _builder_installed(bank_path(board)):
             from controller.workshop.benchmark.builder_methods import method_figures
         found = method_figures(board, options.methods, progress=progress_bar("methods"))
@@ -166,7 +167,7 @@ def bank_describe(options: argparse.Namespace) -> int:
         from controller.workshop.benchmark.focus.bank_emissions import bank_emissions
         from controller.workshop.benchmark.stage.power import power_report
 
-        board = load_board(find_board(options.board))
+        board = of_one_fpga(load_board(find_board(options.board)))
         with Bank.open(_bank_file(options).path, board) as bank:
             report = power_report(board, bank, progress=progress_bar("losses"))
             show(options, report | bank_emissions(board, bank), power_table)

@@ -10,7 +10,7 @@ from typing import Any
 
 from controller.commands.common.output import show
 from controller.console import say, tell
-from controller.device.board.board import load_board
+from controller.device.board.board import load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 from controller.errors import ConfigError
 
@@ -31,7 +31,7 @@ def board_bom(options: argparse.Namespace) -> int:
     from controller.workshop.bill.circuit import circuit
     from controller.workshop.bill.kicad import kicad_netlist
 
-    board = load_board(find_board(options.name or options.board))
+    board = of_one_fpga(load_board(find_board(options.name or options.board)))
     if options.netlist:
         file = Path(options.netlist)
         try:

@@ -10,7 +10,7 @@ from controller.commands.common.arguments import natural
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.tables import amplitude_table, plain_table
 from controller.commands.focus_movie import add_movie, film, movie_path
-from controller.device.board.board import load_board
+from controller.device.board.board import load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 from controller.errors import ConfigError, UsageError
 
@@ -76,9 +76,9 @@ def focus(options: argparse.Namespace) -> int:
     if options.figures:
         show(options, figures(board, options.seed), plain_table)
     elif options.idle_figures:
-        _idle(options, board, picture)
+        _idle(options, of_one_fpga(board), picture)
     elif options.amplitude_figures:
-        _amplitudes(options, board, picture)
+        _amplitudes(options, of_one_fpga(board), picture)
     elif options.at:
         _points(options, board, picture, movie)
     else:

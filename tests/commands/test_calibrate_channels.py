@@ -36,6 +36,13 @@ def test_swapped_wires_and_dead_patches_are_named_and_every_other_channel_moves_
     ]
 
 
+def test_channels_of_several_fpgas_are_felt_by_their_numbers_on_the_panel(capsys):
+    asked = [word for channel in (3, 40, 33) for word in ("--channel", str(channel))]
+    figures = found(capsys, "--board", "simulated_64", *asked, "--swapped", "3", "40", "--dead", "33", code=1)
+    assert figures["felt_at_disc"] == {"3": 10, "40": 0, "33": None}
+    assert [line.partition(":")[0] for line in figures["wrong"]] == ["channel 33", "channels 3 and 40 are swapped"]
+
+
 def test_some_channels_alone(capsys):
     figures = found(capsys, "--channel", "3", "--channel", "9")
     assert (figures["felt_at_disc"], figures["wrong"]) == ({"3": 0, "9": 2}, [])

@@ -28,10 +28,10 @@ class TruePlate:
         random = np.random.default_rng(seed)
         records = self.recorder.responses(points_m, dtype=np.float32)
         used = [a.channel for a in self.board.actuators]
-        rms = np.zeros((len(points_m), 32))
+        rms = np.zeros((len(points_m), records.shape[2]))
         rms[:, used] = noise * records[:, :, used].std(axis=(1, 2), keepdims=True)[:, 0]
         records += random.standard_normal(records.shape, np.float32) * rms[:, None].astype(np.float32)
-        known = np.zeros((len(points_m), 32), bool)
+        known = np.zeros(rms.shape, bool)
         known[:, used] = random.random((len(points_m), 1)) >= missing
         records *= known[:, None]
         clock_hz, made = self.board.waveform.bit_clock_hz, Provenance("measured", "")
