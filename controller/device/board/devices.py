@@ -155,12 +155,10 @@ class GatewareLoading(Record, frozen=True, kw_only=True):
     """How an FPGA is loaded that answers with another gateware than this software's, before its outputs may be on.
 
     Attributes:
-    load: Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file, and of several FPGAs
-        `{cable}` for `link.fpga.cable`. It is to load the FPGA's memory, not its flash: what the flash holds is what a lost supply
-        goes back to.
-    bitstream: The file: in the folder `gateware` of the release that runs, else beside board.toml. Left out: `NAME.bit`, after the
-        board's folder, as `haptic-panel gateware build` calls it; so a copy of a board does not load the bitstream of the original.
-        Those of further FPGAs are `NAME.fpga1.bit` and so on.
+    load: Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file, `{cable}` for that
+        of several FPGAs. It is to load the FPGA's memory, not its flash: what that holds is what a lost supply goes back to.
+    bitstream: The file: in the folder `gateware` of the release that runs, else beside board.toml; of a further one `.fpga1` stands
+        before `.bit`. Left out: `NAME.bit`, after the board's folder, so a copy of a board does not load the original's.
     limit_s: Longest time that it may take; then it is ended, and the FPGA refused.
     """
 
