@@ -46,9 +46,9 @@ class Kept:
     def __init__(self, link):
         self.link, self.clock_hz, self.tick, self.last = link, link.clock_hz, link.tick, None
 
-    def take_capture(self):
-        self.last = self.link.take_capture()
-        return self.last
+    def take_captures(self):
+        (self.last,) = self.link.take_captures()
+        return [self.last]
 
 
 def panel(board, repetitions=2, rate_hz=RATE_HZ, recorder=None):

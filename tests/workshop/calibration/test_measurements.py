@@ -234,7 +234,7 @@ def test_a_damaged_folder_is_refused_with_file_and_point(tmp_path, damage, said)
         ("point_{point}", "{point", r"records.files|expected '}'"),
         ("point_{point}", "{point}_{channel}_{emission}", r"{emission} or {channel}, not both"),
         ("{point}.npy", "{point}.mat", r"ends with one of .npy, .npz, .wav, .uff, .unv"),
-        ("channels = [4, 9]", "channels = [4, 32]", r"drive.channels\[1\] = 32: must be a whole number from 0 to 31"),
+        ("channels = [4, 9]", "channels = [4, 32]", r"drive.channels: 32 is beyond the 32 of board 'simulated'"),
         ('kind = "sweep"', 'kind = "sweap"', r"drive.kind = 'sweap'.*did you mean sweep\?"),
         ("stop_hz = 74000.0", "stop_hz = 16000.0", r"start_hz and stop_hz are both 16000"),
         ("repetitions = 3", "repetitions = 3\nperiod_ms = 1.9", r"drive.duration_ms = 2 is longer than records.period_ms = 1.9"),
