@@ -311,6 +311,7 @@ def test_fpgas_that_drift_apart_while_they_play_are_switched_off(ticks):
     panel.off_ticks()
 
 
+@pytest.mark.interpreted
 def test_the_ticks_are_looked_at_once_a_second_and_only_after_a_trigger(panel):
     session, looks = panel.session, []
     read = session.exchange.read
