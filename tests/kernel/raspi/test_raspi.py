@@ -28,7 +28,7 @@ FORMS = {  # most instructions of the host at the median, of an upload and of a 
     "mypyc": (0.281e6, 0.085e6),
     "numpy": (1.16e6, 0.266e6),
 }
-# Which takes more since, on 2026-11-28 by 27 % of the bound: the plain specification reads twice as much of what is outside the band
+# Which takes more since, on 2026-11-28 by 27 % of the bound: the plain specification reads twice as much outside the band
 WORSE = {("numpy", "upload")}
 UPLOAD_IN_KERNEL_US = 1600  # bits, pauses between frames, and the driver
 NINTH_CLOCKS_US = 4240 / 25  # of each byte that is polled, at 25 MHz
