@@ -73,9 +73,7 @@ def open_client(workers: Workers) -> Iterator[Any]:
         if not workers.strangers:
             stack.enter_context(dask.config.set(OWN_CLUSTER))
             resource_tracker.ensure_running()  # which would take back what follows
-            interrupt = {
-                signal.SIGINT
-            }  # at a terminal all its processes get it: this one ends the others, now and those begun later
+            interrupt = {signal.SIGINT}  # at a terminal all its processes get it: this one ends the others, also those begun later
             signal.pthread_sigmask(signal.SIG_BLOCK, interrupt)
             try:
                 local = LocalCluster(
