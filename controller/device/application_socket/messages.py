@@ -12,7 +12,6 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta, Raw, Struct
 
-from controller.device.board.panel import CHANNELS, FPGAS_MAX
 from controller.device.scene.layers import MOST_SHIFT_MM, RefusedRegion, Scale
 
 LINE_BYTES = 8192  # longest line of a client, with its newline, but for `LONG`
@@ -23,6 +22,7 @@ Word = Annotated[str, Meta(min_length=1, max_length=64)]
 # Never a path: a client chooses among the installed scenes.
 PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
 BY_CHARACTERS = 120
+LAST_CHANNEL = 127  # of a board of four FPGAs; a client needs no board
 Right = Literal["look", "play", "regions", "operate"]
 ShiftMm = Annotated[float, Meta(ge=-MOST_SHIFT_MM, le=MOST_SHIFT_MM)]
 Topic = Literal["touches", "contacts", "emissions", "state", "description", "faults", "log"]
@@ -134,7 +134,7 @@ class Stop(Request, frozen=True, kw_only=True, tag="stop", gc=False):
 class ChannelTest(Request, frozen=True, kw_only=True, tag="test_channel", gc=False):
     """Play a chirp through the band on one channel alone: its patch moves and no other; answered as `PlayRequest`."""
 
-    channel: Annotated[int, Meta(ge=0, le=CHANNELS * FPGAS_MAX - 1)]
+    channel: Annotated[int, Meta(ge=0, le=LAST_CHANNEL)]
 
 
 class WriteTrace(Request, frozen=True, kw_only=True, tag="trace", gc=False):

@@ -86,7 +86,9 @@ class Order:
             compact=self.compact,
             **how,
         )
-        reports = [build_bank(request) for request in of_each_fpga(wanted)]
+        first, *others = reports = [build_bank(request) for request in of_each_fpga(wanted)]
+        if not others:
+            return first
         whole = {name: sum(getattr(one, name) for one in reports) for name in ("bytes", "seconds")}
         return replace(reports[-1], path=str(path), worst_edge_rate_hz=max(one.worst_edge_rate_hz for one in reports), **whole)
 

@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from controller.device.application_socket.client import PanelClient
-from controller.device.application_socket.messages import BY_CHARACTERS
+from controller.device.application_socket.messages import BY_CHARACTERS, LAST_CHANNEL
 from controller.device.application_socket.peers import Peer, Rights
 from controller.device.application_socket.pending_commands import WAITING_PER_CLIENT
 from controller.device.application_socket.switched_off import SwitchedOff
+from controller.device.board.panel import CHANNELS, FPGAS_MAX
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.loop.commands import Outcome
 from controller.device.loop.scheduler import MAX_WAITING_COMMANDS
@@ -77,6 +78,7 @@ def test_an_operator_arms_disarms_and_loads_and_the_journal_says_who(panel, caps
 
 
 def test_a_channel_is_tested_at_the_place_of_its_patch_and_answered_as_a_play(panel, board):
+    assert LAST_CHANNEL == CHANNELS * FPGAS_MAX - 1
     client = panel.connect(OPERATOR)
     assert panel.ask(client, {**TEST, "id": 1}) == []
     patch = next(actuator for actuator in board.actuators if actuator.channel == 5)
