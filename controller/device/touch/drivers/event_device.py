@@ -100,7 +100,9 @@ class LinuxInput:
             if events[-1][:2] == (EV_SYN, SYN_REPORT):
                 self._dropping = False
                 return self._resynchronise(now_s)
-        return self._lost(now_s) if self._opened is None else ()
+        if self._opened is None:
+            return self._lost(now_s)
+        return ()
 
     def close(self) -> None:
         """Close the device, which ends a grab."""
