@@ -57,7 +57,7 @@ class Mapped:
 
 
 @dataclass(frozen=True)
-class Answer:
+class Computed:
     """What a worker makes of a task."""
 
     records: list[bytes]  # as `kept_file` keeps them, with a CRC from where they were computed
@@ -73,7 +73,7 @@ class Group(Generic[Item]):
     items: dict[int, Item]
     maker: str  # `creator()` of who asks: a worker of another version would compute something else
 
-    def compute(self) -> Answer:
+    def compute(self) -> Computed:
         """Compute all; raises WorkersError if this worker is of another version."""
         if self.maker != creator():
             raise WorkersError(
@@ -85,11 +85,11 @@ class Group(Generic[Item]):
         peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024e-6
         share = Share(len(self.items), time.process_time() - before_s, peak_mb)
         records = [record_of(number, result) for number, result in zip(self.items, results, strict=True)]
-        return Answer(records, f"{platform.node()}, process {os.getpid()}", share)
+        return Computed(records, f"{platform.node()}, process {os.getpid()}", share)
 
     def is_answered(self, answer: object) -> bool:
         """Whether an answer is whole, and to this task."""
-        found = map(result_in, answer.records) if isinstance(answer, Answer) else ()
+        found = map(result_in, answer.records) if isinstance(answer, Computed) else ()
         return [one and one[0] for one in found] == list(self.items)
 
 
@@ -135,7 +135,7 @@ def map_kept(
     return mapped
 
 
-def _computed(tasks: Sequence[Group[Any]], workers: Workers) -> Generator[Answer]:
+def _computed(tasks: Sequence[Group[Any]], workers: Workers) -> Generator[Computed]:
     """What becomes of each task, as they come."""
     if not tasks:
         return
