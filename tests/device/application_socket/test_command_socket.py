@@ -181,7 +181,7 @@ def test_what_is_not_a_request_is_refused_with_its_id_where_that_can_be_reported
     with panel.connect() as client:
         (answer,) = panel.ask(client, line)
         assert (answer["outcome"], answer["id"]) == ("refused", number)
-        assert 0 < len(answer["reason"]) <= 240  # the kinds that there are: 209
+        assert 0 < len(answer["reason"]) <= 200 or answer["reason"] == f"kind is missing: one of {KINDS}"
         assert panel.ask(client, {"kind": "subscribe", "id": 1}) == [{"kind": "answer", "id": 1, "outcome": "done"}]
     assert panel.socket.counters.not_valid == before + 1
 

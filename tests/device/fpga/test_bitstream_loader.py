@@ -32,6 +32,23 @@ COUNT = "import os, signal, sys; open(sys.argv[2] + '.runs', 'a').write('.'); ru
 EMPTY = "empty"  # in place of a build hash: the FPGA is not configured
 
 
+def until_good(panel):
+    """Bring a panel up as the loop retries it, until it is good or refused."""
+    while True:
+        try:
+            return panel.session.bring_up()
+        except IncompatibleFpga:
+            raise
+        except LinkError as error:
+            panel.failed(error)
+
+
+def ended(loader):
+    """Wait for the program of a loader, if it runs one."""
+    if loader._process is not None:
+        os.waitid(os.P_PID, loader._process.pid, os.WEXITED | os.WNOWAIT)
+
+
 class SilentLink(SimulatedLink):
     """To an FPGA that is not configured: its pin stays low."""
 
@@ -64,20 +81,16 @@ class Bench:
         self.gateware = model
 
     def bring_up(self):
-        """As the loop retries it, until it is good or refused."""
-        while True:
-            try:
-                return self.session.bring_up()
-            except IncompatibleFpga:
-                raise
-            except LinkError as error:
-                self.said = str(error)
-                if self.loader._process is not None:
-                    os.waitid(os.P_PID, self.loader._process.pid, os.WEXITED | os.WNOWAIT)
-                if self.configured.exists():
-                    text = self.configured.read_text()
-                    self.power_up(EMPTY if text == EMPTY else int(text))
-                    self.configured.unlink()
+        return until_good(self)
+
+    def failed(self, error):
+        """What has become of the FPGA meanwhile."""
+        self.said = str(error)
+        ended(self.loader)
+        if self.configured.exists():
+            text = self.configured.read_text()
+            self.power_up(EMPTY if text == EMPTY else int(text))
+            self.configured.unlink()
 
     @property
     def runs(self):
@@ -259,21 +272,17 @@ class Pair:
             model.permit(0, level=True, which=which)
 
     def bring_up(self):
-        """As the loop retries it, until it is good or refused."""
-        while True:
-            try:
-                return self.session.bring_up()
-            except IncompatibleFpga:
-                raise
-            except LinkError as error:
-                self.said.append(str(error))
-                for number, one in enumerate(self.session.of_each):
-                    if one.loader._process is not None:
-                        os.waitid(os.P_PID, one.loader._process.pid, os.WEXITED | os.WNOWAIT)
-                    loaded = self.board.folder / "AB"[number]
-                    if loaded.exists():
-                        self.configure(number, int(loaded.read_text()))
-                        loaded.unlink()
+        return until_good(self)
+
+    def failed(self, error):
+        """What has become of the FPGAs meanwhile."""
+        self.said.append(str(error))
+        for number, one in enumerate(self.session.of_each):
+            ended(one.loader)
+            loaded = self.board.folder / "AB"[number]
+            if loaded.exists():
+                self.configure(number, int(loaded.read_text()))
+                loaded.unlink()
 
 
 def test_each_of_several_is_loaded_with_its_own_file_at_its_own_cable_and_both_at_once(tmp_path):
