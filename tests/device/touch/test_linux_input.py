@@ -1,6 +1,7 @@
 """`LinuxInput` on a pipe in place of an event device: one report a read, however many wait, and the state after a loss."""
 
 import os
+import select
 from types import SimpleNamespace
 
 import pytest
@@ -71,6 +72,16 @@ def test_a_loss_whose_report_has_not_ended_gives_nothing_until_it_has(panel):
     send(x(1), DROPPED, x(2))
     assert read(reader) == []
     send(x(3), END)
+    assert read(reader) == STATE
+
+
+def test_a_loss_without_an_end_in_a_flood_leaves_the_loop_its_turn(panel):
+    reader, send = panel
+    send(DROPPED, *[x(value) for value in range(2000)])
+    assert read(reader) == []
+    assert select.select([reader.fileno()], [], [], 0)[0], "not all was read at once"
+    assert read(reader) == []
+    send(END)
     assert read(reader) == STATE
 
 

@@ -26,6 +26,7 @@ INPUT_EVENT: Final = struct.Struct("@llHHi")  # struct input_event
 EVENT_BYTES: Final = INPUT_EVENT.size
 BUFFERED_EVENTS: Final = 64
 MAX_READ_BYTES: Final = 40 * EVENT_BYTES  # a longer report comes in parts: no list is larger than 512 bytes
+MAX_PARTS: Final = 40  # of a report that is left out, in one read: a flood without an end leaves the loop its turn
 MAX_SLOTS: Final = 256
 NOTHING: Final = memoryview(b"")
 
@@ -82,7 +83,9 @@ class LinuxInput:
             self._state_due = False
             return self._resynchronise(now_s)
         event: tuple[int, int, int, int, int]
-        while self._left or self._fill():
+        for _ in range(MAX_PARTS):
+            if not (self._left or self._fill()):
+                break
             events: list[Event] = []
             for event in INPUT_EVENT.iter_unpack(self._left[:MAX_READ_BYTES]):
                 second, microsecond, kind, code, value = event
