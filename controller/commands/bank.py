@@ -7,9 +7,9 @@ import contextlib
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from controller.commands.common.arguments import natural
+from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.expected import expected_of
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import progress_bar, show
@@ -27,9 +27,6 @@ from controller.device.board.paths import bank_path, build_line, is_there
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
 from controller.errors import BankError, UsageError
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:

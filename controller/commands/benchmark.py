@@ -5,17 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from controller.commands.common.arguments import natural
+from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.commands.common.tables import benchmark_table
 from controller.device.board.board import load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 from controller.errors import ConfigError
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 RESULTS = "work_precision.json"
 SKIPS = ("idle", "resident", "repeated", "ahead", "near", "cells", "together")  # fields of `loop.skips.Skips`

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from controller.commands import bom
+from controller.commands.common.arguments import Declare
 from controller.commands.common.output import show
 from controller.console import is_unicode, say
 from controller.device.board.board import Board, board_file, load_board
@@ -22,9 +23,6 @@ from controller.device.scene.scene_tables import SceneTable
 from controller.device.service.installation import is_installed
 from controller.device.touch.recordings.recording import Recording
 from controller.errors import ConfigError
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 NAMED = {"effects": EffectTable}  # tables of scene.toml by names of the user's choice
 

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import Declare
 from controller.device.application_socket.client_commands import declare_requests, send
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:

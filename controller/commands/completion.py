@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import Declare
 from controller.console import say
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 SHELL_FILES = Path(__file__).with_name("shell")
 COMPLETIONS = {"bash": "haptic-panel.bash", "zsh": "_haptic-panel", "tcsh": "haptic-panel.tcsh"}

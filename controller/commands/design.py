@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from controller.commands.common.arguments import Declare
 from controller.commands.common.output import picture_path, show
 from controller.device.board.board import load_board
 from controller.device.board.descriptions import unit_of
@@ -19,7 +20,6 @@ from controller.device.board.reference import attributes
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.device.board.board import Board
 
 ROWS = {  # what is printed of each figure; numbers in brackets are those of the paper's equations

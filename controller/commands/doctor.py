@@ -6,10 +6,10 @@ import argparse
 from contextlib import closing
 from dataclasses import asdict
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
-from controller.commands.common.arguments import require_within
+from controller.commands.common.arguments import Declare, require_within
 from controller.commands.common.fpga_link import LINK_RANGES, announced_chirps, fpga_link, fpga_links, touch_panel_of
 from controller.commands.common.output import progress_bar, show
 from controller.device.board.board import Board, load_board
@@ -22,9 +22,6 @@ from controller.device.doctor.way import WayStep, in_lines, way
 from controller.device.service.drivers import open_session
 from controller.device.service.installation import is_installed
 from controller.errors import ControllerError
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 BITS = 1e6
 

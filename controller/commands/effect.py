@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from controller.commands.common.arguments import Declare
 from controller.console import say, tell
 from controller.device.board.board import load_board
 from controller.device.board.devices import MIN_AMPLITUDE
 from controller.device.board.lookup import find_board
 from controller.device.board.validation import nearest
 from controller.errors import ConfigError, ControllerError, UsageError
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from controller.commands.common.arguments import natural
+from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.tables import amplitude_table, plain_table
 from controller.commands.focus_movie import add_movie, film, movie_path
@@ -15,7 +15,6 @@ from controller.device.board.lookup import find_board
 from controller.errors import ConfigError, UsageError
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.device.board.board import Board
 
 FINGER_MOST = (10e3, 1e3, 1e7)  # mg, N s/m, N/m

@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import Declare
 from controller.console import say
 from controller.device.application_socket.client import DEFAULT_PATH
 from controller.device.service.installation import is_installed
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from prometheus_client import CollectorRegistry
     from prometheus_client.core import Metric
 
-    from controller.commands.common.output import Declare
 
 LISTEN = "127.0.0.1:9750"
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import Declare
 from controller.console import say, tell
 from controller.device.service.installation import is_installed, missing_package
 from controller.errors import ConfigError, ControllerError, UsageError
@@ -19,7 +20,6 @@ from controller.log import Priority
 from controller.programs import end
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.device.page.settings import PageSettings
 
 FINGERS = 4  # of the demonstration

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from controller.commands.common.arguments import seconds
+from controller.commands.common.arguments import Declare, seconds
 from controller.commands.common.output import show
 from controller.commands.common.tables import plain_table
 from controller.console import tell
@@ -15,9 +14,6 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.service.drivers import open_input, open_panel
 from controller.device.touch.recordings.recorder import open_recording, record
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:

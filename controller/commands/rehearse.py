@@ -7,11 +7,11 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from controller.commands.common.arguments import Declare
 from controller.commands.common.output import show
 from controller.console import flush, say
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.workshop.simulation.rehearsal import Done
 
 

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import TYPE_CHECKING
 
+from controller.commands.common.arguments import Declare
 from controller.device.service.reloading import reload
 from controller.errors import ConfigError
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from controller.commands.bank import open_bank
+from controller.commands.common.arguments import Declare
 from controller.commands.common.expected import expected_of
 from controller.commands.common.fpga_link import open_fpga_of
 from controller.commands.common.named_board import named_board
@@ -31,7 +32,6 @@ from controller.errors import ConfigError, UsageError
 from controller.log import Priority
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.device.application_socket.command_socket import CommandSocket
     from controller.workshop.simulation.drift import Drift
     from controller.workshop.simulation.focus_evaluation import Evaluated

@@ -10,15 +10,11 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from controller.commands.common.arguments import require_within
+from controller.commands.common.arguments import Declare, require_within
 from controller.console import tell
 from controller.errors import UsageError
 from controller.programs import SHOWN_EVERY_S, end, repeat
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 PITCH_M = 4e-3  # of the bank: the whole plate in a second
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.inspect import StrType
 
+from controller.commands.common.arguments import Declare
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.descriptions import described, structs_of, type_info, unit_of
@@ -25,7 +26,6 @@ from controller.errors import ConfigError
 if TYPE_CHECKING:
     from msgspec.inspect import Field
 
-    from controller.commands.common.output import Declare
     from controller.device.board.board import Board
 
 FIELDS = {field.encode_name: field for field in structs_of(type_info(SetupAnswers))[0].fields}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from controller.commands.common.arguments import Declare
 from controller.console import say
 from controller.device.board.panel_state import PLAYS, PanelState
 from controller.device.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
@@ -18,7 +19,6 @@ from controller.device.touch.reports import describe_warnings
 from controller.errors import LinkError
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.device.update.installed import UpdateState
 
 START = "systemctl start haptic-panel; journalctl -u haptic-panel shows how it ended"

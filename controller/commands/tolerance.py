@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from controller.commands.common.arguments import natural, require_within
+from controller.commands.common.arguments import Declare, natural, require_within
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.worker_options import add_worker_options, workers_of
@@ -15,7 +15,6 @@ from controller.device.board.board import load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.workshop.tolerance.tolerances import Tolerances
 
 ROWS = {

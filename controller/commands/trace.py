@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
+from controller.commands.common.arguments import Declare
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:

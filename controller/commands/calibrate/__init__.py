@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import argparse
 from importlib import import_module
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
+from controller.commands.common.arguments import Declare
 
 STEPS = {  # in the order of --help, which prints these texts; each is a module of this package
     "channels": "which disc each channel moves: put a finger where it buzzes, no sensor needed",

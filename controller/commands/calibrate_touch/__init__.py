@@ -6,12 +6,12 @@ import argparse
 import selectors
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
-from controller.commands.common.arguments import require_within
+from controller.commands.common.arguments import Declare, require_within
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board, load_board
@@ -33,9 +33,6 @@ from controller.device.touch_calibration.calibration import (
 )
 from controller.device.touch_calibration.touch_table import board_lines, check_writable, write_calibration
 from controller.errors import CalibrationError, UsageError
-
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:

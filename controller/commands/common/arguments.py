@@ -6,10 +6,13 @@ import argparse
 import difflib
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Final, NoReturn
 
 from controller.errors import UsageError
+
+Declare = Callable[..., argparse.ArgumentParser]
+"""Makes the parser of a command, by the arguments of `argparse.ArgumentParser`; `cli` has given name and help text."""
 
 DECIMAL_COMMA: Final = re.compile(r"([+-]?\d*),(\d+)")
 URL: Final = re.compile("[a-zA-Z][a-zA-Z0-9+.-]*://")

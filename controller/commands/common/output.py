@@ -15,9 +15,6 @@ from controller.console import say
 
 NARROWEST = 40  # characters of a terminal that lines are broken for
 
-Declare = Callable[..., argparse.ArgumentParser]
-"""Makes the parser of a command, by the arguments of `argparse.ArgumentParser`; `cli` has given name and help text."""
-
 
 def show(options: argparse.Namespace, figures: dict[str, Any], table: Callable[[dict[str, Any]], str]) -> None:
     """Print figures on stdout: one JSON object with --json, else a table, no wider than the terminal."""

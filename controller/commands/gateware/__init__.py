@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
-from controller.commands.common.arguments import require_within
+from controller.commands.common.arguments import Declare, require_within
 from controller.commands.common.fpga_link import LINK_RANGES, announced_chirps, fpga_link, fpga_links
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import check_table
@@ -33,7 +33,6 @@ from controller.device.service.drivers import gateware_hash, open_session
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
     from controller.workshop.gateware.gateware import GatewareFactory
 
 

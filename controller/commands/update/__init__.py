@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import argparse
 from importlib import import_module
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from controller.commands.common.output import Declare
+from controller.commands.common.arguments import Declare
 
 STEPS: dict[str, str] = {  # in the order of --help, which prints these texts; each is a module of this package
     "check": "what the repository offers this device, and why it is refused if it is",
