@@ -1,7 +1,5 @@
 """Signals that wake a selector."""
 
-from __future__ import annotations
-
 import contextlib
 import selectors
 import signal

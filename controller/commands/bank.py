@@ -1,7 +1,5 @@
 """`haptic-panel bank`: build, describe and verify banks of precomputed waveforms."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 from collections.abc import Iterator

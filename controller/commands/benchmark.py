@@ -1,7 +1,5 @@
 """`haptic-panel benchmark`: time, memory, bytes and energy of every method of finding drive words, against their errors."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`haptic-panel board`: check a board and its scene, and describe the keys of both files."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from typing import Any

@@ -1,7 +1,5 @@
 """`haptic-panel board bom`: what to buy for a board, and the circuit of its stages for KiCad."""
 
-from __future__ import annotations
-
 import argparse
 import csv
 import io

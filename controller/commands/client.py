@@ -1,7 +1,5 @@
 """`haptic-panel client`: a running panel from a shell, through its application socket."""
 
-from __future__ import annotations
-
 import argparse
 
 from controller.commands.common.arguments import Declare

@@ -1,7 +1,5 @@
 """`haptic-panel completion`: print a shell's completion of this command line."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`haptic-panel doctor`: check every device, file and permission of a panel, and say what to do."""
 
-from __future__ import annotations
-
 import argparse
 from contextlib import closing
 from dataclasses import asdict

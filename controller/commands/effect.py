@@ -1,7 +1,5 @@
 """`haptic-panel effect`: effects from the files of haptic designers, and such files from effects."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

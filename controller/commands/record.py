@@ -1,7 +1,5 @@
 """`haptic-panel record`: store the events of a touch panel as a recording that can be replayed."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import asdict
 from pathlib import Path

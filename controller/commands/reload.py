@@ -1,7 +1,5 @@
 """`haptic-panel reload`: the command of ExecReload= in the service's unit."""
 
-from __future__ import annotations
-
 import argparse
 import os
 

@@ -1,7 +1,5 @@
 """What `run` prints without --verbose: what was felt, in sentences."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from controller.device.bank.expectation import in_words

@@ -1,7 +1,5 @@
 """`haptic-panel serve`: a simulated panel with an application socket."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import select

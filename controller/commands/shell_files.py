@@ -4,8 +4,6 @@ They are committed in commands/shell, because the packages that make them (shtab
 for a device; a test compares them with the parser.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """`haptic-panel trace`: what a trace of the loop says."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """`haptic-panel calibrate`: a bank from measurements of the plate itself. Each of its steps is a module beside this one."""
 
-from __future__ import annotations
-
 import argparse
 from importlib import import_module
 

@@ -1,7 +1,5 @@
 """`haptic-panel calibrate bank`: a bank from the measurements of a plate."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """`haptic-panel calibrate check`: read and deconvolve measurements, and name what is wrong with them."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

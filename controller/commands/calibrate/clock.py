@@ -1,7 +1,5 @@
 """`haptic-panel calibrate clock`: the bit clock at which the model's bank suits a plate best, from a few measured points."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

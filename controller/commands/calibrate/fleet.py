@@ -1,7 +1,5 @@
 """`haptic-panel calibrate fleet`: the banks of many panels, from a folder of their measurements."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """`haptic-panel calibrate plan`: where to measure the plate, in what order, and how long it takes."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

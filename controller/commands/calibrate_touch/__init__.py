@@ -1,7 +1,5 @@
 """`haptic-panel calibrate-touch`: map of the touch panel's axes to the plate, from touches at known places."""
 
-from __future__ import annotations
-
 import argparse
 import selectors
 from collections.abc import Sequence

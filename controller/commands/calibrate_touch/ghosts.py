@@ -1,7 +1,5 @@
 """`haptic-panel calibrate-touch --ghosts`: false contacts that emissions cause, and the `ghost_ms` that follows."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

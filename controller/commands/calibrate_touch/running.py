@@ -1,7 +1,5 @@
 """`haptic-panel calibrate-touch --socket`: axes, ghosts or lag of a panel whose service plays, through its application socket."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

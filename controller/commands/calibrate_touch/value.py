@@ -1,7 +1,5 @@
 """What `calibrate-touch --ghosts` and `--lag` share: measure or replay, judge the recording, print or write one key of [touch]."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The argument parser of the command line: a mistake is one line that names what was meant; help begins with an example."""
 
-from __future__ import annotations
-
 import argparse
 import difflib
 import math

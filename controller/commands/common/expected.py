@@ -1,7 +1,5 @@
 """What a bank is expected to do on the panel of this computer, or on a simulated one."""
 
-from __future__ import annotations
-
 from datetime import UTC, datetime
 
 from controller.device.bank.expectation import Expectation

@@ -1,7 +1,5 @@
 """The board that a command line names, with a warning for each relation between its keys that is odd."""
 
-from __future__ import annotations
-
 import argparse
 
 from controller.console import tell

@@ -1,7 +1,5 @@
 """Output of commands: figures as a table or as JSON, progress bars, and the file of --plot."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import shutil

@@ -1,7 +1,5 @@
 """Figures of commands as tables of text; `--json` prints the same figures for programs."""
 
-from __future__ import annotations
-
 from typing import Any
 
 LABELS = {

@@ -1,7 +1,5 @@
 """`haptic-panel gateware info`: what a bitstream is, and whether a board's bring-up would take it."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """`haptic-panel gateware load`: a bitstream into each FPGA, by the program that board.toml names."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import fcntl

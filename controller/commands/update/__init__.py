@@ -1,7 +1,5 @@
 """`haptic-panel update`: signed releases on a device, and their repository. Each of its steps is a module beside this one."""
 
-from __future__ import annotations
-
 import argparse
 from importlib import import_module
 

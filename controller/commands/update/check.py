@@ -1,7 +1,5 @@
 """`haptic-panel update check`: what the repository offers this device."""
 
-from __future__ import annotations
-
 import argparse
 import signal
 from collections.abc import Iterator

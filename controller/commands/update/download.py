@@ -1,7 +1,5 @@
 """`haptic-panel update download`: fetch the release that is offered into the store, without installing it."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

@@ -1,7 +1,5 @@
 """`haptic-panel update install`: fetch the release that is offered, build it beside the one in use, and ask for its trial."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

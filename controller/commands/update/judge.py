@@ -1,7 +1,5 @@
 """`haptic-panel update judge`: what haptic-panel-trial.service runs, from the release on trial."""
 
-from __future__ import annotations
-
 import argparse
 
 from controller.device.service.systemd import Notifier

@@ -1,7 +1,5 @@
 """`haptic-panel update rollback`: back to the release before, by hand."""
 
-from __future__ import annotations
-
 import argparse
 
 from controller.commands.common.output import show

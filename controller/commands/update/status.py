@@ -1,7 +1,5 @@
 """`haptic-panel update status`: which releases this device has, and how a trial stands."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

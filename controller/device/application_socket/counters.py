@@ -1,7 +1,5 @@
 """Counters of the application socket, as the `figures` command reports them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from controller.device.application_socket.messages import Outcome

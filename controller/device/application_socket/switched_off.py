@@ -1,7 +1,5 @@
 """The file beside the socket that remembers, over a restart of the service, that a client has switched the panel off, and who."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

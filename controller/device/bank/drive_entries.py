@@ -1,7 +1,5 @@
 """Waveforms of a bank, packed as finished frames: those of cells, and those composed beforehand."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable
 

@@ -1,7 +1,5 @@
 """Result of one check of `haptic-panel doctor`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

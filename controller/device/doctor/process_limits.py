@@ -1,7 +1,5 @@
 """Whether the service may have the real-time priority and the locked memory that its board asks for."""
 
-from __future__ import annotations
-
 import math
 import os
 import resource

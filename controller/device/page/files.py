@@ -1,7 +1,5 @@
 """The files that the bridge serves: its own, and those of one folder."""
 
-from __future__ import annotations
-
 import os
 from http import HTTPStatus
 from pathlib import Path

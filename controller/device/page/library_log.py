@@ -1,7 +1,5 @@
 """What the library of WebSockets reports."""
 
-from __future__ import annotations
-
 import logging
 
 from controller.log import Priority, log

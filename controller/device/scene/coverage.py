@@ -1,7 +1,5 @@
 """Which cells of a bank a scene needs."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

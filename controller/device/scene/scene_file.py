@@ -1,7 +1,5 @@
 """Finds a scene.toml, reads it and checks it against a board."""
 
-from __future__ import annotations
-
 import math
 import os
 from pathlib import Path

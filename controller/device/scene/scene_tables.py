@@ -1,7 +1,5 @@
 """scene.toml as typed tables: regions with their shapes, and effects by name."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 import msgspec

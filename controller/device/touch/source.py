@@ -5,8 +5,6 @@ are fingers, and predicts where each finger will be. The loop waits until `filen
 then calls `read`.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

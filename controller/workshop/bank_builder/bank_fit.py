@@ -1,7 +1,5 @@
 """Whether a bank that is there suits a board and a scene, or what it was built for: before it is built again."""
 
-from __future__ import annotations
-
 import zlib
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What the fixed emitters of a scene play together, composed beforehand: no device has the time for the best drive words."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

@@ -4,8 +4,6 @@ A focus between cells is composed from the four responses around it, or is that 
 displacement it reaches falls with the pitch over the wavelength, to nothing and below.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -5,8 +5,6 @@ Of a measured plate, its field lies in a file beside that, which all who compute
 A cell's words do not depend on where and with which others they are computed (`workshop/bank_builder/methods/exact.py`).
 """
 
-from __future__ import annotations
-
 import glob
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass

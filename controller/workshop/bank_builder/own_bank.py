@@ -1,7 +1,5 @@
 """A board's own bank: what it is to hold for a scene, whether the one that is there suits, and its build."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any

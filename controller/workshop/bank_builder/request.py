@@ -1,7 +1,5 @@
 """What bank is to be built, and how."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path

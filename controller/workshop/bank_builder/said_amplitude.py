@@ -1,7 +1,5 @@
 """What amplitudes a bank foresees: kept in its header, so that a device can say them without a look at any response."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

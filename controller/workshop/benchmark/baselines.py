@@ -1,7 +1,5 @@
 """What the times of methods are compared with: plain C, copying, CRC-32, the wire, the machine's best matrix product."""
 
-from __future__ import annotations
-
 import functools
 import time
 import zlib

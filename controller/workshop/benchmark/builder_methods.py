@@ -4,8 +4,6 @@ Foci at random places, played on the plate twin, beside the board's own words at
 plate are 0.5 % higher, or lower, whichever is worse.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 

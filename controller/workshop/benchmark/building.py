@@ -4,8 +4,6 @@ Processor time is that of the responses of a block of rows, for as many rows as 
 whose words are the sign of such a response at its very place, in the band; of a pitch, interpolation included.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Scenes of the work-precision diagrams: where fingers are at T, and where a panel says that they are."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial

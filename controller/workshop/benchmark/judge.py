@@ -5,8 +5,6 @@ bank and without the responses that made them. The reference of a point, A_ref, 
 response gives there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import msgspec

@@ -1,7 +1,5 @@
 """The Pareto front of costs and errors: settings of which no other has both less cost and less error."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The plate on which drive words are evaluated: what they move, what its points can have, and what they cost."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -3,8 +3,6 @@
 Processes are forked: they read what their parent holds without a copy of it, and take memory only for what they write.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import signal

@@ -4,8 +4,6 @@ In the manner of the SciML benchmarks: one curve for each method, one point for 
 those that no other one beats in both. `haptic-panel benchmark` runs it; `work_precision_diagrams` draws it.
 """
 
-from __future__ import annotations
-
 import itertools
 import tempfile
 from collections import Counter

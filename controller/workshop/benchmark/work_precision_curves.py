@@ -1,7 +1,5 @@
 """Curves of work-precision diagrams, which are read without colour: each has a letter, a marker and a line style, and a key."""
 
-from __future__ import annotations
-
 import string
 from collections.abc import Callable
 from typing import Any

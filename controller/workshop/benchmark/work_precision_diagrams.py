@@ -1,7 +1,5 @@
 """Work-precision diagrams: one curve for each method, one point for each setting, the Pareto front behind them."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 from functools import partial

@@ -1,7 +1,5 @@
 """Bill of materials of a panel: quantities and specifications, from its board.toml and the circuit of its stages."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ Connectivity is that of the netlists that ngspice checks, part for part; what is
 and L1 are those of the board's [driver].
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 

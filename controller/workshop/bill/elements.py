@@ -1,7 +1,5 @@
 """Elements of the subcircuits of boards/stage: the netlists that ngspice checks, read for those who build them."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """A circuit as a netlist of KiCad (its S-expression format, version E), which Pcbnew imports: File, Import, Netlist."""
 
-from __future__ import annotations
-
 import uuid
 from collections import defaultdict
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """When an emission begins in a recorder's track, by a second track that hears one of the channels: to a hundredth of a sample."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -4,8 +4,6 @@ Tolerances of thickness, modulus and density stretch the time of all responses b
 frequencies are all scaled has the same words at another bit clock.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Final
 

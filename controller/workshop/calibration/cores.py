@@ -1,7 +1,5 @@
 """Work on all cores, by threads: most of it is NumPy on large arrays, which needs no lock of the interpreter."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """How fast the plate's vibration decays, in parts of the band: from the power of the records against time."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

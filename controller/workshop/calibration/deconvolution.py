@@ -10,8 +10,6 @@ board's bit clock, whatever the recorder's rate and its error, so there is no ot
 zero.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cached_property
 from typing import TypeVar

@@ -8,8 +8,6 @@ channel's sign and strength, which patch it drives, and the delay of the records
 G from point to point.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ A plate that becomes softer plays the same responses more slowly. The stretch of
 found to a hundredth of a percent and better, as responses ring for a hundred periods.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

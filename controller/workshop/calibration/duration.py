@@ -4,8 +4,6 @@ Most of the time goes into three things: points are learned, all points are solv
 them. How often each is done follows from the numbers of points, frequencies and cells; the rest is in proportion.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from pathlib import Path

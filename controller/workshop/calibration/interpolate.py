@@ -1,7 +1,5 @@
 """From responses at measured points to those of every place: which method, with which wavenumbers, how good it is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from typing import Literal, NamedTuple
 

@@ -1,7 +1,5 @@
 """Measured responses at any place of the plate: what a bank is built from."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

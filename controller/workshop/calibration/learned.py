@@ -1,7 +1,5 @@
 """Impulse responses learned at the measured points of a plate: what deconvolution gives and interpolation takes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

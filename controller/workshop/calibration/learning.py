@@ -1,7 +1,5 @@
 """From a measurement folder to learned responses: read, deconvolve, find what is wrong, correct what can be corrected."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -10,8 +10,6 @@ band finds the neighbourhood, Gauss and Newton's method with more and more of th
 points, between the same edges, they can feign a frame at any number of standard deviations. In a frame that is right they fit too.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import product
 

@@ -1,7 +1,5 @@
 """Results of points on disk, by the hash of what they follow from: an interrupted calibration goes on where it was."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Iterable

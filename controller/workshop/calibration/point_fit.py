@@ -9,8 +9,6 @@ moves all points at once. Waves in all directions are the same in every frame: o
 are left to `frame`, and sensitivity and frequencies that all points have in common are no error here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache

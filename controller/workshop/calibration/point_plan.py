@@ -5,8 +5,6 @@ fewer scattered points, for the interpolation by Bessel functions: a field of on
 wavelengths fit round the plate's edge, not as fit onto its area.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -9,8 +9,6 @@ The plate's mobility where the sensor stands is not quite that of an endless pla
 amplitude. Drivers whose R, L and C are not those of board.toml turn S too, as some mg would.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

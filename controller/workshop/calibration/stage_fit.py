@@ -8,8 +8,6 @@ with a gain, a delay and an error d of the wavenumber that are of no interest he
 product. Magnitudes are those of the powers, which waves that the model lacks do not lower; phases those of the cross spectrum.
 """
 
-from __future__ import annotations
-
 from typing import Final, NamedTuple
 
 import msgspec

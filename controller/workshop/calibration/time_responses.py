@@ -1,7 +1,5 @@
 """Transfer functions to learned responses in time, each with its noise, and where they come from."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -5,8 +5,6 @@ the band, by points away from the edges, which gives a factor on the board's wav
 both are.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """The whole field of a measured plate, by which drive words are optimised: interpolated to a grid, taken apart into cosines."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct

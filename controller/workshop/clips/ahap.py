@@ -5,8 +5,6 @@ once: that of intensity multiplies, that of sharpness is added. Of two controls 
 value of a curve stays.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Sequence

@@ -3,8 +3,6 @@
 Names of effects (`predefined-effect`, `primitive-effect`) say nothing about their form, which each phone has of its own.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What a clip of any format says: taps, and vibrations whose strength and sharpness change over time."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from pathlib import Path

@@ -1,7 +1,5 @@
 """An effect as a designer's file: each pulse is a transient of AHAP, or an emphasis of .haptic on a silent vibration."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Sequence
 from typing import Any, Final

@@ -4,8 +4,6 @@ It has no public description; names are as its writers use them. A track has mel
 vibrates; one without is a tap. Gains of file, track, melody and note are multiplied.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 from typing import Annotated, Final

@@ -4,8 +4,6 @@ Perceptions have channels, channels have bands of frequencies, bands have effect
 vibrates are felt at one place. Profile Simple Parametric is read whole, of Main all but wavelets and composite effects.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections import Counter

@@ -1,7 +1,5 @@
 """Files of designers as a TOML text of effects, and a report of what became of each."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path

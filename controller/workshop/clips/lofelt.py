@@ -4,8 +4,6 @@ One vibration with breakpoints, some with an emphasis: a tap. Amplitudes are of 
 what makes quiet clips felt; a frequency is 0 to 1 of the range that a player has.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Sequence

@@ -5,8 +5,6 @@ rate neither stutters nor skips. Below 0.05 nothing is felt; from there to 0.1, 
 Where pulses are nearer to each other than the duty allows a tap goes before a vibration, and the stronger tap before the weaker.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left, insort
 from typing import Final, NamedTuple

@@ -4,8 +4,6 @@
 host believes changes as board.toml is mended, what is there does not.
 """
 
-from __future__ import annotations
-
 import math
 import shutil
 from collections.abc import Collection, Iterable, Iterator, Sequence

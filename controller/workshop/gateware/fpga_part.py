@@ -1,7 +1,5 @@
 """The FPGA behind a board's top.v: fpga.toml, from which `haptic-panel gateware build` knows how its bitstream is made."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Annotated, Literal, NamedTuple

@@ -1,7 +1,5 @@
 """Lines of Verilog, of the kernel and of the README's table that follow from the fields of frames; `register_table` writes them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from controller.device.fpga.frame_table import CRC_FIELD, HEADER_FIELDS, PAYLOADS, STATUS_FIELDS, FrameField, offset_of, packing

@@ -3,8 +3,6 @@
 Ticks are FPGA clocks since reset was released: an input that changes at tick t is sampled by the clock edge that ends tick t.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from enum import IntEnum
 from typing import Protocol

@@ -3,8 +3,6 @@
 It is the induction of `fpga_rtl/formal/safety_island_end_to_end.sby`, which has the ULX3S' parameters, with those of the board.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import re

@@ -3,8 +3,6 @@
 Ticks are FPGA clocks since reset was released.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Self
 

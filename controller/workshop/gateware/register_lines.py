@@ -1,7 +1,5 @@
 """Lines of Verilog and of the README's table that follow from the records in registers.py; `controller.generate` writes them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from enum import IntEnum
 

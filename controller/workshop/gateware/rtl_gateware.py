@@ -4,8 +4,6 @@ The library contains clock, SPI and the recording of pins (fpga_rtl/simulation/w
 captures pass through this module.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 import weakref

@@ -5,8 +5,6 @@ next frame follows after a pause. The gateware's clock follows the loop's clock,
 time go through the same ticks.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 

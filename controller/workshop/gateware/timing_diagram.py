@@ -4,8 +4,6 @@ A picture contains the hash of its table, so that a test finds pictures that are
 change are cut out, and the traces are broken there.
 """
 
-from __future__ import annotations
-
 import re
 import tempfile
 from collections.abc import Sequence

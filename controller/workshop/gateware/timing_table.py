@@ -24,8 +24,6 @@ ticks) and `focus` the rising edge of one; the others are levels from that tick 
 rises at that tick; `@7` in it is tick 7 of the FPGA's clock. Signals that a row does not name do not change.
 """
 
-from __future__ import annotations
-
 import hashlib
 import re
 import shlex

@@ -1,7 +1,5 @@
 """Waves: the pins of the compiled Verilog, and frames decoded beside them (simulation/frame_view.sv), in an FST file."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -5,8 +5,6 @@ The line of the run permit is high while the host drives it and no FPGA reports 
 does to the others comes in time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial

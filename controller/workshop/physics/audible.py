@@ -9,8 +9,6 @@ frequency exchanged), so a long ramp is sampled more finely than an emission, an
 overdamped mode's frequency less finely than what contains its slow return.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

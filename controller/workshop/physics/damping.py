@@ -8,8 +8,6 @@ The last is first order: on the paper's plate right to 5 % in the median; modes 
 spreads their rates more widely.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

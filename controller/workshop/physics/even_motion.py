@@ -4,8 +4,6 @@ The same as `motion`, exactly: a pole passes from one time to the next by one fa
 filter. The modes do not depend on the point; they are kept for the next one, if they fit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Final
 

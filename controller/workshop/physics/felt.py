@@ -22,8 +22,6 @@ Sources of the numbers; what is an assumption is called so:
 It is not a model of the throw itself, for which there is `skin.py`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -14,8 +14,6 @@ Displacements in time come from frequencies with a real part, s = sigma + 2 pi i
 and spectra end at the bit clock, where the driver lets nothing pass. Free motion found so is that of the twin within 2e-6.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ taken: summing waveforms of signs would lose amplitude. A kick is felt either wa
 points that are composed together are free.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """How much memory a plate's responses take, reported before it is taken: what cannot fit is refused, not swapped."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from controller.device.bank.file_format import REST_SAMPLES

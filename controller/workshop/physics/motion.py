@@ -4,8 +4,6 @@ Between two steps every pole decays freely, so that the motion at any time is ex
 of the modes do not depend on the point: they are computed once for as many points as are asked for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -6,8 +6,6 @@ the highest (4e-7 of a felt amplitude, at pads of 8 mm). Fingers are part of the
 that many emissions at the same places cost a matrix product.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

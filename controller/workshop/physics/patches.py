@@ -9,8 +9,6 @@ Integrals are taken through the values of the shapes at Gauss's nodes of each pa
 fix polynomials of which values and second derivatives are integrated over disc or square, as a quadratic form of those values.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal

@@ -1,7 +1,5 @@
 """How long the waves of a board are beside those of the paper's plate, and the frequency up to which its modes are taken."""
 
-from __future__ import annotations
-
 import math
 
 from controller.device.board.board import Board

@@ -9,8 +9,6 @@ Pin changes are divided into groups at focus ticks and wherever nothing changes 
 state that a group adds depends only on its words and their spacing, so equal groups are computed once.
 """
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass

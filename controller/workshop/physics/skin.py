@@ -9,8 +9,6 @@ The numbers of the pulp come from literature, measured along the skin and below 
 What is left out: that skin is a continuum which moves less the deeper and the faster, air under it, the plate's edges.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple

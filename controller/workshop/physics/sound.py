@@ -7,8 +7,6 @@ Modes move as in `audible`; every mode of the board is counted. All is taken at 
 endless train these are all that there is, and what has died away within a period is known from them (sampling theorem).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.polynomial.chebyshev import chebpts1, chebvander
 from numpy.polynomial.legendre import leggauss

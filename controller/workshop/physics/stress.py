@@ -10,8 +10,6 @@ vibrates (Morgan's TP-226, 4000 psi; cited from memory); polarity holds up to ab
 1.2 MV/m in PZT-5A (CTS 3195HD, below 1 Hz), 0.8 in PZT-5H.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Pins and stages that play words without an FPGA."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

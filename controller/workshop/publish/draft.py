@@ -1,7 +1,5 @@
 """What a draft of a repository would publish: what its signers read before they sign."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from datetime import datetime, timedelta
 from pathlib import Path

@@ -3,8 +3,6 @@
 Reports are not signed: they decide nothing. The next step's opening, or a stop, is proposed to the owner, who signs it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field

@@ -1,7 +1,5 @@
 """Keys of those who sign releases: the private part in a file that a passphrase opens, the public part in a file beside it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """What the owner of a repository publishes, each as a draft that waits for signatures: first root, releases, keys, longer life."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from datetime import datetime

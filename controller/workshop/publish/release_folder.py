@@ -3,8 +3,6 @@
 The same inputs make the same bytes, modes and times of files.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import shutil

@@ -4,8 +4,6 @@ NAME.json is of one device; NAME.prom is what `haptic-panel metrics` gives of on
 (`/federate`), by their label `instance`.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Files of a repository, each at a path that names its content."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from pathlib import Path

@@ -2,8 +2,6 @@
 boards, banks and bitstreams.
 """
 
-from __future__ import annotations
-
 import hashlib
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,7 +1,5 @@
 """Shares of a rollout as a publisher writes them: 1%@2026-12-01T08:00Z, once for each step."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from datetime import UTC, datetime

@@ -1,7 +1,5 @@
 """A repository on a stick: what the channels offer, for devices without a network."""
 
-from __future__ import annotations
-
 from datetime import datetime
 from pathlib import Path
 from typing import Final

@@ -2,8 +2,6 @@
 by the same compiler and headers.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import platform

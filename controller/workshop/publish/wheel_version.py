@@ -1,7 +1,5 @@
 """The version of this project's wheel: that of the release which it becomes a part of, wherever a version is reported."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import re

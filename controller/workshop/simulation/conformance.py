@@ -7,8 +7,6 @@ its answer has to have what is in `answer`, and before the next step a message c
 so is one that is merged with what is left of one before: a simulated panel on a busy computer may be late, or be arming again.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import socket

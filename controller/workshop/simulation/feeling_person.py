@@ -1,7 +1,5 @@
 """A simulated person before a simulated panel whose wires may be swapped or dead: puts a finger where a channel moves the glass."""
 
-from __future__ import annotations
-
 import random
 from typing import Final
 

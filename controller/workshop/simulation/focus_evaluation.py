@@ -4,8 +4,6 @@ The intended finger and point come from the loop's record of what it played; the
 recording.
 """
 
-from __future__ import annotations
-
 import contextlib
 from bisect import bisect_right
 from collections.abc import Callable, Iterator

@@ -4,8 +4,6 @@ It scans at a fixed rate. A scan during which a channel pin changed produces a g
 away from real fingers, from that scan's report on, for a few reports.
 """
 
-from __future__ import annotations
-
 import random
 from collections import Counter
 from collections.abc import Callable, Sequence

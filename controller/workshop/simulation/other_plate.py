@@ -1,7 +1,5 @@
 """A board on the plate of another: what the real panel is like, where the host believes its own board.toml."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path

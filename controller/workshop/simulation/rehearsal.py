@@ -4,8 +4,6 @@ Nothing is known here of what is wrong: the commands of the page "A panel of you
 they say is mended as they say, with a soldering iron (what is there) or an editor (board.toml).
 """
 
-from __future__ import annotations
-
 import re
 import shlex
 import subprocess

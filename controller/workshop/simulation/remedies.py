@@ -1,7 +1,5 @@
 """What somebody does about what a command says of a panel: with a soldering iron (what is there) or an editor (board.toml)."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field

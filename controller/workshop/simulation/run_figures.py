@@ -1,7 +1,5 @@
 """Figures of a simulated run, ready for JSON: emissions, latencies, and the foci at the fingers' true places."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
 from typing import Any

@@ -3,8 +3,6 @@
 Loop, scene, bank, socket and scheduling are those of the device. The FPGA is its model; fingers are those of a recording.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from datetime import UTC, datetime

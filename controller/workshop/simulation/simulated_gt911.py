@@ -4,8 +4,6 @@ The chip scans for fingers at a fixed rate, keeps one report until the host has 
 unless that is dead.
 """
 
-from __future__ import annotations
-
 import ctypes
 import errno
 import os

@@ -4,8 +4,6 @@ What the foci of a run were like is computed afterwards (`focus_evaluation`, `ru
 affect latencies.
 """
 
-from __future__ import annotations
-
 import time
 import zlib
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Synthetic recording of a finger and a mouse that move together, from a panel of known latency and a mouse."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

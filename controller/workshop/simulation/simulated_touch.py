@@ -1,7 +1,5 @@
 """The touch panel of a simulated board: of the kind that its board.toml names, as far as there is one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from math import inf
 from random import Random

@@ -1,7 +1,5 @@
 """What is wrong with a simulated panel, beside its board.toml, and what is there then."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated, Any, Final
 

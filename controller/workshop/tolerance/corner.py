@@ -1,7 +1,5 @@
 """A panel on which all that takes minutes of the paper's takes a second: eight channels on a ninth of the plate, half the time."""
 
-from __future__ import annotations
-
 import msgspec
 
 from controller.device.board.board import Board

@@ -1,7 +1,5 @@
 """How often the truth lies within the intervals that banks state, on plates that no constant was fitted to (`unseen.py`)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Iterable
 from datetime import date, timedelta

@@ -4,8 +4,6 @@ These plates are simply supported, by Kirchhoff's theory; no bank is measured on
 others (`unseen.py`).
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Figures of many drawn plates: distributions, the share that is good enough, and what each tolerance costs alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Picture of `haptic-panel tolerance --plot`: how many plates are good with each bank, and what each tolerance costs alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -3,8 +3,6 @@
 An item is a plate's number, and the tolerance that varies alone or none; its result is an array (bank, place, figure) of float64.
 """
 
-from __future__ import annotations
-
 import hashlib
 import inspect
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Production tolerances: how each property of a panel varies from plate to plate."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

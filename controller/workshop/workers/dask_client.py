@@ -1,7 +1,5 @@
 """The border to dask: a scheduler of the same version or none, and whatever dask raises as one line."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import json

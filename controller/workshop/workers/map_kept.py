@@ -4,8 +4,6 @@ Results do not depend on where and with which others they are computed, so a tas
 lost is simply computed again by another. What is done is kept in a file: the same call goes on where a failure has ended it.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 import platform

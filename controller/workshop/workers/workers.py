@@ -1,7 +1,5 @@
 """Who computes what many processes or machines can share."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

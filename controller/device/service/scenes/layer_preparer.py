@@ -1,7 +1,5 @@
 """Clients' layers for the event loop: a helper process checks them, one after the other; nothing here blocks."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import msgspec

@@ -3,8 +3,6 @@
 The library falls back to its plain reader (`evdev.eventio`) where the one for asyncio (`evdev.eventio_async`) cannot be imported.
 """
 
-from __future__ import annotations
-
 import contextlib
 import sys
 

@@ -1,7 +1,5 @@
 """Opening the kernel's input devices (python-evdev), by path or name, with event times on CLOCK_MONOTONIC."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import fcntl

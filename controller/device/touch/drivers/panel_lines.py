@@ -1,7 +1,5 @@
 """Interrupt and reset lines of a touch panel (gpiod 2), by the chip's label and the lines' names or numbers."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 from typing import Final

@@ -5,8 +5,6 @@ the band. Each output (a sample, or a mean of the rest) meets `taps` neighbourin
 and weights are fitted to responses in turns (alternating least squares), as if the weights had the noise of their rounding.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Final
 

@@ -4,8 +4,6 @@ What counts is the error between cells, a sum over cells and pulses, so each wei
 turns, those of cells that no place shares at once (coordinate descent).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, Final
 

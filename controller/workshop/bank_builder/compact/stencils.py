@@ -7,8 +7,6 @@ is shaped: what is lost by rounding a cell is taken from its neighbours, as far 
 diffusion by the prediction error filter of the weights' own correlations).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """A compact bank tried at a sample of places, by the kernel that plays it: what it loses, and which gain of its rest it needs."""
 
-from __future__ import annotations
-
 from array import array
 from collections.abc import Callable
 from typing import Any, Final

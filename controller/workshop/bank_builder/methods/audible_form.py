@@ -6,8 +6,6 @@ The spectrum of the levels is taken in bins narrow against one over an emission'
 form of the 32 channels, positive by construction. Samples that are close in time are joined by the form's lags instead.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -4,8 +4,6 @@ The bank's entries, the composition on the device, and the methods of `waveform_
 builder and benchmark take any of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """The device's composition as a `DesignMethod`: for benchmarks and banks, not for the loop, which uses `Composer` as it is."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

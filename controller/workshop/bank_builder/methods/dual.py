@@ -10,8 +10,6 @@ with `d` becoming smaller. A bit is whole, not a share, so that goals are missed
 mend that.
 """
 
-from __future__ import annotations
-
 from itertools import product
 from typing import Any, Final
 

@@ -4,8 +4,6 @@ A matrix product in float64 whose factors have few enough bits makes no rounding
 however it blocks, so the same waveforms come out on every machine, and whichever others are computed in the same product.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

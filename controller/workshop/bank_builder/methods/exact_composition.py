@@ -7,8 +7,6 @@ not only those in the band, are in the proportions that were asked for, each rel
 the absolute values of its response in the band. The device equalises the same.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any, Final

@@ -4,8 +4,6 @@ The pad's displacement is a convolution of the bits with the pad's response to a
 amplitude is quadratic in them. The derivative at some bits is linear in further ones: what matches the pad's own motion.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -6,8 +6,6 @@ squares of the modes. What lies near the focus is subtracted, point by point of 
 (`workshop/physics/field.py`).
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -7,8 +7,6 @@ independent goals that matter; rounding to bits misses them by about a bit, and 
 down.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

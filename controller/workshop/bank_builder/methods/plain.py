@@ -1,7 +1,5 @@
 """The sign of the sum of responses, each divided by the sum of its absolute values (paper, section III-A)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

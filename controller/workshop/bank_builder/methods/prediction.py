@@ -1,7 +1,5 @@
 """What drive words give at points of the plate: inner products of bits with the whole response, not only its band."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

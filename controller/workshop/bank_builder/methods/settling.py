@@ -1,7 +1,5 @@
 """The bits of one sample: rounded, then flipped where that gains."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,8 +5,6 @@ single emission from the board's idle word. The ramp's bits are those of the gat
 a first-order density, are made here. `--plot` draws the plate with and without idle word, and the sound of ramps.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any

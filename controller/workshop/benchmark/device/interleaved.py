@@ -1,7 +1,5 @@
 """Processor time of several jobs that take turns, so that what disturbs the machine disturbs all alike."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

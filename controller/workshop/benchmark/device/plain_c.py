@@ -1,7 +1,5 @@
 """What composing costs in plain C: `compose_reference.c`, compiled by the system's compiler while the benchmark runs."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import shutil

@@ -1,7 +1,5 @@
 """Scenes and fingers on which skipping is measured, as recordings."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

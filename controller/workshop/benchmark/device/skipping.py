@@ -8,8 +8,6 @@ What only leaves out work (`loop.skips.EXACT`) is compared with doing it, nothin
 finger moves, each emission has the same bits.
 """
 
-from __future__ import annotations
-
 import math
 import tempfile
 from collections.abc import Callable, Sequence

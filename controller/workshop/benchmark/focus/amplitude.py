@@ -4,8 +4,6 @@
 reference is the whole displacement in float64, with all modes, at the very points; it does not use the bank.
 """
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """What a bank's emissions sound like, and what they bend, on the board's own plate model: some cells, spread over the plate."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

@@ -4,8 +4,6 @@
 those before is a geometric series of each pole. The energy is summed over modes, and once more over a map.
 """
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Sequence
 from dataclasses import replace

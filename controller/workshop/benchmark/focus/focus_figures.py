@@ -4,8 +4,6 @@
 given points. All functions return plain numbers, ready for `--json`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 

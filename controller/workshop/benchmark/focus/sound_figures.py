@@ -1,7 +1,5 @@
 """How loud a panel is, in dB(A) at 0.3 m: one emission, trains of them, arming; printed by `focus` and `bank info --power`."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

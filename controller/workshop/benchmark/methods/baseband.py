@@ -5,8 +5,6 @@ stored, in 8 or 4 bits, in place of samples. The weights are those of least squa
 one matrix product then gives the samples.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A method of finding drive words at one of its settings: a point of the work-precision diagrams."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any

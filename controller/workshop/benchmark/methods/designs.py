@@ -1,7 +1,5 @@
 """Methods behind `DesignMethod`, from the plate model: each is one line of `DESIGNS`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, partial
 from typing import Any

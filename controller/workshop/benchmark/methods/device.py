@@ -1,7 +1,5 @@
 """What the device does today: entries of the bank, responses composed by the kernel, shorter emissions, resident waveforms."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Which cells serve a place between them, and with what weights: nearest, bilinear, polynomials of third order, the band's own."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """What the methods under test share: one board, its model, and banks and tables of just the cells that the scenes need."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

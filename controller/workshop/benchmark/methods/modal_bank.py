@@ -5,8 +5,6 @@ the complex weights of `baseband` first. What is stored for a panel is one coupl
 the modes to a pulse follow from their frequencies.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """All methods that the benchmark compares: each module is one line."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 from controller.workshop.benchmark.methods import baseband, designs, device, modal_bank, responses

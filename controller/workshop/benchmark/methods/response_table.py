@@ -5,8 +5,6 @@ changes no sign of their sum, so responses are stored flat, divided by that deca
 alike.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache

@@ -3,8 +3,6 @@
 One bit of a response is its packed drive word: interpolating it is a vote of the cells' words, bit by bit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ Nothing is tuned: plate, driver, waveform and patches are those of the paper's s
 the piezo's `moment_n_per_v`, which scales displacements and, squared, energies. Foci are drawn at random, none is left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Rows of energy and power (paper, section IV-B, fig. 8, appendix B): of the plate over time, and in the stages' resistors."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

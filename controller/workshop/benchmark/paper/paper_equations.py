@@ -1,7 +1,5 @@
 """Rows of the paper's equations (1) to (7) and of its driver, from the board's constants alone."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.optimize import brentq
 

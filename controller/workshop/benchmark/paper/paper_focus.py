@@ -1,7 +1,5 @@
 """Rows of foci: one (paper, section IV-B, figs. 6 and 7), several (fig. 9), and repeated ones (appendix A)."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 from typing import Any

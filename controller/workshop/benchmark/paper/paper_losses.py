@@ -4,8 +4,6 @@ Bits come from approximate responses and are evaluated by the true ones: `paper_
 computed for, and the paper's own support: foam edges, Mindlin's theory.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

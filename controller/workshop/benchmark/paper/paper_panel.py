@@ -1,7 +1,5 @@
 """The paper's panel on the plate model with seeded foci: responses, words and fields that several figures need, computed once."""
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import msgspec

@@ -1,7 +1,5 @@
 """A row of `haptic-panel benchmark paper`: what the paper says, what the simulation gives, and why they differ."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass

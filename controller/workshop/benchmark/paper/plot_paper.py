@@ -3,8 +3,6 @@
 It is read without colour: what is ours is solid with filled marks, what is the paper's dashed with open ones.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -7,8 +7,6 @@ Once the piezo is at rest after the last edge, the sum over all edges is exactly
 far apart, more if the piezo rings against the next edge, less if the next edge comes before the piezo has moved.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any

@@ -7,8 +7,6 @@
 transistors and both supplies at the ends of what data sheets allow.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """Benches of one reference stage on supplies that are there; each figure is the worst of the corners."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -1,7 +1,5 @@
 """The reference stage and its supply (boards/stage) as circuits for ngspice: netlists, corners, and what drives them."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 from collections.abc import Mapping, Sequence

@@ -3,8 +3,6 @@
 `controller.generate` draws it. It contains the hash of the netlists, so that a picture of other netlists is found.
 """
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Benches of the reference stage's supply with the stages behind it; each figure is the worst of the corners."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

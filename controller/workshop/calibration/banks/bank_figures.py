@@ -1,7 +1,5 @@
 """What a calibration found, as plain values, and what of the board's description does not fit the plate."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, Final
 

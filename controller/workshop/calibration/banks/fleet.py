@@ -3,8 +3,6 @@
 A panel is done when its bank is there as it was written; the same call computes what is missing, changed, or was refused.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

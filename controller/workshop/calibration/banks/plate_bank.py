@@ -1,7 +1,5 @@
 """The bank of one measured plate: read, check, interpolate, build; nothing is written if anything is refused."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

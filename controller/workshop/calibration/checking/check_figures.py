@@ -1,7 +1,5 @@
 """Figures of a measurement: what `haptic-panel calibrate check` prints."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is wrong with a measurement, named by channel and point: dead, swapped, inverted channels; clipped, noisy records."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args

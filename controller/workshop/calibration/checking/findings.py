@@ -1,7 +1,5 @@
 """All checks of a measurement, in order: a channel that is dead is not called swapped too."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from controller.device.board.board import Board

@@ -1,7 +1,5 @@
 """What measured points will tell of the places between them, from where they lie alone."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Picture of a measurement: coherence of each point over the plate, of each channel and point, and some responses."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Picture of an interpolation: what each point left out keeps, over the plate, and how many keep how much."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

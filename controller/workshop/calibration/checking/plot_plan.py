@@ -1,7 +1,5 @@
 """Picture of a plan: points in the order of the head's path, and the share of the amplitude that is foreseen between them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -6,8 +6,6 @@ waves apart, show that by themselves. A channel is decided if it drives a patch 
 no exchange of patches with another channel fits the records about as well.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ Records that run through tell the rate to a hundredth of a ppm; records of noise
 triggered impulses and single sweeps not at all, and need it no better.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -5,8 +5,6 @@ matrix gives channel and emission: as many emissions as there are channels, roun
 as much energy of each channel as if it had played alone in every one of them.
 """
 
-from __future__ import annotations
-
 from typing import Final, Literal
 
 import numpy as np

@@ -3,8 +3,6 @@
 The outputs are armed for the emissions of one point and off again before anybody moves the sensor, and after any error.
 """
 
-from __future__ import annotations
-
 import selectors
 from collections.abc import Callable
 from dataclasses import dataclass

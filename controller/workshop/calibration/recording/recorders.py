@@ -1,7 +1,5 @@
 """Recorders of a sensor on the plate: a sound card (ALSA, by PortAudio), and a sensor at a serial port."""
 
-from __future__ import annotations
-
 import re
 import time
 from collections.abc import Callable

@@ -3,8 +3,6 @@
 Everything follows from the seed and the point's number, so that a simulation that was interrupted goes on where it was.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass

@@ -1,7 +1,5 @@
 """A recorder of the simulated plate: what a sensor on it and a second track hear of the pins of the simulated FPGA."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Protocol
 

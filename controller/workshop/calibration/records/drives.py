@@ -1,7 +1,5 @@
 """What was played while a plate was measured, as spectra: words, sweeps, samples, impulses."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path

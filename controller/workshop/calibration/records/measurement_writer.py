@@ -1,7 +1,5 @@
 """Writes measurement folders: what `measurements` reads."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Iterable, Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A measurement folder: `measurement.toml`, points, and records, read point by point. The format is described in README.md."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Where a plate was measured: a CSV file of points, or those that the file of the records has itself."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

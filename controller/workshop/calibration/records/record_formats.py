@@ -1,7 +1,5 @@
 """Files of records as arrays: .npy, .npz, WAV and UFF type 58."""
 
-from __future__ import annotations
-
 import threading
 import warnings
 import zipfile

@@ -1,7 +1,5 @@
 """Waveform buffers of the gateware model: `waveform_buffer.v`, with the CRC check of what was stored."""
 
-from __future__ import annotations
-
 import zlib
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Execution of frames in the gateware model: results as in `haptic_core.v`, and their effects."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ Within a tick everything is decided from the state before it, as flip-flops do; 
 in the Verilog.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from controller.device.fpga.build_parameters import BuildParameters

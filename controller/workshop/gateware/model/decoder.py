@@ -1,7 +1,5 @@
 """Decoding of a frame as in `frame_decoder.v`: its fields, or why it is refused."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from controller.device.fpga.frames import CRC, HEADER, SHORT

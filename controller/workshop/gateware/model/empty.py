@@ -1,7 +1,5 @@
 """An FPGA without a configuration, as it is delivered: its pins float, which pull-ups make ones."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from controller.device.fpga.capture import Capture

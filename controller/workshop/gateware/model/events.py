@@ -1,7 +1,5 @@
 """Events of the gateware model that are known ahead: what happens in which tick."""
 
-from __future__ import annotations
-
 from bisect import insort
 from collections.abc import Callable
 from enum import Enum

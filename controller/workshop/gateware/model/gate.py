@@ -1,7 +1,5 @@
 """Arming, ramps and faults of the gateware model, and the words on its pins: `output_gate.v` and `idle_ramp.v`."""
 
-from __future__ import annotations
-
 from enum import Enum
 
 import numpy as np

@@ -4,8 +4,6 @@ The words that the pins will show are checked as a whole waveform when they are 
 plan short. From a plan and the state before it follow the causes, the ticks in which they are high, and the state after it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import NamedTuple
 

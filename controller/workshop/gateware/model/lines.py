@@ -1,7 +1,5 @@
 """Changes of the gateware model's other outputs: `waiting_o`, `fault_o`, MISO and the UART's transmit line."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -4,8 +4,6 @@ Ticks are FPGA clocks since reset was released. An input that changes at tick t 
 `haptic_core.v` says through how many registers it then passes.
 """
 
-from __future__ import annotations
-
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER

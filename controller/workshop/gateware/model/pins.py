@@ -4,8 +4,6 @@ A segment is a row of words, each held for a bit period, the last one until the 
 effect earlier (a fault cuts what is still in the pipeline) replaces the segments planned from there on.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 

@@ -3,8 +3,6 @@
 Ticks are those of the player's state, before the output pipeline.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a READ returns in the gateware model: registers, counters, slots' CRCs, the queue and waveform memory."""
 
-from __future__ import annotations
-
 from collections import deque
 from dataclasses import dataclass, field
 

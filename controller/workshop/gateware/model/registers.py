@@ -1,7 +1,5 @@
 """Registers of the gateware model that hold a setting or say what the FPGA is: `register_file.v`."""
 
-from __future__ import annotations
-
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.registers import (
     BIT_CLOCK_HZ_MAX,

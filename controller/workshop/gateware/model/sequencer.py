@@ -3,8 +3,6 @@
 Everything of a tick is decided from the state before it, as flip-flops do.
 """
 
-from __future__ import annotations
-
 from controller.device.fpga.registers import CHUNK_WORDS, Register, Start
 from controller.workshop.gateware.model.commands import Commands
 from controller.workshop.gateware.model.events import EventKind, Events, GatewareEvent

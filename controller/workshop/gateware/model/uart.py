@@ -1,7 +1,5 @@
 """The UART of the gateware model, byte by byte: `uart_peripheral.v`, `frame_relay.v` and the decoder between them."""
 
-from __future__ import annotations
-
 from controller.device.fpga.frames import FRAME_BYTES
 from controller.device.fpga.registers import Result
 from controller.workshop.gateware.model.decoder import Frame, decode

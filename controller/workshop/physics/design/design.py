@@ -3,8 +3,6 @@
 Numbers of equations are those of Hudin, Lozada, Hayward, IEEE Trans. Haptics 8(2), 2015. All lengths in m, times in s.
 """
 
-from __future__ import annotations
-
 import math
 
 from controller.device.board.panel import Plate

@@ -3,8 +3,6 @@
 Amplitude, spot, pulse and both contrasts that can be measured are estimates by the statistics of the modes (`focal_spectrum`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from typing import Any

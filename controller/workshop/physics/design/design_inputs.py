@@ -1,7 +1,5 @@
 """Numbers from which `haptic-panel design` computes; a board has all of them but the last three."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Annotated, Any, Final
 

@@ -1,7 +1,5 @@
 """Where the paper's equations, or its print of them, do not hold for a design: one line each."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

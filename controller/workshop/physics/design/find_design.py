@@ -1,7 +1,5 @@
 """Search for panels that are felt: glass, discs and the fewest channels that reach a felt amplitude."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Final, NamedTuple

@@ -4,8 +4,6 @@ Each has its rule (`board.parts`). What the board has of it says by how much its
 kept: the moment of the paper's panel was fitted, a patch's capacitance may have been measured. A number that is given stands.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Final
 

@@ -1,7 +1,5 @@
 """What a panel of given numbers reaches, by the statistics of its modes: amplitude, what a finger feels of it, and heat."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Picture of `haptic-panel design --sweep --plot`: one small diagram for each figure over what is swept."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

@@ -5,8 +5,6 @@ the band (`focal_spectrum`). What they radiate is Leppington, Broadbent and Hero
 for a plate in a baffle, at most that of the critical frequency.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import trapezoid

@@ -3,8 +3,6 @@
 A file that cannot be read, whatever the reason, is computed again; one that cannot be written is not.
 """
 
-from __future__ import annotations
-
 import hashlib
 import tempfile
 from contextlib import suppress

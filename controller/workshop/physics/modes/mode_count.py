@@ -6,8 +6,6 @@ incidence. For a simply supported side d = -pi. For a free one d = 2 arctan t an
 conditions at the edge give t (the waves that run along a free edge add less than 0.01).
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

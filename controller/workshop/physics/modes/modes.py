@@ -3,8 +3,6 @@
 Everything above (responses, field at T, energy at the surface, twin) takes modes through this interface only.
 """
 
-from __future__ import annotations
-
 from typing import Any, Protocol
 
 import numpy as np

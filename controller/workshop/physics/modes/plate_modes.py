@@ -1,7 +1,5 @@
 """The modes of a board's plate: the one place where they are built."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """Modes with other frequencies or other decay, and the same shapes: another theory, another damping, another temperature."""
 
-from __future__ import annotations
-
 import dataclasses
 from typing import Any
 

@@ -5,8 +5,6 @@ the sign, and steps the modes exactly from bit to bit. Of what it needs only tho
 alone, so a byte a sample is enough: words that differ do so where the response is next to zero.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What pictures of a plate have in common: its patches, and the file."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from matplotlib.axes import Axes

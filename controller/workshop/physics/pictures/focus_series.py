@@ -1,7 +1,5 @@
 """One emission over time: what a few channels play, what their piezos get, how the focus moves, and its spectrum."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

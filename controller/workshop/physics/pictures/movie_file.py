@@ -4,8 +4,6 @@ Brightness grows with displacement, so that it reads without colour, and with th
 focus. The frame at T stays for a second.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 import shutil

@@ -1,7 +1,5 @@
 """Pictures of a focus: the plate at T with fingers and actuators, and a cross-section (as the paper's fig. 6)."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from pathlib import Path

@@ -9,8 +9,6 @@ Between samples a response is interpolated by a sinc in a window of `REACH` samp
 samples, e of them all, are beyond what is known and left zero.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ Points of a grid go by rows (`row_responses`) if the shapes of the modes are pro
 Sample j is the displacement (j + 1) bit periods after the start of a pulse of one bit period (`modal_response`).
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Any
 

@@ -6,8 +6,6 @@ at 70. There the numbers are those of least squares: of all that could be kept t
 bits have the spectrum of the band's filter, and a tenth of that at all other frequencies.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

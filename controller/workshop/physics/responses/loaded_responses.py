@@ -9,8 +9,6 @@ Receptances come from modes: of the board's plate model, for measured responses 
 for all points, that of an endless plate, which needs no modes. Fingers are point loads here (`finger.py`).
 """
 
-from __future__ import annotations
-
 import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray

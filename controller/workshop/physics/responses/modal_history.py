@@ -5,8 +5,6 @@ are bits, whatever was played. `plate_twin` gives one focus time at less cost; t
 the focus passing by, the velocity that a finger feels.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

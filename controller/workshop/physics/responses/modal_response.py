@@ -12,8 +12,6 @@ is left below 16 kHz. Sharper edges ring for longer and lose contrast (28.0 at 0
 A `slope` multiplies it by a power of the frequency over the band's middle.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any, NamedTuple
 

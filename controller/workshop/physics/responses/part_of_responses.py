@@ -1,7 +1,5 @@
 """Responses of the channels of one FPGA, from those of all that drive the plate."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

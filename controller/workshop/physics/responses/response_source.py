@@ -1,7 +1,5 @@
 """Where the responses of a bank come from: a model, measurements, or measurements completed by a model."""
 
-from __future__ import annotations
-
 from typing import Any, Protocol
 
 import numpy as np

@@ -6,8 +6,6 @@ modes at every point, and each of them still in a GEMM. The products of kernel a
 modes of one factor along x, weighted for a row, are the right factor of a GEMM whose left factor is the kernel of those modes.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Responses of another source, changed one point at a time by what is linear and causal: what a finger or a drift makes of them."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from typing import Any
 
