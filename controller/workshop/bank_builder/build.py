@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
+from controller.arrays import Words
 from controller.device.bank.file_format import Header
 from controller.device.bank.packing import CHANNELS, WORD, channel_bits, drive_words, edges, quantise
 from controller.device.board.board import Board
@@ -25,15 +26,7 @@ from controller.workshop.bank_builder.compact.trial import Trial
 from controller.workshop.bank_builder.interpolation_error import interpolation_error
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
-from controller.workshop.bank_builder.optimised import (
-    Cell,
-    Optimise,
-    Words,
-    contrast_of_plain,
-    kept_path,
-    optimised_words,
-    remove_kept,
-)
+from controller.workshop.bank_builder.optimised import Cell, Optimise, contrast_of_plain, kept_path, optimised_words, remove_kept
 from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.bank_builder.said_amplitude import said_amplitude

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import as_words, channel_bits, drive_words
@@ -18,8 +19,6 @@ from controller.device.board.board import Board
 from controller.device.board.relations.panel import coarse
 from controller.errors import ConfigError
 from controller.workshop.physics.responses.response_source import ResponseSource
-
-Floats = NDArray[np.float64]
 
 ROWS, PLACES_PER_ROW = 6, 8  # of the sample: 48 places; those of a row share their y, which makes their responses cheap
 SEED = 1

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats, Words
 from controller.device.bank.packing import WORD, channel_bits
 from controller.device.board.board import Board
 from controller.errors import WorkersError
@@ -25,8 +25,6 @@ from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.workers.map_kept import Mapped, map_kept
 from controller.workshop.workers.workers import Workers
 
-Words = NDArray[np.uint32]
-Floats = NDArray[np.float64]
 Cell = tuple[Any, ...]  # x_m, y_m; where the plate was measured, its plain drive words too
 
 # Raised whenever the words that methods/ finds for a cell change; an optimised bank of another version is optimised again.

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.arrays import Reals
 from controller.device.bank.file_format import REST_SAMPLES, Header, creator
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
@@ -27,8 +28,6 @@ from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.loaded_responses import words_source, yielding_alike
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.physics.responses.transformed_responses import TransformedResponses
-
-Reals = NDArray[np.floating[Any]]
 
 INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples

@@ -5,11 +5,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.responses.response_source import ResponseSource
-
-Floats = NDArray[np.float64]
 
 PLACES: Final = 64  # at which a bank is asked, a few a block
 QUANTILES: Final = (0.025, 0.5, 0.975)

@@ -9,8 +9,8 @@ from typing import Any, Final
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats, Words
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.board.panel import AssumedFinger
@@ -26,9 +26,6 @@ from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import PlateSound, decibels
 from controller.workshop.physics.word_capture import volts_above_idle
-
-Floats = NDArray[np.float64]
-Words = NDArray[np.uint32]
 
 OFF: Final = 0.005
 OWN: Final = "as board.toml"

@@ -9,16 +9,14 @@ from collections.abc import Iterable, Sequence
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats, Words
 from controller.device.board.board import Board
 from controller.workshop.benchmark.fingers_scenes import FingerScene
 from controller.workshop.benchmark.plate_under_test import PlateUnderTest
 from controller.workshop.physics.felt import felt_by_all_um
 from controller.workshop.physics.field import Field
 
-Floats = NDArray[np.float64]
-Words = NDArray[np.uint32]
 Errors = dict[str, float]
 
 STILL_M = 1e-12  # far below what a focus gives

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats, Words
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.workshop.bank_builder.methods.dual import farthest
@@ -21,9 +22,6 @@ from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import PlateSound
 from controller.workshop.physics.word_capture import volts_above_idle
-
-Floats = NDArray[np.float64]
-Words = NDArray[np.uint32]
 
 POLARITIES = 8  # sets of polarities of which the bound is computed, the most promising first
 ROUGHLY = (1.0, 0.3)  # how exactly these are compared, before the best one's bound is

@@ -5,9 +5,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.errors import CalibrationError
-
-Floats = NDArray[np.float64]
 
 BELOW: Final = 0.35  # of the rate: what lies above may be an alias
 LEAST_CORRELATION: Final = 0.5  # of the second track with what the channel played

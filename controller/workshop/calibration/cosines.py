@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct
 
+from controller.arrays import Floats
 from controller.workshop.calibration.kriging import NOISE, Prior, alike
 from controller.workshop.calibration.spectra import Spectra
-
-Floats = NDArray[np.float64]
 
 OFF_PLACE = 0.15  # of a cell: how far a point may lie off its place in a grid
 WINDOW = 7  # places along each side of the square from which one of them is estimated

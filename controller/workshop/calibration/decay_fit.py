@@ -7,10 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, rfft
 
+from controller.arrays import Floats
 from controller.device.board.panel import Waveform
 from controller.workshop.physics.responses.modal_response import band_gain
-
-Floats = NDArray[np.float64]
 
 PARTS = 5  # of the band
 RECORDS = 400  # at most

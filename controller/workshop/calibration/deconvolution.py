@@ -17,14 +17,13 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.records.drives import Drive, held_spectrum, transform
 from controller.workshop.calibration.records.measurements import Measurement, PointRecords
 from controller.workshop.calibration.transfers import RawBins, Transfers
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Kind = TypeVar("Kind", np.bool_, np.float64, np.complex64)
 
 REGULARISATION = 1e-5  # one sequence of noise leaves a bias of its root

@@ -14,14 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.records.drives import held_spectrum
 from controller.workshop.calibration.transfers import RawBins
 from controller.workshop.physics.responses.driver import DriverResponse
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 FACTORS = np.linspace(0.96, 1.04, 9)  # of the wavenumber, on what board.toml gives
 LEAST_PEAK = 4.0  # of the pulse that all records make together, over its rms
 AFTER_S = 45e-6  # length of the pulse of a band, and of the driver

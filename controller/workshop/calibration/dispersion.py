@@ -9,12 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from controller.arrays import Floats
 from controller.device.board.panel import Plate
 from controller.device.board.relations.bending_waves import MindlinPlate
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.spectra import Bins
-
-Floats = NDArray[np.float64]
 
 SAME_PLACE_M = 0.3e-3
 RECORDS = 96  # at most

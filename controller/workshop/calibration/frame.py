@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
-
-Floats = NDArray[np.float64]
 
 MOVED_M = 0.4e-3  # a frame that moves no point by more is left as stated: patches and edges leave so much open
 SURE = 4.0  # standard deviations

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
@@ -13,8 +14,6 @@ from controller.workshop.calibration.kriging import Prior, SpectralField, forese
 from controller.workshop.calibration.plate_size import GlassSize
 from controller.workshop.calibration.point_fit import PointFit
 from controller.workshop.calibration.spectra import Bins
-
-Floats = NDArray[np.float64]
 
 LEAST_SHARE = 0.8  # foreseen from the places of the points; farther from them nothing is estimated, and no scene may ask for it
 POINTS_AT_ONCE = 128  # transforms of 128 points take some 140 MB

@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, lapack
 from scipy.special import j0, j1
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.cores import cores, on_all_cores
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.spectra import Bins, Spectra
 
-Floats = NDArray[np.float64]
 Covariance = Callable[[int], Floats]
 
 NOISE = 0.003  # of the variance of the field, as is what is only near

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.checks import FATAL, NOISY_COHERENCE, Objection, raise_fatal
@@ -25,7 +26,6 @@ from controller.workshop.calibration.sensor_chain import SensorChain, loaded, se
 from controller.workshop.calibration.time_responses import responses_in_time
 from controller.workshop.calibration.transfers import Transfers
 
-Floats = NDArray[np.float64]
 CLOCK_POINTS = 4  # that the clock is found from
 CHAIN_POINTS = 24  # that a sensor's mass is found from
 WAVE_POINTS = 64  # that the direct wave is found from

@@ -16,8 +16,9 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
-from controller.workshop.calibration.direct_wave import NEAR_WAVELENGTHS, Complex, Floats, direct_wave
+from controller.workshop.calibration.direct_wave import NEAR_WAVELENGTHS, direct_wave
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.frame import MIRRORS, MeasuringFrame, middle_m
 from controller.workshop.calibration.transfers import RawBins

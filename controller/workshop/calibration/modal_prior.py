@@ -12,13 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.kriging import Covariance, SpectralField, Waves, krige
 from controller.workshop.calibration.spectra import Bins, Spectra
 from controller.workshop.calibration.wave_fit import WaveFit
 from controller.workshop.physics.modes.modes import Modes
-
-Floats = NDArray[np.float64]
 
 WIDENED_HZ = 600.0  # by which frequencies of the model may be wrong
 NEGLIGIBLE = 1e-3  # of the strongest mode's variance

@@ -11,11 +11,9 @@ from typing import Final, NamedTuple
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
-
-Floats = NDArray[np.float64]
 
 COARSE_MM: Final = np.arange(-5.0, 6.0)
 FINE_MM: Final = np.array([-0.5, 0.0, 0.5])

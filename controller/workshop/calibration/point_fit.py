@@ -18,13 +18,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.cores import on_all_cores
 from controller.workshop.calibration.kriging import Waves, inverse
 from controller.workshop.calibration.spectra import Bins, Spectra
 from controller.workshop.calibration.wave_fit import WaveFit, of_one_pattern
-
-Floats = NDArray[np.float64]
 
 BINS: Final = 24  # of the band; as many others say what is corrected
 STEPS: Final = 6

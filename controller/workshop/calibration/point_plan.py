@@ -11,11 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.calibration.dispersion import Dispersion
-
-Floats = NDArray[np.float64]
 
 POINTS_PER_HALF_WAVE = 1.5  # of the plate's edge: 250 on the paper's plate
 CANDIDATES = 12  # per point that is there already, of which the farthest from all is taken

@@ -14,9 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import Objection
-from controller.workshop.calibration.direct_wave import Complex, Floats, direct_transfer
+from controller.workshop.calibration.direct_wave import direct_transfer
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.locating import away_from_edges
 from controller.workshop.calibration.transfers import RawBins

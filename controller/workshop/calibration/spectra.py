@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 
+from controller.arrays import Floats
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
 from controller.workshop.calibration.cores import cores
@@ -20,7 +21,6 @@ from controller.workshop.calibration.records.drives import transform
 from controller.workshop.physics.responses.kept_rest import rest_rows, rest_taps
 from controller.workshop.physics.responses.modal_response import band_gain, edge_width_hz
 
-Floats = NDArray[np.float64]
 Spectra = NDArray[np.complex64]
 
 SILENCE = 0.25  # of an emission

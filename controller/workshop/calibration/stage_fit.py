@@ -14,14 +14,12 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 AFTER_S: Final = 60e-6  # the pulse of the band, and of the stage
 WAVENUMBERS: Final = np.linspace(-0.02, 0.02, 41)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import NOISY_COHERENCE
 from controller.workshop.calibration.deconvolution import Deconvolution
@@ -13,8 +14,6 @@ from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.records.measurements import Measurement
 from controller.workshop.calibration.transfers import Transfers
 from controller.workshop.physics.responses.response_source import Provenance, SourceFile
-
-Floats = NDArray[np.float64]
 
 EARLY_S = 0.4e-3, 0.9e-3  # before the pulse: noise alone, as the filter has rung out; as long before the end: what is left
 

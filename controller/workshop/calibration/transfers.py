@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.physics.responses.modal_response import edge_width_hz
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

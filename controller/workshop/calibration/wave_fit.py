@@ -11,13 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.kriging import Waves, krige
 from controller.workshop.calibration.spectra import Bins, Spectra
-
-Floats = NDArray[np.float64]
 
 POINTS = 400  # at most, of those there are
 PARTS = 6  # of the band

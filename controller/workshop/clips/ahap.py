@@ -14,8 +14,9 @@ from typing import Annotated, Final
 import numpy as np
 from msgspec import Meta, Struct, field
 
+from controller.arrays import Floats
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Floats, Tap, Vibration, bounded, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, bounded, decoded_json
 
 LONGEST_S: Final = 30.0  # of an event: Core Haptics plays no longer one
 INTENSITY_CONTROL, SHARPNESS_CONTROL = "HapticIntensityControl", "HapticSharpnessControl"

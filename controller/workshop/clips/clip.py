@@ -7,8 +7,8 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.validation import NO_JSON
 from controller.errors import ConfigError
 from controller.text_file import read_text
@@ -20,7 +20,6 @@ SPARE_COMMA = re.compile(
     r'("(?:\\.|[^"\\])*")|,(?=\s*[}\]])'
 )  # behind the last of a list: some tools write it, and Apple's reads it
 NEUTRAL = 0.5  # sharpness, where a file has none
-Floats = NDArray[np.float64]
 
 
 class Curve(NamedTuple):

@@ -14,8 +14,8 @@ from typing import Annotated, Any
 import msgspec
 import numpy as np
 from msgspec import Meta
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS, FPGAS_MAX, Actuator, Driver, Plate
 from controller.device.board.records import Record, as_record, load_toml
@@ -23,8 +23,6 @@ from controller.device.board.relations.panel import PLACES
 from controller.device.fpga.bitstream import read_identity
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.errors import ConfigError
-
-Floats = NDArray[np.float64]
 
 
 class ActualPatch(Record, frozen=True, kw_only=True):

@@ -12,14 +12,13 @@ overdamped mode's frequency less finely than what contains its slow return.
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
-
-Floats = NDArray[np.float64]
 
 AUDIBLE_HZ = 16e3
 REST_TAUS = 10.0  # of ringing after the last step: e^-10 of the slowest amplitude is left

@@ -11,15 +11,14 @@ spreads their rates more widely.
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import Plate
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.retuned import retuned
 from controller.workshop.physics.modes.ritz_modes import RitzModes
 
-Floats = NDArray[np.float64]
 Rectangle = tuple[float, float, float, float]  # x from, to, y from, to, in m
 
 SPARE_NODES = 12  # of Gauss, beyond half the phase of what is integrated: error below 1e-9

@@ -10,10 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.workshop.physics.motion import DERIVATIVE, PlateMotion
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 MODES_AT_ONCE: Final = 16
 KEPT_BYTES: Final = 256 << 20

@@ -27,14 +27,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.waveforms.pad import PAD_M
 from controller.workshop.physics.finger import Finger
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.pad_motion import PadMotion
 from controller.workshop.physics.word_capture import volts_above_idle
-
-Floats = NDArray[np.float64]
 
 AROUND_S = 0.2e-3  # before and after T
 SKIN_S = 1e-4  # tau

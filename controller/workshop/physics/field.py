@@ -12,16 +12,15 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.modes.modes import Modes, at_points
 from controller.workshop.physics.plate import MIDDLE_HZ, WAVELENGTH_M, wave_scale
 from controller.workshop.physics.responses.step_response import StepResponse
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 
 # On the paper's plate; `FocusScale` has them for others

@@ -20,15 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import channel_forces
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 WINDOW_LENGTHS = 2.0  # of the window, in times from the start to the last that is asked for
 DYING = 12.0  # sigma W

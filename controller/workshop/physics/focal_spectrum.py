@@ -12,19 +12,17 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 from scipy.signal import czt
 from scipy.special import j0, k0, y0
 
+from controller.arrays import Floats
 from controller.device.board.panel import Driver, Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.design.design import characteristic_time_s, one_bit_share, point_impedance_kg_s
 from controller.workshop.physics.felt import AROUND_S, SKIN_S, FeltLoad, felt_history
 from controller.workshop.physics.pad_motion import pad_points
 from controller.workshop.physics.responses.driver import DriverResponse
-
-Floats = NDArray[np.float64]
 
 FREQUENCIES = 401
 DIRECTIONS = 91

@@ -9,13 +9,11 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 AT_ONCE = 64  # times, or steps, whose modes are in memory together
 SETTLED_V = 1e-6  # of a driver's transient

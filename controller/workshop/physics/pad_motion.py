@@ -10,16 +10,14 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy import fft
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.physics.finger import DYING, MODES_AT_ONCE, WINDOW_LENGTHS, Finger
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import channel_forces
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 RINGS, PER_RING = 3, 12  # points of a pad
 HIGHEST = 1.25  # frequency, over that of the highest mode

@@ -18,13 +18,12 @@ from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from scipy.linalg import eigh
 
+from controller.arrays import Floats
 from controller.device.board.panel import Actuator, Plate
 from controller.device.board.patches import Patch, Patches
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
 from controller.errors import ConfigError
 from controller.workshop.physics.modes.modes import Modes, TensorFactors
-
-Floats = NDArray[np.float64]
 
 BASIS = 1.25  # highest frequency of the bare plate's modes, over that of the modes asked for
 MOST_MODES = 8_000  # of the bare plate: two matrices of half a gigabyte, ten minutes

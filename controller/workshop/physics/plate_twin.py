@@ -13,11 +13,12 @@ from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats, Reals
 from controller.device.bank.packing import as_words, channel_bits
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
@@ -33,9 +34,6 @@ from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
 from controller.workshop.physics.word_capture import volts_above_idle
 
-Floats = NDArray[np.float64]
-Reals = NDArray[np.floating[Any]]
-Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 
 GAP_BITS = 16

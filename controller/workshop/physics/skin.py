@@ -14,10 +14,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-Floats = NDArray[np.float64]
+from controller.arrays import Floats
 
 RELATIVE_ERROR = 1e-6  # of a step: a throw is within 1e-3
 ABSOLUTE_ERROR = (1e-11, 1e-6, 1e-11)  # m, m/s, m

@@ -10,8 +10,8 @@ endless train these are all that there is, and what has died away within a perio
 import numpy as np
 from numpy.polynomial.chebyshev import chebpts1, chebvander
 from numpy.polynomial.legendre import leggauss
-from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats, Words
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.workshop.physics.audible import REST_TAUS
@@ -19,10 +19,6 @@ from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import channel_forces
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-Words = NDArray[np.uint32]
 
 AIR_KG_M3, SOUND_M_S = 1.204, 343.2  # at 20 degrees Celsius
 THRESHOLD_PA = 20e-6

@@ -14,16 +14,15 @@ from collections.abc import Iterable
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.layers import laminate
 from controller.device.board.panel import Plate
 from controller.device.board.parts import Parts
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.modes.modes import Modes
-
-Floats = NDArray[np.float64]
 
 GLASS_PA: Final = 45e6
 CERAMIC_PA: Final = 27.6e6

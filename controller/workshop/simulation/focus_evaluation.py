@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
-from numpy.typing import NDArray
 
 from controller.device.scene.emission import Emission
 from controller.device.touch.recordings.recording import Track
@@ -23,7 +22,6 @@ from controller.workshop.simulation.drift import FORGOTTEN, since
 from controller.workshop.simulation.simulated_run import Run
 
 Point = tuple[float, float]
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

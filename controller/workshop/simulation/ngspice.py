@@ -9,12 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.errors import ControllerError
 from controller.programs import CannotStart, ProgramError, last_line, run_program
-
-Floats = NDArray[np.float64]
 
 LIMIT_S = 1800.0  # that a simulation may take
 

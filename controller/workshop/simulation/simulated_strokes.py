@@ -3,14 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.touch import event_codes as ev
 from controller.device.touch.event_reader import AxisInfo, DeviceDescription, Event
 from controller.device.touch_calibration.event_capture import EV_REL, REL_X, REL_Y, recording_text
 
-Floats = NDArray[np.float64]
 UNITS_PER_MM = 20
 FINE_S = 0.25e-3  # steps of the finger's path
 

@@ -8,9 +8,9 @@ from collections import defaultdict
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from controller.arrays import Floats
 from controller.device.bank.expectation import lags_s
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
@@ -24,7 +24,6 @@ from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.word_capture import volts_above_idle
 from controller.workshop.tolerance.tolerances import Tolerances, draw
 
-Floats = NDArray[np.float64]
 Found = defaultdict[str, list[float]]
 
 MASSES_KG: Final = (0.0, 30e-6, 50e-6, 70e-6, 90e-6, 120e-6, 150e-6)

@@ -4,15 +4,13 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from controller.arrays import Floats
 from controller.device.board.paths import make_folder, state_folder
 from controller.workshop.tolerance.study import BANKS, FIGURES, Item, Study, nominal_of
 from controller.workshop.workers.map_kept import map_kept
 from controller.workshop.workers.workers import Workers
-
-Floats = NDArray[np.float64]
 
 PLATES_MAX: Final = 1_000_000
 AT_ONCE: Final = 4  # plates of a task: some seconds

@@ -13,13 +13,11 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 BLOCK = 32  # samples: exponentials are products of those at the blocks' starts and those within a block
 

@@ -15,6 +15,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.file_format import creator
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
@@ -30,7 +31,6 @@ from controller.workshop.tolerance import played, tolerances
 from controller.workshop.tolerance.played import PlayedPlate
 from controller.workshop.tolerance.tolerances import DrawnPlate, Tolerances, draw
 
-Floats = NDArray[np.float64]
 Words = list[NDArray[np.uint32]]
 Item = tuple[int, str | None]
 

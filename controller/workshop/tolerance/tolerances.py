@@ -8,16 +8,14 @@ from typing import Annotated, Any, Final
 import msgspec
 import numpy as np
 from msgspec import Meta
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS, Plate
 from controller.device.board.patches import discs
 from controller.device.board.records import Record
 from controller.device.board.relations.panel import PLACES
 from controller.errors import ConfigError
-
-Floats = NDArray[np.float64]
 
 SHIPPED: Final = Path(__file__).with_name("tolerances.toml")
 CUT: Final = 3.0  # sigma: what lies beyond is sorted out

@@ -18,6 +18,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.file_format import creator
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
@@ -34,8 +35,6 @@ from controller.workshop.physics.pad_motion import PadMotion
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.word_capture import volts_above_idle
 from controller.workshop.tolerance.tolerances import Tolerances, draw
-
-Floats = NDArray[np.float64]
 
 KINDS: Final = ("simply supported", "free", "clamped", "foam", "mixed")  # edges; all but the first by Mindlin's theory
 RECORD_DECAYS: Final = 1.0  # length of a record, in decay times of the board's plate

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
+from controller.arrays import Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
@@ -39,8 +40,6 @@ CELLS_AT_ONCE: Final = 128
 COLUMNS_AT_ONCE: Final = 512
 PITCHES: Final = (0.45, 0.485, 0.51)  # of the shortest wave; the middle one where none is asked for
 WORSE_THAN_EXPECTED: Final = 8.0  # a place at a side of the plate, as far as was seen
-
-Reals = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,12 +11,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
 from controller.device.kernel import compact_twin
 from controller.errors import ConfigError
-
-Floats = NDArray[np.float64]
 
 TURNS: Final = 50
 RELAXATION: Final = 1.7  # of what changes in a turn

@@ -5,16 +5,15 @@ turns, those of cells that no place shares at once (coordinate descent).
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Reals
 from controller.device.bank.packing import CHANNELS, SCALE_BITS
 from controller.device.kernel import compact_twin
 from controller.workshop.bank_builder.compact.stencils import CompactStencil
-
-Reals = NDArray[np.floating[Any]]
 
 LOUDEST_RMS: Final = 2.5  # of a block: louder weights are cut; times one of these, whichever leaves the least error
 TRIED: Final = (0.75, 0.85, 0.95, 1.05, 1.2)

@@ -13,13 +13,12 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.grid import Grid
 from controller.device.board.panel import Plate
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.kernel import compact_twin
 from controller.workshop.bank_builder.compact.pulses import ROUNDING_NOISE
-
-Floats = NDArray[np.float64]
 
 WHOLE: Final = 8192  # what a weight of 1 is
 REACH: Final = 3  # cells

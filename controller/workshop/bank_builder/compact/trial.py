@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Reals
 from controller.device import kernel
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
@@ -14,8 +15,6 @@ from controller.device.waveforms.composition import block_samples
 from controller.workshop.bank_builder.compact.design import CompactDesign
 from controller.workshop.bank_builder.interpolation_error import DIGITS
 from controller.workshop.physics.responses.response_source import ResponseSource
-
-Reals = NDArray[np.floating[Any]]
 
 PLACES: Final = 48
 SEED: Final = 2  # other places than those from which pulses were learned

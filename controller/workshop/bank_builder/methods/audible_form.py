@@ -7,8 +7,8 @@ form of the 32 channels, positive by construction. Samples that are close in tim
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS, Waveform
 from controller.workshop.bank_builder.methods.exact import rounded
@@ -16,8 +16,6 @@ from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlat
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import HEARD_HZ, a_weighting
-
-Floats = NDArray[np.float64]
 
 BINS_PER_LINE = 4  # bins for each line of a spectrum of an emission's length: its power is known from two
 FINE = 10  # frequencies averaged over a bin: a mode may be narrower

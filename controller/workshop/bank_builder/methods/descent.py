@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
@@ -39,8 +40,6 @@ from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlat
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.bank_builder.methods.settling import settle
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-
-Floats = NDArray[np.float64]
 
 LEVELS = 64  # to which relaxed levels are rounded before they become bits
 STEPS_BEFORE_WEIGHING = 5  # relaxation steps between two corrections of the weight of the amplitude

@@ -5,9 +5,8 @@ however it blocks, so the same waveforms come out on every machine, and whicheve
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from controller.arrays import Floats
 
 
 def rounded(values: Floats, bits: int, axis: int | tuple[int, ...] | None = None) -> Floats:

@@ -5,15 +5,14 @@ amplitude is quadratic in them. The derivative at some bits is linear in further
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.physics.felt import AROUND_S, LIGHT_TOUCH, SKIN_S, felt_history, pads
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
-Floats = NDArray[np.float64]
 PULL_BITS = 18  # of the derivative, so that its products with levels add up exactly
 
 

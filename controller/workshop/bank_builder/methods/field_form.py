@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
@@ -18,8 +19,6 @@ from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.bank_builder.methods.measured_plate import MeasuredDrive, MeasuredPlate
 from controller.workshop.physics.field import FocusScale, map_axis
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-
-Floats = NDArray[np.float64]
 
 TABLE_BITS = 15  # of kernel and forces
 PLACE_BITS = 12  # of mode shapes

@@ -13,11 +13,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import CHANNELS
 from controller.durable import write_durably
 from controller.workshop.bank_builder.methods.exact import rounded
-
-Floats = NDArray[np.float64]
 
 # With 1,024 lines and 4,096 cosines, sums of products stay below 2^53
 TABLE_BITS = 15  # of lines and of what they move

@@ -1,9 +1,8 @@
 """The bits of one sample: rounded, then flipped where that gains."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from controller.arrays import Floats
 
 FLIPS_PER_SAMPLE = 3  # of one cell in one pass of the descent
 

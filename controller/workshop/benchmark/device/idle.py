@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.benchmark.focus.focus_figures import emit, idling_low, random_points, spread
 from controller.workshop.benchmark.focus.sound_figures import ramp_samples, ramp_words
@@ -27,9 +28,7 @@ from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
 Bits = NDArray[np.bool_]
-Floats = NDArray[np.float64]
 Responses = NDArray[np.floating[Any]]
-Words = NDArray[np.uint32]
 
 RAMPS_MS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 NOTHING = np.zeros(0, np.uint32)

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from controller.arrays import Floats, Words
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import WORD, edges
 from controller.device.bank.reader import Bank
@@ -28,9 +28,7 @@ from controller.workshop.physics.pictures.figure_file import save_figure
 from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.plate_twin import PlateTwin
 
-Floats = NDArray[np.float64]
 Figures = dict[str, Any]
-Words = NDArray[np.uint32]
 
 # On the paper's plate; on others they go with the length of its waves
 MARGIN_M = 12e-3  # distance of fingers from the plate's edges

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.panel import Plate
@@ -30,8 +31,6 @@ from controller.workshop.physics.responses.modal_history import Energy, ModalMot
 from controller.workshop.physics.sound import PlateSound
 from controller.workshop.physics.stress import CELLS_A_WAVE, curvatures, focal_stress
 from controller.workshop.physics.word_capture import volts_above_idle
-
-Floats = NDArray[np.float64]
 
 PULSE: Floats = np.linspace(-0.6, 0.6, 81)  # times around T at which the pulse is looked at, in periods of the band's middle
 ELSEWHERE = 9  # places of a finger beside the foci

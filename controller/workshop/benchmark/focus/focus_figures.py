@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
+from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.workshop.physics.audible import surface_energy
@@ -24,7 +25,6 @@ from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import PlateSound, decibels
 from controller.workshop.physics.word_capture import capture_of_words
 
-Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 
 # On the paper's plate; on others they go with the length of its waves

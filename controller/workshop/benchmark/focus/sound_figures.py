@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Words
 from controller.device.bank.packing import drive_words
 from controller.device.board.board import Board
 from controller.workshop.gateware.model.pins import ramp_bits
 from controller.workshop.physics.sound import PlateSound, decibels
 
 Figures = dict[str, Any]
-Words = NDArray[np.uint32]
 
 RATES_HZ = (50, 200)  # of a train that buzzes, and of one that hums
 

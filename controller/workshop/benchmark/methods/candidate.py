@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Words
 from controller.device.bank.packing import WORD
 from controller.device.kernel import SHORT_FRAME_BYTES, Point, load_frames_bytes
 
-Words = NDArray[np.uint32]
 Place = tuple[float, float]
 COMMAND_FRAMES = 4  # STORE, PLAY and a NOP for the answer to each
 RESIDENT_WIRE_BYTES = 2 * SHORT_FRAME_BYTES

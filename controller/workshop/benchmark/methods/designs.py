@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, partial
 from typing import Any
 
+from controller.arrays import Words
 from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.workshop.bank_builder.methods.descent import AIMS, Descent
@@ -11,7 +12,7 @@ from controller.workshop.bank_builder.methods.design import DesignMethod
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition
 from controller.workshop.bank_builder.methods.nulls import ExactNulls
 from controller.workshop.bank_builder.methods.plain import SignOfSum
-from controller.workshop.benchmark.methods.candidate import Candidate, Place, Words, wire_bytes
+from controller.workshop.benchmark.methods.candidate import Candidate, Place, wire_bytes
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 

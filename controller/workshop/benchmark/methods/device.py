@@ -3,20 +3,14 @@
 from collections.abc import Iterator, Sequence
 from functools import partial
 
+from controller.arrays import Words
 from controller.device import kernel
 from controller.device.bank.reader import Bank
 from controller.device.fpga.frames import ReadyFrames, Waveform
 from controller.device.kernel import Point, unpack_loads, words_twin
 from controller.device.waveforms.composition import Composer
 from controller.device.waveforms.selection import Key, Selection
-from controller.workshop.benchmark.methods.candidate import (
-    RESIDENT_WIRE_BYTES,
-    Candidate,
-    Place,
-    Words,
-    wire_bytes,
-    words_of_buffer,
-)
+from controller.workshop.benchmark.methods.candidate import RESIDENT_WIRE_BYTES, Candidate, Place, wire_bytes, words_of_buffer
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 
 CELL_PITCHES_MM = (1.0, 2.5, 5.0, 10.0)

@@ -10,10 +10,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Words
 from controller.device.bank.packing import drive_words
 from controller.device.kernel import Point
 from controller.workshop.benchmark.methods.baseband import pulse_matrix
-from controller.workshop.benchmark.methods.candidate import Candidate, Words, wire_bytes
+from controller.workshop.benchmark.methods.candidate import Candidate, wire_bytes
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 

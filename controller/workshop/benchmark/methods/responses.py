@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from controller.arrays import Words
 from controller.device.bank.packing import CHANNELS, drive_words
 from controller.device.kernel import Point
-from controller.workshop.benchmark.methods.candidate import Candidate, Words, wire_bytes
+from controller.workshop.benchmark.methods.candidate import Candidate, wire_bytes
 from controller.workshop.benchmark.methods.interpolation import BandInterpolation, Interpolation, bilinear, cubic, nearest
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.benchmark.methods.response_table import Floats, ResponseTable

@@ -3,8 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.benchmark.focus.focus_emission import emission_figures
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
@@ -13,7 +13,6 @@ from controller.workshop.physics.design import design
 from controller.workshop.physics.field import Field
 from controller.workshop.physics.responses.modal_history import Energy, modal_energy, modal_history
 
-Floats = NDArray[np.float64]
 AFTER_S = 3e-3  # fig. 8 ends 3 ms after T
 SCAN_M = 2e-3  # steps of the paper's vibrometer
 SETTLED_S = 0.2e-3  # after T, from when on the decay is measured

@@ -10,16 +10,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from controller.arrays import Floats
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
 from controller.workshop.benchmark.paper.paper_row import Row, rows
 from controller.workshop.physics.design import design
 from controller.workshop.physics.finger import Finger, point_motion
 from controller.workshop.physics.skin import Pulp, SkinMotion, skin_motion
-
-Floats = NDArray[np.float64]
 
 MASSES_MG = (10.0, 20.0, 35.0, 50.0, 70.0, 100.0, 140.0, 230.0)
 SHOWN_MG = (20.0, 100.0, 140.0, 230.0)

@@ -6,8 +6,8 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.grid import Grid
 from controller.device.bank.reader import Bank
 from controller.workshop.bank_builder.build import build_bank
@@ -23,7 +23,6 @@ from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.word_capture import capture_of_words
 
-Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 
 HALF_POWER = 0.5**0.5

@@ -9,9 +9,9 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats.qmc import Halton
 
+from controller.arrays import Floats
 from controller.device.board.panel import Foam
 from controller.device.board.relations.bending_waves import mindlin_shift
 from controller.device.touch.prediction import Motion
@@ -22,8 +22,6 @@ from controller.workshop.physics.modes.retuned import drifted
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import StepResponse
-
-Floats = NDArray[np.float64]
 
 CLOCKS_HZ = (1e6, 500e3, 250e3, 200e3)
 OFF_MM = (1.0, 2.0, 3.0)

@@ -4,8 +4,9 @@ from functools import cached_property
 
 import msgspec
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from controller.arrays import Floats, Words
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.benchmark.focus.focus_emission import FocusEmission
@@ -17,9 +18,6 @@ from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.modal_response import band_limited_response
 from controller.workshop.physics.responses.step_response import StepResponse
 from controller.workshop.physics.word_capture import volts_above_idle
-
-Floats = NDArray[np.float64]
-Words = NDArray[np.uint32]
 
 MARGIN_M = 20e-3  # of the foci from the edges, where their mirror images weaken them
 DIRECTIONS = 8

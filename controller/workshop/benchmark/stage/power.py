@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import CHANNELS, WORD, channel_bits
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
@@ -21,7 +22,6 @@ from controller.device.board.panel import Driver
 from controller.device.board.relations.stage_heat import half_charge_j, worst_edge_j
 from controller.workshop.physics.responses.driver import DriverResponse
 
-Floats = NDArray[np.float64]
 ENTRIES_PER_BLOCK = 256  # one sample of them stays in the cache
 
 

@@ -7,8 +7,9 @@ from typing import Final
 
 import numpy as np
 
+from controller.arrays import Floats
 from controller.device.board.lookup import data_folder
-from controller.workshop.simulation.ngspice import Floats, Traces, transient
+from controller.workshop.simulation.ngspice import Traces, transient
 
 NETLISTS: Final = ("models.lib", "stage.cir", "supply.cir")
 Parts = Mapping[str, float]

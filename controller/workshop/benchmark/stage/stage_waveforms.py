@@ -11,6 +11,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
+from controller.arrays import Floats
 from controller.workshop.benchmark.stage.stage_benches import FAULT_PULSE_S
 from controller.workshop.benchmark.stage.stage_circuit import (
     ALIVE_HZ,
@@ -23,7 +24,7 @@ from controller.workshop.benchmark.stage.stage_circuit import (
     stage,
     through_both,
 )
-from controller.workshop.simulation.ngspice import Floats, Traces, transient
+from controller.workshop.simulation.ngspice import Traces, transient
 
 COLOURS: Final = ("#1f4e79", "#7a1f1f", "#2e7d32", "#b45309")
 POINTS: Final = 400  # of a trace, at most

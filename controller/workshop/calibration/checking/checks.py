@@ -7,11 +7,11 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.direct_wave import DirectWaves
 
-Floats = NDArray[np.float64]
 FatalKind = Literal["dead", "swapped", "inverted", "clipped", "strength", "unit", "mass"]
 Kind = FatalKind | Literal["missing", "noisy", "delay", "clock", "board", "short", "band", "frame", "undecided", "load"]
 FATAL: tuple[Kind, ...] = get_args(FatalKind)  # what makes a bank wrong, unless it is accepted

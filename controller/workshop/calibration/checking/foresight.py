@@ -1,16 +1,14 @@
 """What measured points will tell of the places between them, from where they lie alone."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.kriging import Waves, foreseen_shares
 from controller.workshop.calibration.spectra import Bins
 from controller.workshop.calibration.wave_fit import EDGE_VARIANCES
-
-Floats = NDArray[np.float64]
 
 PLACES = 400  # of the cells of the bank
 BINS = 8

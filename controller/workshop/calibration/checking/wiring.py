@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from controller.arrays import Floats
 from controller.workshop.calibration.direct_wave import DirectWaves
-
-Floats = NDArray[np.float64]
 
 FIRST_POINTS = 8  # that mostly give a verdict, 30 mm from the edges
 SIGNIFICANT = 3.0  # standard errors

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from controller.workshop.calibration.deconvolution import Complex, Deconvolution
+from controller.arrays import Complex
+from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.records.measurements import PointRecords
 
 WIDEST_PPM = 600.0

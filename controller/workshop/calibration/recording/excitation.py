@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import hadamard
 
+from controller.arrays import Words
 from controller.device.bank import packing
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 
-Words = NDArray[np.uint32]
 Kind = Literal["chirp", "noise"]
 
 BEYOND: Final = 0.8, 1.06  # of the band's edges: what is swept, so that its edges are learned too

@@ -12,6 +12,7 @@ from typing import Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.clocks import Clock
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
@@ -20,8 +21,6 @@ from controller.device.fpga.registers import Start
 from controller.device.fpga.session import Session
 from controller.errors import CalibrationError, LinkError
 from controller.workshop.calibration.alignment import begin_of, shifted
-
-Floats = NDArray[np.float64]
 
 BEFORE_S: Final = 0.2e-3  # of a record, before the first drive word, to the nearest sample
 LEAD_S: Final = 20e-3  # from the start of the recorder to the first emission, beside the time that an upload takes

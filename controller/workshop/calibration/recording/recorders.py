@@ -6,12 +6,10 @@ from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.kernel.crc import intact
 from controller.errors import CalibrationError, ConfigError, LinkError
-
-Floats = NDArray[np.float64]
 
 GREETING: Final = re.compile(rb"SENSOR 1 ([0-9.e+]+) ([0-9.e+-]+) (\d+)\n")  # rate in Hz, full scale in the unit, most samples
 ANSWER_S: Final = 2.0

@@ -13,6 +13,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.identity import simulated_identity
@@ -26,8 +27,6 @@ from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.modes.retuned import drifted
 from controller.workshop.physics.motion import PlateMotion
-
-Floats = NDArray[np.float64]
 
 STAMP: Final = "simulated.json"
 DATE: Final = "2026-01-01"  # of every simulation: the same options give the same files

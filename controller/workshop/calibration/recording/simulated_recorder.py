@@ -4,16 +4,14 @@ from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture, merged
 from controller.workshop.physics.even_motion import EvenMotion
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.motion import PlateMotion
-
-Floats = NDArray[np.float64]
 
 
 class CapturedPins(Protocol):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import CZT
 
+from controller.arrays import Complex, Floats
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
@@ -21,8 +22,6 @@ from controller.workshop.calibration.records.measurement_file import (
 )
 from controller.workshop.calibration.records.record_formats import load_array
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 MOST_WORDS = 4_000_000  # of an emission, and of all of them
 SWEEP_OVERSAMPLING = 16  # samples of a period of a sweep's highest frequency
 LEAST_SWEEP_RATE_HZ = 1e6  # or the spectrum of a low sweep repeats within the band

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Words
 from controller.device.fpga.registers import CHANNELS
 from controller.workshop.gateware.model.activity_limits import (
     CHANNEL_EDGES,
@@ -19,8 +19,6 @@ from controller.workshop.gateware.model.activity_limits import (
     LimitSettings,
 )
 from controller.workshop.gateware.model.edge_counts import ALL, COUNTED_TICKS, NO_EDGES, EdgeCounts, Ticks, part_ticks, turn
-
-Words = NDArray[np.uint32]
 
 PULSE_TICKS = 2  # from a change to its cause: short pulse
 TOTAL_TICKS = 3  # the same for the edges of all channels

@@ -10,11 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Words
 from controller.device.fpga.capture import Capture
 from controller.workshop.gateware.model.limits import StageLimits
-
-Words = NDArray[np.uint32]
-
 
 WHOLE = 1 << 16  # one tick, in parts of a tick
 

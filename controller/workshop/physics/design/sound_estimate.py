@@ -6,16 +6,14 @@ for a plate in a baffle, at most that of the critical frequency.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
+from controller.arrays import Floats
 from controller.device.board.panel import Driver, Plate
 from controller.device.board.relations.bending_waves import kirchhoff_wavelength_m
 from controller.workshop.physics.design.design_inputs import DesignInputs
 from controller.workshop.physics.focal_spectrum import FocalSpectrum
 from controller.workshop.physics.sound import AIR_KG_M3, DISTANCE_M, HEARD_HZ, SOUND_M_S, a_weighting
-
-Floats = NDArray[np.float64]
 
 LOWEST_HZ = 50.0  # below, weighting A leaves nothing
 

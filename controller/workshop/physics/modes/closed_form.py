@@ -16,12 +16,11 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import Actuator, Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.errors import ConfigError
 from controller.workshop.physics.modes.modes import by_factor
-
-Floats = NDArray[np.float64]
 
 MAX_MODES = 30_000  # 15 times the paper's plate
 

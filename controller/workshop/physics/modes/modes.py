@@ -8,9 +8,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import Actuator
-
-Floats = NDArray[np.float64]
 
 POINTS_AT_ONCE = 256  # half a megabyte of a grid
 

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import Support
 
-Floats = NDArray[np.float64]
 Parity = Literal["even", "odd"]
 
 SPLINE_DEGREE = 9

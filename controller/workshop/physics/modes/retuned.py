@@ -3,12 +3,8 @@
 import dataclasses
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from controller.arrays import Floats
 from controller.workshop.physics.modes.modes import Modes
-
-Floats = NDArray[np.float64]
 
 
 def retuned(modes: Modes, angular_frequency: Floats | None = None, decay_rate: Floats | None = None) -> Modes:

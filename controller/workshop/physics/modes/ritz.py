@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import Support
 from controller.errors import ConfigError
 from controller.workshop.physics.modes.mode_count import mode_count
@@ -28,7 +28,6 @@ from controller.workshop.physics.modes.one_dimensional_basis import (
     spline_breaks,
 )
 
-Floats = NDArray[np.float64]
 Pair = tuple[float, float]
 Ends = tuple[tuple[Support, Support], tuple[Support, Support]]
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import Actuator, Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.errors import ConfigError
@@ -20,8 +21,6 @@ from controller.workshop.physics.modes.mode_cache import solved
 from controller.workshop.physics.modes.mode_count import mode_count
 from controller.workshop.physics.modes.modes import TensorFactors
 from controller.workshop.physics.modes.ritz import ModeClass, PlateShape, longest_matrix
-
-Floats = NDArray[np.float64]
 
 LONGEST_MATRIX = 6_500  # functions of a class of modes: 0.34 GB a matrix, two of which are needed, and a minute
 AT_ONCE = 4_000_000  # numbers in use between the two sums of a shape: 32 MB

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import as_words, channel_bits
 from controller.workshop.physics.modes.modes import slowest_decay_s
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.modal_history import modal_history
-
-Floats = NDArray[np.float64]
 
 SHOWN_CHANNELS = 4
 PARTS = 4  # of a bit, each a time

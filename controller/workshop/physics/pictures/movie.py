@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import as_words
 from controller.errors import ConfigError
 from controller.workshop.physics.field import map_axis
@@ -23,7 +24,6 @@ from controller.workshop.physics.responses.modal_history import STATES_AT_ONCE
 from controller.workshop.physics.responses.step_response import StepResponse
 from controller.workshop.physics.word_capture import volts_above_idle
 
-Floats = NDArray[np.float64]
 Frames = NDArray[np.float32]
 
 FRAMES = 151  # where no number is asked for

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.arrays import Reals
 from controller.workshop.physics.responses.response_source import ResponseSource
-from controller.workshop.physics.responses.transformed_responses import Reals, TransformedResponses
+from controller.workshop.physics.responses.transformed_responses import TransformedResponses
 
 REACH = 16
 KAISER = 8.0

@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from controller.arrays import Complex
 from controller.device.board.panel import Driver
-
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

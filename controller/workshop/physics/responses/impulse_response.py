@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
@@ -21,7 +22,6 @@ from controller.workshop.physics.responses.modal_response import band_limited_re
 from controller.workshop.physics.responses.row_responses import RowResponses, in_rows
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
 
-Floats = NDArray[np.float64]
 POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough to stay in the cache
 
 

@@ -11,11 +11,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
 from controller.workshop.physics.responses.modal_response import band_gain
-
-Floats = NDArray[np.float64]
 
 BESIDE: Final = 0.1  # power of the bits beside the band, over the most within it
 ROWS: Final = 64  # that are solved for together; the middle one is taken

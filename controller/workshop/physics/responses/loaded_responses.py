@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
+from controller.arrays import Reals
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.finger import DYING, Finger, of_modes_above
@@ -22,7 +23,7 @@ from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.drifting_responses import DriftingResponses
 from controller.workshop.physics.responses.response_source import ResponseSource
-from controller.workshop.physics.responses.transformed_responses import Reals, TransformedResponses
+from controller.workshop.physics.responses.transformed_responses import TransformedResponses
 
 
 class LoadedResponses(TransformedResponses):

@@ -9,13 +9,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.step_response import StepResponse
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 STATES_AT_ONCE = 500_000  # of poles, at some times: 8 MB an array, six of them
 

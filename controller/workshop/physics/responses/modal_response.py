@@ -18,10 +18,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.workshop.physics.responses.step_response import StepResponse
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 EDGE_HZ = 8e3
 SETTLED = 14  # decay times after which the rest of a response is below 1e-6
 FILTER_PERIODS = 50  # of the width of its edges, after which the rest of the filter's own response is below 1e-6

@@ -1,14 +1,11 @@
 """Responses of the channels of one FPGA, from those of all that drive the plate."""
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike
 
+from controller.arrays import Reals
 from controller.device.board.panel import CHANNELS
 from controller.workshop.physics.responses.response_source import ResponseSource
-
-Reals = NDArray[np.floating[Any]]
 
 
 class PartOfResponses:

@@ -7,14 +7,12 @@ modes of one factor along x, weighted for a row, are the right factor of a GEMM 
 """
 
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Reals
 from controller.workshop.physics.modes.modes import TensorFactors
-
-Reals = NDArray[np.floating[Any]]
 
 POINTS_PER_ROW = 8  # fewer points a row than this on average, and the one large GEMM is as fast
 

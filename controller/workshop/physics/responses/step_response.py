@@ -17,12 +17,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Number = TypeVar("Number", np.float64, np.complex128)
 
 

@@ -1,16 +1,14 @@
 """Responses of another source, changed one point at a time by what is linear and causal: what a finger or a drift makes of them."""
 
 from abc import ABC, abstractmethod
-from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike
 
+from controller.arrays import Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.workshop.physics.responses.response_source import ResponseSource
-
-Reals = NDArray[np.floating[Any]]
 
 
 class TransformedResponses(ABC):

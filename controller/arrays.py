@@ -1,0 +1,11 @@
+"""Arrays by the kind of their numbers; a shape stands in the docstring of what has one."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Reals = NDArray[np.floating[Any]]
+Complex = NDArray[np.complex128]
+Words = NDArray[np.uint32]
