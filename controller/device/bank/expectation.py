@@ -28,7 +28,7 @@ PER_K: Final = -2e-4  # of the frequencies of glass, where the board has no [tem
 COEFFICIENT: Final = 0.1  # stated: standard deviation of a coefficient, over itself
 READING_K: Final = 0.5  # stated: of a sensor's readings
 ROOM_K: Final = 10 / math.sqrt(3)  # stated: of a plate without a reading, within 10 K of what it was measured at
-# Measured on plates drawn from production tolerances, simply supported, Kirchhoff (`workshop/tolerance/expectation_fit.py`)
+# Measured on plates drawn from production tolerances, simply supported, Kirchhoff (`tests/workshop/tolerance/expectation_fit.py`)
 DETUNED: Final = 0.70  # of the loss that a lag of all waves alike foresees, at T
 FELT_DETUNED: Final = 0.18  # of that, in what is felt
 FOCI: Final = -0.405  # power of the number of foci with which the amplitude of each goes

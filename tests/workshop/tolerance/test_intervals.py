@@ -9,12 +9,12 @@ import pytest
 from small_plate import WHOLE, small_board
 from tables import each_row
 from threadpoolctl import threadpool_limits
+from workshop.tolerance.expectation_fit import fit
 
 from controller.cli import main
 from controller.device.bank import expectation
 from controller.device.board.records import load_toml
 from controller.workshop.tolerance.coverage import coverage, drawn_from, record_of
-from controller.workshop.tolerance.expectation_fit import fit
 from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances
 from controller.workshop.tolerance.unseen import KINDS, PlateRecord
 

@@ -1,7 +1,7 @@
 """Constants of `device/bank/expectation.py`, from plates drawn from production tolerances, whose responses are known exactly.
 
 These plates are simply supported, by Kirchhoff's theory; no bank is measured on them. Those by which intervals are checked are
-others (`unseen.py`).
+others (`controller/workshop/tolerance/unseen.py`).
 """
 
 from collections import defaultdict
