@@ -1,6 +1,7 @@
 """Banks of a fleet: of 50 measurements one is broken, a clear line; resumed after kill -9, the same bytes however many compute."""
 
 import dataclasses
+import errno
 import json
 import os
 import re
@@ -17,10 +18,12 @@ from small_plate import small_board
 from tables import each_row
 
 from controller.cli import main
+from controller.commands.calibrate import fleet as fleet_command
 from controller.device.bank.reader import Bank
 from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.calibration.banks import fleet
 from controller.workshop.calibration.banks.fleet import KEPT, REPORT, calibrate_fleet
-from controller.workshop.calibration.banks.plate_bank import PlateBank
+from controller.workshop.calibration.banks.plate_bank import PlateBank, fit
 from controller.workshop.calibration.point_plan import scattered_points
 from controller.workshop.calibration.recording.simulated_measurement import Flaws, RecordingSettings, simulate_measurement
 from controller.workshop.workers.dask_client import OWN_CLUSTER, OWN_HTTP
@@ -71,6 +74,31 @@ def test_a_good_panel_has_its_bank_and_what_is_wrong_with_others_is_a_line(tmp_p
     (fleet / "good/measurement.toml").write_text("")
     (banks / "good.bank").unlink()
     assert list(calibrate_fleet(fleet, banks, wanted(fleet))["broken"]) == ["good", "torn"]
+
+
+def test_a_full_disk_ends_the_fleet_where_it_is_and_the_same_command_goes_on(tmp_path, monkeypatch, capsys):
+    """What is computed for a disk that is full is lost: one line, no further panel."""
+    fleet_folder, banks, begun = tmp_path / "fleet", tmp_path / "banks", []
+    measure(fleet_folder / "a", 1)
+    for name in "bc":
+        shutil.copytree(fleet_folder / "a", fleet_folder / name)
+    fitted = fit(wanted(fleet_folder / "a"))
+
+    def full(fd, *_):
+        if "b.bank" in str(Path(f"/proc/self/fd/{fd}").readlink()):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(fleet_command, "load_board", lambda _: small_board())
+    monkeypatch.setattr(fleet, "fit", lambda one: begun.append(one.folder.name) or fitted)  # copies
+    monkeypatch.setattr(os, "posix_fallocate", full)
+    assert main(["calibrate", "fleet", str(fleet_folder), "--out", str(banks), "--pitch-mm", "4", "--workers", "1"]) == 78
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"{banks / 'b.bank'}: cannot be written (No space left on device)" in line
+    assert "the same command goes on" in line
+    monkeypatch.setattr(os, "posix_fallocate", lambda *_: None)
+    report = calibrate_fleet(fleet_folder, banks, wanted(fleet_folder))
+    assert (report["workers"]["kept"], list(report["panels"]), report["broken"]) == (1, list("abc"), {})
+    assert begun == ["a", "b", "b", "c"]
 
 
 KILLED = """

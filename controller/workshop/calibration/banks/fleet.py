@@ -3,6 +3,7 @@
 A panel is done when its bank is there as it was written; the same call computes what is missing, changed, or was refused.
 """
 
+import errno
 import hashlib
 import json
 import os
@@ -16,7 +17,7 @@ import numpy as np
 from controller.device.bank.file_format import creator
 from controller.device.bank.inspection import verify_bank
 from controller.durable import write_durably
-from controller.errors import ControllerError, UsageError
+from controller.errors import ControllerError, UsageError, WorkersError
 from controller.workshop.calibration.banks.plate_bank import PlateBank, build, fit
 from controller.workshop.calibration.records.measurement_file import NAME
 from controller.workshop.workers.map_kept import map_kept
@@ -38,7 +39,8 @@ def calibrate_fleet(folder: Path, out: Path, common: PlateBank, workers: Workers
     """Build the bank of each panel, `out`/NAME.bank, and the report beside them, which is returned.
 
     A panel is a folder in `folder` that has a measurement.toml; `common` is what all banks have in common. Panels that are refused
-    are in the report, a line each. Raises UsageError if there is no panel, or banks would lie among measurements; WorkersError.
+    are in the report, a line each. Raises UsageError if there is no panel, or banks would lie among measurements; WorkersError,
+    also if the disk is full.
     """
     panels = _panels(folder, out, common)
     items = {_number(panel): panel for panel in panels}
@@ -72,11 +74,21 @@ def _calibrated(panel: Panel) -> dict[str, Any]:
         verify_bank(built.path)
         state = built.path.stat()
     except (ControllerError, OSError) as error:
-        return {"broken": " ".join(str(error).split())}
+        said = " ".join(str(error).split())
+        if _is_full_disk(error):
+            raise WorkersError(f"{said}: make room; what was done is kept: the same command goes on there") from error
+        return {"broken": said}
     report = {"path": str(built.path), "cells": built.report.cells, "bytes": state.st_size, "written_ns": state.st_mtime_ns}
     if optimised := built.report.optimised:
         report["optimised"] = {name: value for name, value in optimised.items() if name != "workers"}
     return report | fitted.figures | {"notes": built.notes}
+
+
+def _is_full_disk(error: BaseException | None) -> bool:
+    """Whether that is the cause: no matter of one panel, whatever is computed for the others would be lost too."""
+    if isinstance(error, OSError):
+        return error.errno in {errno.ENOSPC, errno.EDQUOT}
+    return error is not None and _is_full_disk(error.__cause__)
 
 
 def _panels(folder: Path, out: Path, common: PlateBank) -> list[Panel]:
