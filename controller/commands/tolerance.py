@@ -60,6 +60,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         help="instead: measure and play N plates of a corner of the simulated board, with other edges and Mindlin's theory, and"
         " count how often the truth lies within the interval that the bank states",
     )
+    command.add_argument(
+        "--whole", action="store_true", help="with --intervals: of the whole board, some 10 s each, and no banks of other plates"
+    )
     add_worker_options(command)
     command.set_defaults(command=tolerance)
 
@@ -103,7 +106,8 @@ def _intervals(options: argparse.Namespace, tolerances: Tolerances) -> int:
     from controller.workshop.tolerance.coverage import interval_figures
 
     board = load_board(find_board("simulated"))
-    show(options, interval_figures(board, tolerances, options.intervals, workers_of(options)), _interval_table)
+    figures = interval_figures(board, tolerances, options.intervals, workers_of(options), whole=options.whole)
+    show(options, figures, _interval_table)
     return 0
 
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Collection, Iterable
+from dataclasses import replace
 from datetime import date, timedelta
 from typing import Any, Final
 
@@ -26,7 +27,7 @@ TODAY: Final = date(2026, 1, 1)  # of all plates: only ages count
 BOARD_DIGEST: Final = bytes(32)  # nobody looks at it
 HERE, ELSEWHERE = "0" * 16, "1" * 16
 SENSOR: Final = Temperature(kind="hwmon", device="sensor", coefficient_per_k=-2e-4)
-AT_ONCE: Final = 4
+WHOLE_SEED: Final = 5000  # of whole panels: other plates than those of the corner
 Stated = Callable[[Board, PlateRecord], tuple[Interval, float]]  # of a plate: what its bank states, and the truth
 
 
@@ -35,19 +36,18 @@ def drawn_from(board: Board, tolerances: Tolerances) -> Unseen:
     return Unseen(board, msgspec.structs.replace(tolerances, temperature_k=None, capacitance_percent=None, dead_probability=0.0))
 
 
-def interval_figures(board: Board, tolerances: Tolerances, plates: int, workers: Workers) -> dict[str, Any]:
-    """What becomes of intervals on plates of the corner of a board; errors as `map_kept`."""
-    corner = corner_of(board)
-    study = drawn_from(corner, tolerances)
-    return {"plates": plates, "seed": study.seed, "intervals": coverage(corner, records_of(study, plates, workers))}
+def interval_figures(board: Board, tolerances: Tolerances, plates: int, workers: Workers, *, whole: bool = False) -> dict[str, Any]:
+    """What becomes of intervals on plates of the corner of a board, or of the whole one with its own bank; errors as `map_kept`."""
+    study = drawn_from(board if whole else corner_of(board), tolerances)
+    if whole:
+        study = replace(study, seed=WHOLE_SEED, others=False)
+    return {"plates": plates, "seed": study.seed, "intervals": coverage(study.board, records_of(study, plates, workers))}
 
 
 def records_of(study: Unseen, plates: int, workers: Workers) -> list[PlateRecord]:
     """Records of the first plates; what is done is kept. Errors as `map_kept`."""
     kept = kept_file(study.name())
-    mapped = map_kept(
-        study, {number: number for number in range(plates)}, kept, workers, at_once=AT_ONCE, what="plates", unit="plate"
-    )
+    mapped = map_kept(study, {number: number for number in range(plates)}, kept, workers, what="plates", unit="plate")
     return [record_of(np.frombuffer(mapped.results[number])) for number in range(plates)]
 
 
@@ -61,6 +61,8 @@ def coverage(board: Board, records: Collection[PlateRecord], names: Iterable[str
     found: dict[str, dict[str, dict[str, Any]]] = {}
     for name in names or STATED:
         pairs = [STATED[name](board, record) for record in records]
+        if any(math.isnan(truth_um) for _, truth_um in pairs):
+            continue  # it was not played
         found[name] = {"all": _counted(pairs)}
         for number, kind in enumerate(KINDS):
             if some := [pair for pair, record in zip(pairs, records, strict=True) if record.kind == number]:
