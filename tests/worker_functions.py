@@ -3,6 +3,7 @@
 import dataclasses
 import os
 import signal
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -64,3 +65,20 @@ def endless(items):
         while item == 9:
             signal.pause()
     return cubes(items)
+
+
+def few_methods(laboratory):
+    """One setting of each of three methods of the benchmark, in a process where all words reach one bound: it takes long."""
+    from controller.workshop.benchmark import plate_under_test
+    from controller.workshop.benchmark.methods import device, modal_bank
+
+    plate_under_test.bound = lambda _unit: 1.0
+    of_device, of_modes = device.candidates(laboratory), modal_bank.candidates(laboratory)
+    return [*islice(of_device, 3, 4), *islice(of_modes, 4, 5), *plain_methods(laboratory)]
+
+
+def plain_methods(laboratory):
+    """The first of the other designs."""
+    from controller.workshop.benchmark.methods import designs
+
+    return islice(designs.candidates(laboratory), 1)

@@ -7,6 +7,8 @@ from pathlib import Path
 from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.commands.common.tables import benchmark_table
+from controller.commands.common.worker_options import add_worker_options, workers_of
+from controller.console import tell
 from controller.device.board.board import load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 from controller.errors import ConfigError
@@ -21,7 +23,8 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         example="haptic-panel benchmark --quick --out results",
         parents=[common],
         description="Compare methods of finding drive words on the plate model: work-precision diagrams (PNG, SVG) and their "
-        "figures (JSON). Takes about 10 minutes of one core, --quick 2.5 minutes; two cores share all but the timing.",
+        "figures (JSON). Takes about 10 minutes of one core, --quick 2.5 minutes; workers share all but the timing. "
+        "The same command goes on from scenes that are done.",
     )
     benchmark.add_argument("--quick", action="store_true", help="fewer scenes and repetitions")
     benchmark.add_argument(
@@ -30,6 +33,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     benchmark.add_argument("--seed", type=natural, default=1, metavar="N", help="of the random scenes (default: 1)")
     benchmark.add_argument("--no-timing", action="store_true", help="errors only, without times")
     benchmark.add_argument("--no-pictures", action="store_true", help="figures only, without diagrams")
+    add_worker_options(benchmark)
     benchmark.set_defaults(command=run)
     actions = benchmark.add_subparsers(title="actions", metavar="ACTION")
     skips = actions.add_parser(
@@ -64,7 +68,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Measure, write figures and diagrams, and print the Pareto fronts."""
-    from controller.workshop.benchmark.work_precision import FULL, QUICK, work_precision
+    from controller.workshop.benchmark.work_precision import FULL, KEPT, QUICK, work_precision
 
     board = of_one_fpga(load_board(find_board(options.board)))
     folder = Path(options.out)
@@ -76,8 +80,15 @@ def run(options: argparse.Namespace) -> int:
             f"{folder}: results cannot be written there ({error.strerror}); give another folder with --out"
         ) from error
     effort = QUICK if options.quick else FULL
-    figures = work_precision(board, effort, options.seed, timing=not options.no_timing, progress=progress_bar("benchmark"))
+    timing, workers, progress = not options.no_timing, workers_of(options), progress_bar("timing")
+    try:
+        figures = work_precision(board, effort, options.seed, kept=folder, timing=timing, workers=workers, progress=progress)
+    except KeyboardInterrupt:
+        tell("the scenes that are done are kept: the same command goes on from there")
+        raise
     (folder / RESULTS).write_text(json.dumps(figures, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    for kept in folder.glob(KEPT):
+        kept.unlink(missing_ok=True)
     if not options.no_pictures:
         from controller.workshop.benchmark.work_precision_diagrams import draw_all
 

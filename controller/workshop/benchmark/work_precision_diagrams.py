@@ -1,15 +1,12 @@
 """Work-precision diagrams: one curve for each method, one point for each setting, the Pareto front behind them."""
 
-import itertools
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from controller.workshop.benchmark.pareto import cost, main_error
-from controller.workshop.benchmark.processes import USABLE, in_processes
 from controller.workshop.benchmark.work_precision_curves import (
     FLOOR,
     draw_curves,
@@ -47,15 +44,14 @@ FELT = "felt amplitude lost: 1 − felt / most felt of any method"
 FELT_FLOOR = 5e-3  # felt losses below are drawn here: methods differ by more, or are felt alike
 
 
-def draw_all(folder: Path, figures: Figures, processes: int = USABLE) -> list[Path]:
+def draw_all(folder: Path, figures: Figures) -> list[Path]:
     """Draw every diagram as PNG and SVG into a folder that is there; returns the files written.
 
     Raises ConfigError if one cannot be written.
     """
     timed = any(setting["time_us"] for setting in figures["settings"])
     names = [name for name in DIAGRAMS if timed or name not in TIMED]
-    drawn = in_processes(partial(_draw, folder, figures), names, processes)
-    return list(itertools.chain.from_iterable(drawn))
+    return [path for name in names for path in _draw(folder, figures, name)]
 
 
 def _draw(folder: Path, figures: Figures, name: str) -> list[Path]:

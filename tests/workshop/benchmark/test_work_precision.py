@@ -2,41 +2,31 @@
 
 import json
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 
 import msgspec
 import pytest
+from worker_functions import few_methods, plain_methods
 
 from controller.cli import main
 from controller.commands import benchmark as command
 from controller.commands.common.tables import benchmark_table
 from controller.errors import ConfigError
-from controller.workshop.benchmark import baselines, plate_under_test
+from controller.workshop.benchmark import baselines, plate_under_test, scene_errors
 from controller.workshop.benchmark import work_precision as module
 from controller.workshop.benchmark.device.interleaved import interleaved
 from controller.workshop.benchmark.fingers_scenes import scenes, still
-from controller.workshop.benchmark.methods import designs, device, modal_bank, registry
+from controller.workshop.benchmark.methods import registry
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.benchmark.pareto import cost, front
-from controller.workshop.benchmark.work_precision import Effort, work_precision
+from controller.workshop.benchmark.scene_errors import Effort
+from controller.workshop.benchmark.work_precision import work_precision
 from controller.workshop.benchmark.work_precision_diagrams import DIAGRAMS, draw_all
+from controller.workshop.workers.kept_file import KeptFile
+from controller.workshop.workers.workers import Workers
 
 SCHEMA = json.loads(Path(__file__).with_name("work_precision.schema.json").read_text())
 EFFORT = Effort(each=1, random_scenes=1, tabled_scenes=1, timed_scenes=1, turns=2, longest_s=1e3, slow_methods=False)
-
-
-def few(laboratory):
-    """One setting of each of four methods."""
-    return [
-        *islice(device.candidates(laboratory), 3, 4),
-        *islice(modal_bank.candidates(laboratory), 4, 5),
-        *plain(laboratory),
-    ]
-
-
-def plain(laboratory):
-    return islice(designs.candidates(laboratory), 1)
 
 
 @pytest.fixture(scope="module")
@@ -54,8 +44,13 @@ def hasty():
 
 
 @pytest.fixture(scope="module")
-def figures(coarse):
-    return work_precision(coarse, EFFORT, seed=5, candidates=few, processes=1)
+def kept(tmp_path_factory):
+    return tmp_path_factory.mktemp("kept")
+
+
+@pytest.fixture(scope="module")
+def figures(coarse, kept):
+    return work_precision(coarse, EFFORT, seed=5, kept=kept, candidates=few_methods)
 
 
 def test_figures_are_as_the_schema_says(figures):
@@ -79,16 +74,26 @@ def flat(figures):
     }
 
 
-def test_errors_are_the_same_for_a_seed(coarse, figures):
-    again = work_precision(coarse, EFFORT, seed=5, timing=False, candidates=lambda laboratory: few(laboratory)[:2], processes=1)
+def test_errors_are_the_same_for_a_seed(coarse, figures, tmp_path):
+    again = work_precision(coarse, EFFORT, 5, kept=tmp_path, timing=False, candidates=lambda some: few_methods(some)[:2])
     assert flat(again) == pytest.approx({name: value for name, value in flat(figures).items() if name in flat(again)}, rel=1e-6)
     assert len(flat(again)) > 200
     assert not any(setting["time_us"] for setting in again["settings"])
     assert again["baselines"] == again["building"] == []
 
 
-def test_errors_are_the_same_in_processes_to_the_last_digit(coarse, figures):
-    assert flat(work_precision(coarse, EFFORT, seed=5, timing=False, candidates=few, processes=2)) == flat(figures)
+def test_processes_keep_the_same_bytes_and_what_is_kept_is_not_computed_again(coarse, figures, kept, tmp_path):
+    def records(folder):
+        with KeptFile.open(next(folder.glob(module.KEPT))) as file:
+            return file.results
+
+    given = {"timing": False, "candidates": few_methods}
+    by_two = work_precision(coarse, EFFORT, 5, kept=tmp_path, workers=Workers(2), **given)
+    assert records(tmp_path) == records(kept)
+    assert sum(share["items"] for worker, share in by_two["workers"].items() if worker != "kept") == len(records(kept))
+    again = work_precision(coarse, EFFORT, 5, kept=kept, **given)
+    assert again["workers"] == {"kept": len(records(kept))}
+    assert flat(again) == flat(figures)
 
 
 def test_the_full_field_loses_nothing_alone_and_the_nearest_of_coarse_cells_much(figures):
@@ -138,10 +143,13 @@ def test_every_diagram_is_written(figures, tmp_path):
 
 def test_the_command_writes_figures_and_says_where_it_cannot(coarse, monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(module, "QUICK", replace(EFFORT, random_scenes=0))
-    monkeypatch.setattr(module, "scenes", lambda *given: [scene for scene in scenes(*given) if scene.family == "1 off grid"])
-    monkeypatch.setattr(registry, "METHODS", (plain,))
+    for place in (module, scene_errors):
+        monkeypatch.setattr(place, "scenes", lambda *given: [scene for scene in scenes(*given) if scene.family == "1 off grid"])
+    monkeypatch.setattr(registry, "METHODS", (plain_methods,))
     monkeypatch.setattr(command, "load_board", lambda _folder: coarse)
-    assert main(["benchmark", "--quick", "--no-timing", "--no-pictures", "--json", "--out", str(tmp_path / "out")]) == 0
+    options = ["--quick", "--no-timing", "--no-pictures", "--json", "--workers", "1", "--out"]
+    assert main(["benchmark", *options, str(tmp_path / "out")]) == 0
+    assert not list((tmp_path / "out").glob(module.KEPT)), "they are in the results"
     shown = json.loads(capsys.readouterr().out)
     assert shown == json.loads((tmp_path / "out" / "work_precision.json").read_text())
     assert shown["seed"] == 1
@@ -150,27 +158,24 @@ def test_the_command_writes_figures_and_says_where_it_cannot(coarse, monkeypatch
     assert "another folder" in capsys.readouterr().err
 
 
-def test_every_method_gives_words(small_board, tmp_path):
+def test_every_method_gives_words(small_board):
     places = [(0.0417, 0.0332), (0.0603, 0.0471)]
     quiet = (0.05, 0.02)
-    laboratory = Laboratory(small_board, tmp_path, still("1 off grid", places, quiet).needed)
-    try:
-        methods = [method for method in registry.all_candidates(laboratory) if not method.slow]
-        laboratory.prepare(places)
-        said = {}
-        assert len({(method.curve, method.setting) for method in methods}) == len(methods)
-        for method in methods:
-            points = [(*place, 1.0) for place in places[: method.most_fingers]]
-            words = method.words_of(method.run(points, quiet))
-            said[method.curve, method.setting] = words.tolist()
-            assert words.dtype == "u4"
-            assert 0 < len(words) <= small_board.waveform.samples
-            assert method.memory_bytes > 0
-            assert method.wire_bytes in {72} or method.wire_bytes > 4 * len(words)
-        pitch = f"{small_board.bank.pitch_mm:g} mm"
-        assert said["device, another finger still", pitch] != said["device, compiled kernel", pitch], "the bank has its pad"
-    finally:
-        laboratory.close()
+    laboratory = Laboratory(small_board, still("1 off grid", places, quiet).needed)
+    methods = [method for method in registry.all_candidates(laboratory) if not method.slow]
+    laboratory.prepare(places)
+    said = {}
+    assert len({(method.curve, method.setting) for method in methods}) == len(methods)
+    for method in methods:
+        points = [(*place, 1.0) for place in places[: method.most_fingers]]
+        words = method.words_of(method.run(points, quiet))
+        said[method.curve, method.setting] = words.tolist()
+        assert words.dtype == "u4"
+        assert 0 < len(words) <= small_board.waveform.samples
+        assert method.memory_bytes > 0
+        assert method.wire_bytes in {72} or method.wire_bytes > 4 * len(words)
+    pitch = f"{small_board.bank.pitch_mm:g} mm"
+    assert said["device, another finger still", pitch] != said["device, compiled kernel", pitch], "the bank has its pad"
 
 
 def test_the_table_has_the_front_of_each_number_of_fingers(figures):

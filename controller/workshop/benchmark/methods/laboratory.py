@@ -1,5 +1,6 @@
 """What the methods under test share: one board, its model, and banks and tables of just the cells that the scenes need."""
 
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -20,12 +21,11 @@ Place = tuple[float, float]
 
 
 class Laboratory:
-    """Cells for the `places` of all scenes; `folder` is for banks."""
+    """Cells for the `places` of all scenes."""
 
-    def __init__(self, board: Board, folder: Path, places: Sequence[Place]) -> None:
+    def __init__(self, board: Board, places: Sequence[Place]) -> None:
         self.board = board
         self.model = ResponseModel(board)
-        self._folder = folder
         self._places = places
         self._banks: dict[float, Bank] = {}
         self._tables: dict[Any, tuple[float, ResponseTable, list[Interpolation]]] = {}
@@ -35,9 +35,9 @@ class Laboratory:
         """An open bank with the cells around all places; built when it is first asked for."""
         if pitch_m not in self._banks:
             cells = cells_around(Grid.of(self.board.plate, pitch_m), self._places)
-            path = self._folder / f"{1e3 * pitch_m:g} mm"
-            build_bank(BankRequest(self.board, path, pitch_m, cells))
-            self._banks[pitch_m] = Bank.open(path, self.board)
+            with tempfile.TemporaryDirectory() as folder:  # an open file lasts without a name
+                build_bank(BankRequest(self.board, Path(folder) / "bank", pitch_m, cells))
+                self._banks[pitch_m] = Bank.open(Path(folder) / "bank", self.board)
         return self._banks[pitch_m]
 
     def table(
@@ -53,8 +53,8 @@ class Laboratory:
         return table
 
     def prepare(self, places: Sequence[Place]) -> None:
-        """Fill the tables for places, and for no others but those of before that they are among."""
-        if set(places) <= self._prepared:
+        """Fill the tables for places, and for no others: what is in a cell depends in its last bits on the others."""
+        if set(places) == self._prepared:
             return
         self._prepared = set(places)
         for pitch_m in {pitch_m for pitch_m, _, _ in self._tables.values()}:
@@ -64,8 +64,3 @@ class Laboratory:
                 stencils = [interpolation(table.grid, *place).cells for interpolation in interpolations for place in places]
                 wanted.append((table, np.unique(np.concatenate(stencils)) if stencils else np.zeros(0, np.intp)))
             fill(self.board, self.model, wanted)
-
-    def close(self) -> None:
-        """Close the banks."""
-        for bank in self._banks.values():
-            bank.close()
