@@ -20,14 +20,14 @@ import json
 import random
 import re
 import sys
-import tempfile
 from collections import Counter
 from pathlib import Path
 
 from controller.commands.common.worker_options import add_worker_options, workers_of
 from controller.console import program
 from controller.workshop.workers.map_kept import map_kept
-from tests.mutants_judged import ROOT, Judged, Mutant, copy_of_root, places, source
+from tests.asked import ROOT, Asked, source
+from tests.mutants_judged import Mutant, copy_of_root, places
 from tests.mutants_reached import read_reached, run_whole
 
 PURE = ["physics", "bank_builder", "calibration", "clips"]
@@ -56,10 +56,8 @@ def traced(chosen, reached):
     """Write what reaches the mutants into a file, whole."""
     part = reached.with_suffix(".part")
     part.unlink(missing_ok=True)
-    with tempfile.TemporaryDirectory() as folder:
-        Path(folder).chmod(0o755)  # some tests are run as nobody
-        copy_of_root(Path(folder) / "checkout")
-        run_whole(Path(folder) / "checkout", chosen, part.absolute())
+    with copy_of_root() as checkout:
+        run_whole(checkout, chosen, part.absolute())
     part.replace(reached)
 
 
@@ -95,10 +93,7 @@ def main():
             forms = [affordable(some, path, took) for some in (near & quick, near - quick)]
             items[number] = Mutant(str(path), index, *forms)
     kept = given.kept / f"mutants-{digest.hexdigest()[:16]}.kept"
-    with tempfile.TemporaryDirectory() as folder:
-        Path(folder).chmod(0o755)
-        judged = Judged(source(), None if workers.strangers else folder)
-        found = map_kept(judged, items, kept, workers, what="mutants", unit="mutant").results
+    found = map_kept(Asked(("tests.mutants_judged",)), items, kept, workers, what="mutants", unit="mutant").results
     by_room = {}
     for number in items:
         path, line, _ = chosen[number]

@@ -1,33 +1,27 @@
-"""One mutant of the Python in a copy of the checkout: written, run against tests until one fails, taken back.
+"""A program that makes mutants of the Python in a copy of its checkout: written, run against tests until one fails, taken back.
 
-Each process has a copy of its own, and a server of tests: a process with one thread that has imported what tests import, and forks
-one for each run of some of them. A process that workers compute in has several threads, of which a fork would have one.
+It has imported what tests import, and forks a process for each run of some of them.
 """
 
 import ast
+import contextlib
 import copy
-import hashlib
 import importlib
-import json
 import os
-import platform
 import resource
 import select
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
+from tests.asked import ROOT, serve
 from tests.mutants_reached import inside_functions, rewrite
 from tests.patience import processor_s
 
-ROOT = Path(__file__).parent.parent
 LEFT_OUT = (".venv", ".git", "build", ".*_cache")
 CPU_S, HANGS_S = 60, 100
 IMPORTED = ["pytest", "hypothesis", "numpy.testing", "scipy.linalg", "matplotlib.figure", "jsonschema", "msgspec"]  # once, for all
@@ -70,16 +64,6 @@ def places(path):
     """Line and index of whatever can be changed inside the functions of a file."""
     nodes = inside_functions(ast.parse(path.read_text()))
     return [(node.lineno, index) for index, node in enumerate(nodes) if changed(node)]
-
-
-def source():
-    """Hash of all that decides the verdicts."""
-    digest = hashlib.sha256()
-    for folder in ("controller", "tests"):
-        for path in sorted((ROOT / folder).rglob("*.*")):
-            if path.suffix in {".py", ".c", ".toml"} and path.is_file():
-                digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 def mutate(path, index):
@@ -145,17 +129,6 @@ def failing(checkout, tests):
         os._exit(code)
 
 
-def serve():
-    """Answer each line of stdin, a checkout and tests, with the name of the first that fails; ends with who asks."""
-    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    sys.dont_write_bytecode = False  # of tests, in the copy
-    for name in IMPORTED:
-        importlib.import_module(name)
-    for line in sys.stdin:
-        checkout, tests = json.loads(line)
-        print(json.dumps(failing(Path(checkout), tests)), flush=True)
-
-
 class Mutant(NamedTuple):
     """A change that can be made, and the tests that may notice it."""
 
@@ -165,26 +138,22 @@ class Mutant(NamedTuple):
     slower: Sequence[str]
 
 
-class Bench:
-    """A copy of the checkout, and a server of tests."""
+class Judge:
+    """Finds what kills mutants in a copy of the checkout."""
 
-    def __init__(self, folder):
-        self._folder = tempfile.TemporaryDirectory(dir=folder)
-        Path(self._folder.name).chmod(0o755)  # some tests are run as nobody
-        self._checkout = Path(self._folder.name) / "checkout"
-        copy_of_root(self._checkout)
-        command = [sys.executable, "-m", "tests.mutants_judged"]
-        self._server = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    def __init__(self, checkout):
+        self._checkout = checkout
         self._passes = set()  # tests that were tried without a mutant
 
     def judge(self, mutant):
         """What is changed, and what kills it: quick tests, slower ones, or none."""
-        path = self._checkout / mutant.path
-        what = mutate(path, mutant.index)
+        what = mutate(self._checkout / mutant.path, mutant.index)
         try:
-            return what, self._verdict(mutant)
+            verdict = self._verdict(mutant)
         finally:
             self._restore(mutant)
+        print(f"{mutant.path}  {what}: {verdict}", file=sys.stderr, flush=True)
+        return what, verdict
 
     def _verdict(self, mutant):
         for form, chosen in (("quick", mutant.quick), ("slower", mutant.slower)):
@@ -202,38 +171,17 @@ class Bench:
         restored(self._checkout, mutant.path)
 
     def _failing(self, tests):
-        print(json.dumps([str(self._checkout), tests]), file=self._server.stdin, flush=True)
-        return json.loads(self._server.stdout.readline())
+        return failing(self._checkout, tests)
 
 
-@dataclass(frozen=True)
-class Judged:
-    """The function that workers compute: of mutants, what each changes and its verdict."""
-
-    source: str  # hash of the checkout of who asks
-    folder: str | None  # for copies: of a process of this computer
-
-    def __call__(self, mutants):
-        if source() != self.source:
-            from controller.errors import WorkersError  # not in the server, whose tests import the copy's
-
-            raise WorkersError(f"{ROOT} on {platform.node()}: is not the checkout of who asks: bring it to the same files")
-        found = []
-        for mutant in mutants:
-            found.append(json.dumps(bench_of(self).judge(mutant)).encode())
-            print(mutant.path, *json.loads(found[-1]), file=sys.stderr, flush=True)
-        return found
-
-
-@lru_cache(maxsize=1)
-def bench_of(judged):
-    """That of a process."""
-    return Bench(judged.folder)
-
-
-def copy_of_root(checkout):
+@contextlib.contextmanager
+def copy_of_root():
     """A copy of the checkout in which files may be changed."""
-    shutil.copytree(ROOT, checkout, ignore=shutil.ignore_patterns(*LEFT_OUT), symlinks=True)
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)  # some tests are run as nobody
+        checkout = Path(folder) / "checkout"
+        shutil.copytree(ROOT, checkout, ignore=shutil.ignore_patterns(*LEFT_OUT), symlinks=True)
+        yield checkout
 
 
 def restored(checkout, path):
@@ -241,5 +189,16 @@ def restored(checkout, path):
     rewrite(checkout / path, ast.parse((ROOT / path).read_text()), ast.NodeTransformer())
 
 
+def main():
+    """Answer each line, a `Mutant`, with what is changed and what kills it."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.dont_write_bytecode = False  # of tests, in the copy
+    for name in IMPORTED:
+        importlib.import_module(name)
+    with copy_of_root() as checkout:
+        judge = Judge(checkout)
+        serve(lambda line: judge.judge(Mutant(*line)))
+
+
 if __name__ == "__main__":
-    serve()
+    main()

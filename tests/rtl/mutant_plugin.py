@@ -7,7 +7,7 @@ from controller.workshop.gateware import rtl_build
 from controller.workshop.gateware.rtl_build import Design
 
 FOLDER = Path(os.environ["HAPTIC_PANEL_MUTANTS"])
-CACHE = FOLDER.parent / "state"
+CACHE = Path(os.environ["STATE_DIRECTORY"])  # before tests have another
 
 
 def design():

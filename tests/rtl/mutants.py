@@ -1,13 +1,14 @@
 """Do the tests notice a fault of the Verilog? Mutants of all its modules, each run against the tests until one fails.
 
-usage: python -m tests.rtl.mutants [--modules M …] [--count N] [--seed N] [--jobs N] [--json FILE] [--resume] [--only NAME …]
-       [--chosen] [--list] [--quick]
+usage: python -m tests.rtl.mutants [--modules M …] [--count N] [--seed N] [--folder FOLDER] [--json FILE] [--only NAME …]
+       [--chosen] [--list] [--quick] [--workers N | --dask ADDRESS | --scheduler-file FILE]
 
 All mutants are compiled into one library, once (verilog_mutants.py), so that a mutant costs what its tests do. What may kill
 it, in this order: short conformance (timing tables, some states and random scripts, model against compiled Verilog), the benches
 of its module, all other such scripts, the proofs of its module, other files of tests/conformance. What then lives is equivalent
 if Yosys proves it so; else it must stand in mutants_survivors.toml with a reason, or the exit code is 1.
-One that does not compile alone does not count. --resume goes on with the verdicts of FILE whose module has not changed.
+One that does not compile alone does not count. Verdicts are kept: the same command goes on from those whose module has not changed.
+Workers of --dask are started in a checkout of the same files, with PYTHONPATH=.
 """
 
 import argparse
@@ -24,11 +25,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -41,11 +39,15 @@ from random_script import SEEDS, random_script
 from test_states import EVENTS, OFFSETS, STATES, script_of
 from verilog_mutants import OPERATORS, PACKAGE, Mutant, find, sample, schema
 
+from controller.commands.common.worker_options import add_worker_options, workers_of
+from controller.console import program
 from controller.device.board.lookup import data_folder
 from controller.workshop.gateware import rtl_build
 from controller.workshop.gateware.rtl_build import Design, verilator_root
 from controller.workshop.gateware.rtl_gateware import RtlGateware
 from controller.workshop.gateware.timing_table import load_cases
+from controller.workshop.workers.map_kept import map_kept
+from tests.asked import Asked, serve
 
 RTL = ROOT / "fpga_rtl"
 SURVIVORS = HERE / "mutants_survivors.toml"
@@ -56,6 +58,8 @@ CPU_SECONDS = 600  # of one mutant's scripts: what takes longer hangs
 QUICK_MUTANTS = 20  # compiled without optimisation: their scripts cost less than a compiler's effort
 PROOF_CPU_SECONDS = 60  # of a proof that it is equivalent
 SHORT, BENCHES, SCRIPTS, PROOFS, CONFORMANCE = KILLERS = "short conformance", "bench", "all scripts", "proof", "conformance"
+COMPILES, KILLED = "compiled", "judged"  # steps, of which the first says what the library of the second can have
+NOT_BUILT = "not built"
 LIVES_SO_FAR = "lives so far"  # where the last of them were not asked
 LIVING = ("survived", LIVES_SO_FAR)
 # Not those that the scripts are, nor those that build libraries of their own
@@ -158,7 +162,7 @@ class Scripts:
     """Scripts and what the model makes of them: the quickest (level 0), a dozen random ones (1), all others (2)."""
 
     def __init__(self, level):
-        self._todo = []
+        self._todo, self._passes = [], False
         pairs = [(state, event) for state in STATES for event in EVENTS]
         if level == 0:
             cases = load_cases(data_folder("fpga_rtl") / "timing")
@@ -195,7 +199,11 @@ class Scripts:
         return ""
 
     def killed_by(self, number):
-        """The same in a process of its own, which a mutant may crash or hang."""
+        """The same in a process of its own, which a mutant may crash or hang; raises if the gateware without one does not pass."""
+        if number and not self._passes:
+            if first := self.killed_by(0):
+                raise SystemExit(f"the gateware itself fails: {first}")
+            self._passes = True
         receive, send = multiprocessing.Pipe(duplex=False)
         process = multiprocessing.get_context("fork").Process(target=self._tell, args=(send, number))
         process.start()
@@ -213,23 +221,6 @@ class Scripts:
             os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
         send.send(self.first_difference(number))
         os._exit(0)
-
-
-def kill_by_scripts(scripts, numbers, jobs, say):
-    """{number: name of the script that kills it}; raises if the gateware without a mutant does not pass."""
-    if first := scripts.killed_by(0):
-        raise SystemExit(f"the gateware itself fails: {first}")
-    killed = {}
-
-    def one(number):
-        begun = time.monotonic()
-        by = scripts.killed_by(number)
-        say(number, by, time.monotonic() - begun)
-        return number, by
-
-    with ThreadPoolExecutor(jobs) as pool:
-        killed.update((number, by) for number, by in pool.map(one, numbers) if by)
-    return killed
 
 
 class Benches:
@@ -342,94 +333,82 @@ def digest(text):
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-class Verdicts:
-    """What became of each mutant, kept in a file after each."""
+class Judge:
+    """Finds what kills mutants, by their names, of which it makes one library when it is first asked for it."""
 
-    def __init__(self, file, resume, texts):
-        self._file, self._texts = file, {module: digest(text) for module, text in texts.items()}
-        self._lock = threading.Lock()
-        self._all = digest("".join(self._texts.values()))
-        kept = json.loads(file.read_text()) if resume and file and file.exists() else {}
-        self.of = {
-            name: verdict
-            for name, verdict in kept.items()
-            if verdict["of"] == self._texts.get(verdict["module"])
-            and (
-                verdict["verdict"] in {"killed", "not built"}
-                or (verdict["tree"] == self._all and verdict["verdict"] != LIVES_SO_FAR)
-            )
-        }
+    def __init__(self, mutants, texts, folder, killers=KILLERS):
+        self._mutants, self._texts, self._folder, self._killers = mutants, texts, folder, killers
+        self._numbers = {mutant.name: number for number, mutant in enumerate(mutants, 1)}
+        self._instances = children(texts)
+        self._scripts = cache(Scripts)
 
-    def add(self, mutant, verdict, by="", seconds=0.0):
-        name = {"module": mutant.module, "line": mutant.line, "operator": mutant.operator, "code": mutant.before}
-        tree = {"of": self._texts[mutant.module], "tree": self._all}
-        record = name | {"to": mutant.text, "verdict": verdict, "by": by, "seconds": round(seconds, 2)} | tree
-        with self._lock:  # of the threads that wait for one mutant each
-            self.of[mutant.name] = record
-            if self._file:
-                new = self._file.with_suffix(".new")
-                new.write_text(json.dumps(self.of, indent=0))
-                new.replace(self._file)
+    def answer(self, asked):
+        """[verdict, what killed it, which of them, hash of all modules] of a mutant: whether it compiles, or what kills it."""
+        step, name = asked
+        number = self._numbers[name]
+        mutant = self._mutants[number - 1]
+        if step == COMPILES:
+            found = ("built" if compiles(mutant, self._texts[mutant.module]) else NOT_BUILT, "", "")
+        else:
+            found = self._verdict(number, mutant)
+        print(f"{name:44} line {mutant.line:3}  {' '.join(found)}", file=sys.stderr, flush=True)
+        return *found, digest("".join(self._texts.values()))
 
-
-def run(mutants: list[Mutant], texts, verdicts, jobs, folder, *, killers=KILLERS, say=print):
-    """Judge every mutant that has no verdict yet."""
-    instances = children(texts)
-    todo = [mutant for mutant in mutants if mutant.name not in verdicts.of]
-    with ThreadPoolExecutor(jobs) as pool:
-        built = list(pool.map(lambda mutant: compiles(mutant, texts[mutant.module]), todo))
-    for mutant, good in zip(todo, built, strict=True):
-        if not good:
-            verdicts.add(mutant, "not built")
-    numbered = dict(enumerate((mutant for mutant, good in zip(todo, built, strict=True) if good), 1))
-    if not numbered:
-        return
-    design = write_schema(folder / "fpga_rtl", texts, numbered, quick=len(numbered) <= QUICK_MUTANTS)
-    spent = collections.Counter()
-
-    def note(kind, number, by, seconds):
-        spent[number] += seconds
-        mutant = numbered[number]
-        if by:
-            verdicts.add(mutant, "killed", kind, spent[number])
-        say(f"{mutant.name:44} line {mutant.line:3}  {kind}: {by or '-'}", flush=True)
-
-    def by_scripts(level, kind, living):
-        if not living:
-            return living
+    @cached_property
+    def _design(self):
+        numbered = dict(enumerate(self._mutants, 1))
+        design = write_schema(self._folder / "fpga_rtl", self._texts, numbered, quick=len(numbered) <= QUICK_MUTANTS)
         with design_in_use(design):
             rtl_build.build_library(PARAMETERS.verilog())
-            killed = kill_by_scripts(Scripts(level), living, jobs, lambda *what: note(kind, *what))
-        return [number for number in living if number not in killed]
+        return design
 
-    def one_by_one(kind, kill, living):
-        still = []
-        for number in living:
-            begun = time.monotonic()
-            by = kill(number, numbered[number])
-            note(kind, number, by, time.monotonic() - begun)
-            still += [] if by else [number]
-        return still
+    @cached_property
+    def _benches(self):
+        return Benches(self._folder / "benches", self._folder / "fpga_rtl", self._instances)
 
-    living = by_scripts(0, SHORT, list(numbered))
-    if BENCHES in killers:
-        living = by_scripts(1, SHORT, living)
-        benches = Benches(folder / "benches", folder / "fpga_rtl", instances)
-        living = one_by_one(BENCHES, lambda number, mutant: benches.killed_by(number, mutant.module), living)
-    if SCRIPTS in killers:
-        living = by_scripts(2, SCRIPTS, living)
-    if PROOFS in killers:
-        living = one_by_one(PROOFS, lambda _, mutant: proof_kills(mutant, texts[mutant.module]), living)
-    if CONFORMANCE in killers:
-        living = one_by_one(CONFORMANCE, lambda number, _: conformance_kills(number, design), living)
-    thorough = killers == KILLERS
-    for number in living:
-        mutant = numbered[number]
-        if thorough and equivalent(mutant, texts, instances):
-            verdicts.add(mutant, "equivalent", "yosys", spent[number])
-        else:
-            verdicts.add(mutant, "survived" if thorough else LIVES_SO_FAR, "", spent[number])
-        say(f"{mutant.name:44} line {mutant.line:3}  {verdicts.of[mutant.name]['verdict']}", flush=True)
+    def _verdict(self, number, mutant):
+        design, text = self._design, self._texts[mutant.module]
+
+        def by_scripts(level):
+            with design_in_use(design):
+                return self._scripts(level).killed_by(number)
+
+        ways = [
+            (SHORT, lambda: by_scripts(0)),
+            (SHORT, lambda: BENCHES in self._killers and by_scripts(1)),
+            (BENCHES, lambda: self._benches.killed_by(number, mutant.module)),
+            (SCRIPTS, lambda: by_scripts(2)),
+            (PROOFS, lambda: proof_kills(mutant, text)),
+            (CONFORMANCE, lambda: conformance_kills(number, design)),
+        ]
+        for kind, kill in ways:
+            if kind in self._killers and (by := kill()):
+                return "killed", kind, by
+        if self._killers != KILLERS:
+            return LIVES_SO_FAR, "", ""
+        return ("equivalent", "yosys", "") if equivalent(mutant, self._texts, self._instances) else ("survived", "", "")
+
+
+def verdicts_of(mutants, texts, command, kept, workers):
+    """{name: (verdict, what killed it, which of them)}
+
+    What is kept counts as long as a mutant's module is the same, and of one that lives while all are.
+    """
+    tree = digest("".join(texts.values()))
+
+    def still_holds(result):
+        verdict, *_, of = json.loads(result)
+        return verdict == "killed" or step == COMPILES or (of == tree and verdict != LIVES_SO_FAR)
+
+    found, living = {}, mutants
+    for step in (COMPILES, KILLED):
+        numbers = {int(digest(f"{step} {mutant.name} {texts[mutant.module]}"), 16): mutant.name for mutant in living}
+        items = {number: (step, name) for number, name in numbers.items()}
+        asked = Asked((*command, "--serve", "--only", *sorted(numbers.values())))  # all of them in one library
+        mapped = map_kept(asked, items, kept, workers, what=f"mutants, {step}", unit="mutant", still_holds=still_holds)
+        found |= {name: json.loads(mapped.results[number])[:-1] for number, name in numbers.items()}
+        living = [mutant for mutant in mutants if found[mutant.name][0] != NOT_BUILT]
+    return found
 
 
 def table(mutants, verdicts, known):
@@ -437,15 +416,15 @@ def table(mutants, verdicts, known):
     columns = ["mutants", "built", *KILLERS, "equivalent", "survived", "without a reason"]
     rows = collections.defaultdict(collections.Counter)
     for mutant in mutants:
-        verdict = verdicts.of[mutant.name]
+        verdict, kind, _ = verdicts[mutant.name]
         for row in (rows[mutant.module], rows["all"]):
             row["mutants"] += 1
-            row["built"] += verdict["verdict"] != "not built"
-            if verdict["verdict"] == "killed":
-                row[verdict["by"]] += 1
-            elif verdict["verdict"] == "equivalent" or (verdict["verdict"] in LIVING and known.get(mutant.name, (False,))[0]):
+            row["built"] += verdict != NOT_BUILT
+            if verdict == "killed":
+                row[kind] += 1
+            elif verdict == "equivalent" or (verdict in LIVING and known.get(mutant.name, (False,))[0]):
                 row["equivalent"] += 1
-            elif verdict["verdict"] in LIVING:
+            elif verdict in LIVING:
                 row["survived"] += 1
                 row["without a reason"] += mutant.name not in known
     names = [name for name in rows if name != "all"] + ["all"]
@@ -455,31 +434,29 @@ def table(mutants, verdicts, known):
         yield f"| {name} | " + " | ".join(str(rows[name][column]) for column in columns) + " |"
     killed = sum(rows["all"][kind] for kind in KILLERS)
     different = rows["all"]["built"] - rows["all"]["equivalent"]
-    seconds = sum(verdicts.of[mutant.name]["seconds"] for mutant in mutants)
     share = f"{100 * killed / max(different, 1):.1f} %"
-    yield f"{killed} of {different} that differ are killed: {share}; {seconds / len(mutants):.1f} s each"
+    yield f"{killed} of {different} that differ are killed: {share}"
 
 
+@program
 def main():
     """Run the command; see above."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--modules", nargs="+", metavar="M", default=[])
     parser.add_argument("--count", type=int, default=COUNT)
     parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--json", type=Path, metavar="FILE")
-    parser.add_argument("--resume", action="store_true")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="mutants by name, whatever was chosen", default=[])
     parser.add_argument("--chosen", action="store_true", help=f"those of {CHOSEN.name}")
     parser.add_argument("--list", action="store_true", help="show the mutants, run none")
-    parser.add_argument("--quick", action="store_true", help="short conformance and benches only; --resume without it goes on")
-    parser.add_argument("--folder", type=Path, help="keep what is built here")
+    parser.add_argument("--quick", action="store_true", help="short conformance and benches only")
+    parser.add_argument("--folder", type=Path, default=ROOT / "build" / "mutants_rtl", help="keep libraries and verdicts here")
+    parser.add_argument("--serve", action="store_true", help="judge the mutants that each line of stdin names")
+    add_worker_options(parser)
     asked = parser.parse_args()
     texts = sources()
     if unknown := set(asked.modules) - set(texts):
         parser.error(f"no such module: {', '.join(sorted(unknown))}; there are {', '.join(texts)}")
-    if asked.resume and asked.json is None:
-        parser.error("--resume needs --json FILE")
     some = {module: texts[module] for module in asked.modules} or texts
     mutants = chosen(some, asked.count, asked.seed)
     if asked.chosen:
@@ -492,13 +469,21 @@ def main():
             what, change = OPERATORS.get(mutant.operator, ""), mutant.shown(texts[mutant.module])
             print(f"{mutant.name:44} line {mutant.line:3}  {what}\n    {change}")
         return 0
-    verdicts = Verdicts(asked.json, asked.resume, texts)
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = asked.folder or Path(temporary)
-        os.environ.setdefault("STATE_DIRECTORY", str(folder / "state"))
-        run(mutants, texts, verdicts, asked.jobs, folder, killers=(SHORT, BENCHES) if asked.quick else KILLERS)
+    asked.folder.mkdir(parents=True, exist_ok=True)
+    if asked.serve:
+        os.environ["STATE_DIRECTORY"] = str(asked.folder / "state")  # libraries, for all processes
+        with tempfile.TemporaryDirectory(dir=asked.folder) as own:
+            serve(Judge(mutants, texts, Path(own), (SHORT, BENCHES) if asked.quick else KILLERS).answer)
+        return 0
+    command = ("tests.rtl.mutants", "--folder", str(asked.folder), *(["--quick"] if asked.quick else []))
+    verdicts = verdicts_of(mutants, texts, command, asked.folder / "verdicts", workers_of(asked))
+    if asked.json:
+        named = {
+            mutant.name: (mutant.module, mutant.line, mutant.before, mutant.text, *verdicts[mutant.name]) for mutant in mutants
+        }
+        asked.json.write_text(json.dumps(named, indent=0))
     known = reasons()
-    lives = [mutant for mutant in mutants if verdicts.of[mutant.name]["verdict"] in LIVING]
+    lives = [mutant for mutant in mutants if verdicts[mutant.name][0] in LIVING]
     for mutant in lives:
         why = known.get(mutant.name, (False, "NO REASON: write a test that fails for it, or say why none can"))[1]
         print(f"{mutant.name} line {mutant.line}: {mutant.shown(texts[mutant.module])}\n    {why}")

@@ -90,6 +90,6 @@ def test_ten_mutants_are_killed(tmp_path, monkeypatch):
     texts = mutants.sources()
     chosen = [one for module, text in texts.items() for one in find(module, text) if one.name in TEN]
     assert len(chosen) > 5, "half of the ten lines have changed: choose others with python -m tests.rtl.mutants --list"
-    verdicts = mutants.Verdicts(None, False, texts)
-    mutants.run(chosen, texts, verdicts, 1, tmp_path, killers=(mutants.SHORT,), say=lambda *_, **__: None)
-    assert {name: verdict["verdict"] for name, verdict in verdicts.of.items()} == {one.name: "killed" for one in chosen}
+    judge = mutants.Judge(chosen, texts, tmp_path, killers=(mutants.SHORT,))
+    verdicts = {one.name: judge.answer((mutants.KILLED, one.name))[0] for one in chosen}
+    assert verdicts == dict.fromkeys(verdicts, "killed")

@@ -20,14 +20,14 @@ from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
 
 Z95: Final = 1.96  # standard deviations of 95 %
-SENSITIVITY: Final = 0.02  # stated: standard deviation of what a calibrated sensor says of the same motion
-AGED: Final = 0.02  # stated: of all moments, in a tenfold of days
-GLUED: Final = 0.03  # stated: of one channel's moment, by its glue
+SENSITIVITY: Final = 0.02  # assumed: standard deviation of what a calibrated sensor says of the same motion
+AGED: Final = 0.02  # a supplier's: of all moments, in a tenfold of days
+GLUED: Final = 0.03  # assumed: of one channel's moment, by its glue
 OLDEST_D: Final = 3650.0  # also of a bank whose date is none, or after today's
 PER_K: Final = -2e-4  # of the frequencies of glass, where the board has no [temperature]
-COEFFICIENT: Final = 0.1  # stated: standard deviation of a coefficient, over itself
-READING_K: Final = 0.5  # stated: of a sensor's readings
-ROOM_K: Final = 10 / math.sqrt(3)  # stated: of a plate without a reading, within 10 K of what it was measured at
+COEFFICIENT: Final = 0.1  # assumed: standard deviation of a coefficient, over itself
+READING_K: Final = 0.5  # stated by makers: of a sensor's readings
+ROOM_K: Final = 10 / math.sqrt(3)  # assumed: of a plate without a reading, within 10 K of what it was measured at
 # Measured on plates drawn from production tolerances, simply supported, Kirchhoff (`tests/workshop/tolerance/expectation_fit.py`)
 DETUNED: Final = 0.70  # of the loss that a lag of all waves alike foresees, at T
 FELT_DETUNED: Final = 0.18  # of that, in what is felt

@@ -1,7 +1,5 @@
 """Errors of all methods in each scene: what workers compute, a scene at a time, each process with a laboratory of its own."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections import Counter
