@@ -132,6 +132,9 @@ class ResponseModel:
 
     def _kernel(self, dtype: np.dtype[Any], *, band_limited: bool, reverse: bool = False) -> NDArray[np.floating[Any]]:
         """Modal responses as the (sample, mode) factor of the GEMM; kept."""
+        entry = self._kernels.get(("entry", dtype.str))
+        if entry is not None and band_limited and reverse:
+            return entry[: self.samples]
         key = (f"{band_limited} {reverse}", dtype.str)
         if key not in self._kernels:
             kernel = np.empty((self.samples, self.modes), dtype)
