@@ -24,7 +24,7 @@ def build_wheel(folder, **environment):
 
 
 def compiled_copy(folder):
-    """Copy the checkout into a new folder and compile its loop there; the name of the wheel it was taken from.
+    """Copy the checkout into a new folder and compile its loop there.
 
     Raises
     ------
@@ -35,11 +35,15 @@ def compiled_copy(folder):
         done, wheel = build_wheel(packed, CFLAGS="", HAPTIC_PANEL_MYPYC="1")
         if wheel is None:
             raise RuntimeError(done.stdout + done.stderr)
-        shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(".*", "__pycache__", "build", "dist"))
-        with zipfile.ZipFile(wheel) as files:
-            files.extractall(folder, [name for name in files.namelist() if name.endswith(".so")])
-        (Path(folder) / KERNEL).touch()  # newer than its source
-        return wheel.name
+        copy_with(wheel, folder)
+
+
+def copy_with(wheel, folder):
+    """Copy the checkout into a new folder, with what is compiled in a wheel of it."""
+    shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(".*", "__pycache__", "build", "dist"))
+    with zipfile.ZipFile(wheel) as files:
+        files.extractall(folder, [name for name in files.namelist() if name.endswith(".so")])
+    (Path(folder) / KERNEL).touch()  # newer than its source
 
 
 if __name__ == "__main__":

@@ -38,19 +38,27 @@ settings.load_profile("repeatable")
 set_hypothesis_home_dir(Path(sys.prefix, "hypothesis"))  # not in the checkout
 
 # Files that take longest begin first, so that all processes end at about the same time.
-LONGEST = ["test_rtl.py", "test_readme_runs.py", "test_project.py", "test_cli.py", "test_build.py", "test_kernel_guest.py"]
+LONGEST = [
+    "test_rtl.py",
+    "test_readme_runs.py",
+    "test_project.py",
+    "test_cli.py",
+    "test_locked.py",
+    "test_build.py",
+    "test_kernel_guest.py",
+]
 OWN_LINES = ("kernel", "gateware")  # in the README, beside that of all others
 HERE = Path(__file__).parent
 COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells of the coverage of the Verilog
 
 
 def pytest_xdist_auto_num_workers(config):
-    """All tests run in three processes, which keep two cores busy: some wait; what is chosen on the command line, in this one."""
+    """All tests run in three processes, which keep two cores busy: some wait, machines more; what is chosen by name, in this one."""
     marked = config.option.markexpr
     everything = config.args_source is config.ArgsSource.TESTPATHS and (
         "not slow" in marked or marked in {"kernel", "quick", "gateware"}
     )
-    return 3 if everything and config.option.capture != "no" else 0
+    return (4 if marked == "kernel" else 3) if everything and config.option.capture != "no" else 0
 
 
 def pytest_configure(config):

@@ -1,7 +1,6 @@
 """What `pip` makes of the package: with a C compiler, without one, and with one that fails."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -9,7 +8,7 @@ import zipfile
 
 import pytest
 from compiled_copy import KERNEL as EXTENSION
-from compiled_copy import ROOT, build_wheel, compiled_copy
+from compiled_copy import ROOT, build_wheel
 
 
 def build(folder, **environment):
@@ -98,31 +97,3 @@ def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
     os.utime(tmp_path / EXTENSION, (1e9, 1e9))
     assert run(code).stdout.split() == ["False", place]
     assert "_kernel.abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr
-
-
-@pytest.mark.kernel  # with the tests that take minutes and that CI runs too
-def test_the_loop_compiled_by_mypyc_passes_its_tests(tmp_path):
-    copy = tmp_path / "checkout"
-    assert re.search(r"-(cp\d+)-\1-linux_", compiled_copy(copy)), "for this version of CPython alone"
-    code = "from controller.device.loop import event_loop\nfrom controller.device.loop.playing import playback\n"
-    code += "print(event_loop, playback)"
-    compiled = run_in(copy, "-c", code)
-    assert compiled.stdout.count(".so") == 2, compiled.stderr
-    rooms = [f"tests/device/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank", "application_socket")]
-    rooms += ["tests/workshop/simulation/test_same_bytes.py", "tests/test_metrics.py"]
-    tested = run_in(
-        copy,
-        "-m",
-        "pytest",
-        "-q",
-        "-n0",
-        "-m",
-        "not slow and not stress and not kernel and not gateware and not interpreted",
-        *rooms,
-    )
-    assert tested.returncode == 0, tested.stdout[-8000:] + tested.stderr[-2000:]
-
-
-def run_in(folder, *arguments):
-    environment = {**os.environ, "PYTHONPATH": str(folder)}
-    return subprocess.run([sys.executable, *arguments], cwd=folder, env=environment, capture_output=True, text=True, check=False)

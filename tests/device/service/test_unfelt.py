@@ -74,8 +74,8 @@ def test_outputs_that_were_never_on_are_no_outputs_that_were_off_for_no_time(off
     assert said in served(figures | {"state": "waiting for FPGA", "cause": "there is no /dev/spidev0.0"})
 
 
-def test_a_run_whose_touches_are_beside_the_regions_says_so(capsys):
-    short = ["run", "--speed", "max", "--replay", str(RECORDING)]
+def test_a_run_whose_touches_are_beside_the_regions_says_so(capsys, bank_file):
+    short = ["run", "--speed", "max", "--replay", str(RECORDING), "--bank", str(bank_file)]
     assert main([*short, "--scene", "spots"]) == 0
     assert "positions lay outside all regions of the scene" in capsys.readouterr().out
     assert main(short) == 0
