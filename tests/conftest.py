@@ -53,7 +53,7 @@ COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells
 
 
 def pytest_xdist_auto_num_workers(config):
-    """All tests run in three processes, which keep two cores busy: some wait, machines more; what is chosen by name, in this one."""
+    """All tests run in three processes, or four, which keep two cores busy: some wait; what is chosen by name, in this one."""
     marked = config.option.markexpr
     everything = config.args_source is config.ArgsSource.TESTPATHS and (
         "not slow" in marked or marked in {"kernel", "quick", "gateware"}
