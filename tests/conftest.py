@@ -38,15 +38,8 @@ settings.load_profile("repeatable")
 set_hypothesis_home_dir(Path(sys.prefix, "hypothesis"))  # not in the checkout
 
 # Files that take longest begin first, so that all processes end at about the same time.
-LONGEST = [
-    "test_rtl.py",
-    "test_readme_runs.py",
-    "test_project.py",
-    "test_cli.py",
-    "test_locked.py",
-    "test_build.py",
-    "test_kernel_guest.py",
-]
+LONGEST = ["test_rtl.py", "test_readme_runs.py", "test_project.py", "test_cli.py", "test_locked.py", "test_build.py"]
+LONGEST += ["test_kernel_guest.py", "test_run.py", "test_several_fpgas.py", "test_rehearsal.py", "test_tolerance.py"]
 OWN_LINES = ("kernel", "gateware")  # in the README, beside that of all others
 HERE = Path(__file__).parent
 COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells of the coverage of the Verilog

@@ -54,7 +54,7 @@ class LateFinger:
 def contacts(socket, ended):
     """Times of the panel's contacts until something has ended."""
     found = []
-    with PanelClient(str(socket)) as panel:
+    with PanelClient(str(socket), timeout_s=60.0) as panel:
         panel.subscribe("contacts")
         while not ended.is_set():
             found += [one.time_s for one in panel.heard(ContactNotice, 0.5)]

@@ -79,7 +79,7 @@ def axes_at(x_mm, y_mm):
 def touch_all(touched, process, beside_mm=()):
     """Touch each place that is asked for, or one beside it, until the next is; the last line."""
     panel, socket = touched
-    with PanelClient(str(socket)) as watcher:
+    with PanelClient(str(socket), timeout_s=60.0) as watcher:
         watcher.subscribe("touches")
         number = 0
         while (line := json.loads(process.stdout.readline()))["at_mm"] is not None:
@@ -121,7 +121,7 @@ def test_places_of_ones_own_and_a_touch_that_missed(touched):
 
 def test_who_goes_in_the_middle_leaves_nothing_and_the_next_begins_anew(touched):
     _, socket = touched
-    with PanelClient(str(socket)) as watcher:
+    with PanelClient(str(socket), timeout_s=60.0) as watcher:
         alone = watcher.describe().clients.connected
         with calibration(socket) as process:
             assert json.loads(process.stdout.readline())["step"] == 0
@@ -133,7 +133,7 @@ def test_who_goes_in_the_middle_leaves_nothing_and_the_next_begins_anew(touched)
 
 def test_a_touch_at_the_edge_of_the_plate_says_nothing_of_where_it_was(touched):
     _, socket = touched
-    with PanelClient(str(socket)) as panel:
+    with PanelClient(str(socket), timeout_s=60.0) as panel:
         about = panel.describe()
     at_mm = tuple(BELIEVED @ [0.25, 0.5, 1.0])
     assert axes_values(about, at_mm) == pytest.approx((0.25, 0.5))
@@ -196,7 +196,7 @@ def ghostly(folder):
         command = [sys.executable, "-m", "controller", "serve", *words]
         done = subprocess.run(command, capture_output=True, text=True, check=True)
         started.append(int(re.search(r"`kill (\d+)`", done.stderr)[1]))
-        with PanelClient(str(socket)) as panel:
+        with PanelClient(str(socket), timeout_s=60.0) as panel:
             if scene:
                 panel.load_scene(scene)
             next(state for state in panel.states() if state.state in PLAYS)
@@ -240,7 +240,7 @@ def test_what_is_no_measurement_of_ghosts_is_refused(ghostly, fingers, scene, sa
 
 def test_outputs_that_go_off_end_it_and_a_ghost_is_never_felt(ghostly):
     socket = ghostly(1.0)
-    with PanelClient(str(socket)) as panel, calibration(socket, "--ghosts") as process:
+    with PanelClient(str(socket), timeout_s=60.0) as panel, calibration(socket, "--ghosts") as process:
         for line in process.stdout:
             if json.loads(line)["step"] == 5:
                 break

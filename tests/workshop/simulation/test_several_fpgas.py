@@ -209,7 +209,7 @@ def test_it_is_served_as_one_panel(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     try:
-        with PanelClient(str(socket)) as panel:
+        with PanelClient(str(socket), timeout_s=60.0) as panel:
             assert panel.test_channel(33).outcome == "played"
             assert panel.play("click", at_mm=(45.0, 30.0)).outcome == "played"
             assert panel.test_channel(31).reason == "channel 31 drives no actuator of board 'simulated_64'"
