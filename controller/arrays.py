@@ -8,4 +8,6 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Reals = NDArray[np.floating[Any]]
 Complex = NDArray[np.complex128]
+Bools = NDArray[np.bool_]
+Indices = NDArray[np.intp]
 Words = NDArray[np.uint32]

@@ -8,8 +8,8 @@ from math import floor, sqrt
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.panel import Plate
 from controller.errors import ConfigError
 
@@ -94,7 +94,7 @@ class Grid:
             ((1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy),
         )
 
-    def points(self) -> NDArray[np.float64]:
+    def points(self) -> Floats:
         """Every cell's point, (cells, 2) in m, in the order of the cells."""
         x_m = self.x0_m + self.pitch_m * np.arange(self.nx)
         y_m = self.y0_m + self.pitch_m * np.arange(self.ny)

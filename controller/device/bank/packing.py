@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Bools, Indices, Reals
 from controller.device.board.panel import CHANNELS
 
 __all__ = ["CHANNELS", "WORD", "as_words", "channel_bits", "drive_words", "edges", "framed", "quantise"]
@@ -39,7 +40,7 @@ def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDA
     return words
 
 
-def _pack(bits: NDArray[np.bool_]) -> NDArray[np.uint32]:
+def _pack(bits: Bools) -> NDArray[np.uint32]:
     words = np.packbits(bits, axis=1, bitorder="little").view(WORD)
     return words[:, 0] if words.shape[1] == 1 else words
 
@@ -68,17 +69,17 @@ def framed(before: int, words: NDArray[np.uint32], after: int) -> NDArray[np.uin
     return np.concatenate([as_words(before, words), words, as_words(after, words)])
 
 
-def edges(words: NDArray[np.uint32]) -> NDArray[np.intp]:
+def edges(words: NDArray[np.uint32]) -> Indices:
     """Edges (changes of level) of each channel, (channel,), from the first to the last of drive words, (sample,)."""
     bits = channel_bits(words[1:] ^ words[:-1])
     if not len(bits):
         return np.zeros(bits.shape[1], np.intp)
     eight_channels = np.add.reduceat(bits.view("<u8"), np.arange(0, len(bits), 255), axis=0)  # no byte carries into the next
-    counts: NDArray[np.intp] = eight_channels.view(np.uint8).sum(axis=0, dtype=np.intp)
+    counts: Indices = eight_channels.view(np.uint8).sum(axis=0, dtype=np.intp)
     return counts
 
 
-def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], float]:
+def quantise(drive_order: Reals) -> tuple[NDArray[np.int8], float]:
     """Round a response in m per V to 8 bits: `drive_order` is about `levels * scale`, to half a scale.
 
     Returns the levels (sample, channel), -127 to 127, and the scale: `max|drive_order| / 127`, rounded up to `SCALE_BITS`

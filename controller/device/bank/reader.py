@@ -9,8 +9,8 @@ from pathlib import Path
 from types import TracebackType
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Bools
 from controller.device.bank.bank_file import BankFile
 from controller.device.bank.drive_entries import DriveEntries
 from controller.device.bank.file_format import begins_as_bank, header_length, parse
@@ -118,7 +118,7 @@ class Bank:
         self.close()
 
     @property
-    def cells(self) -> NDArray[np.bool_]:
+    def cells(self) -> Bools:
         """Which cells have an entry, (grid.cells,)."""
         return np.array(self.file.tables.entries) >= 0
 

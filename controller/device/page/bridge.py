@@ -45,19 +45,9 @@ class PageConnection(ServerConnection):
 
 
 class Bridge:
-    """Answers browsers.
+    """Answers browsers, within the limits and rights of the settings, which come from `file`.
 
-    Parameters
-    ----------
-    settings : PageSettings
-        All limits and rights.
-    file : Path or None
-        Where the settings come from.
-
-    Raises
-    ------
-    ConfigError
-        If the token, the certificate or the folder of files cannot be read, or there is no folder for what is kept.
+    Raises ConfigError if the token, the certificate or the folder of files cannot be read, or there is no folder for what is kept.
     """
 
     def __init__(self, settings: PageSettings, file: Path | None) -> None:
@@ -79,17 +69,9 @@ class Bridge:
         self._running: set[str] = set()  # for its pages
 
     async def run(self, ready: Callable[[list[str]], None]) -> None:
-        """Serve until SIGTERM or SIGINT.
+        """Serve until SIGTERM or SIGINT; `ready` is given the addresses of the page, once they are open.
 
-        Parameters
-        ----------
-        ready : callable
-            Given the addresses of the page, once they are open.
-
-        Raises
-        ------
-        ControllerError
-            If no address can be listened at.
+        Raises ControllerError if no address can be listened at.
         """
         ended = asyncio.Event()
         loop = asyncio.get_running_loop()

@@ -14,12 +14,7 @@ Share = Annotated[float, Meta(gt=0, le=1)]
 def load_names(file: Path = TABLE) -> dict[str, tuple[str, float]]:
     """Effect and share of the amplitude of each name, of all tables together.
 
-    Raises
-    ------
-    ConfigError
-        If the file is invalid.
-    ValueError
-        If a name stands there twice.
+    Raises ConfigError if the file is invalid; ValueError if a name stands there twice.
     """
     names: dict[str, tuple[str, float]] = {}
     for table, rows in read_tables(file).items():

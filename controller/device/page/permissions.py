@@ -55,13 +55,7 @@ class Refusal(NamedTuple):
 
 
 class Permissions:
-    """The tables of the settings.
-
-    Parameters
-    ----------
-    file : Path or None
-        The settings' file, which refusals name.
-    """
+    """The tables of the settings; refusals name their `file`."""
 
     def __init__(self, settings: PageSettings, file: Path | None) -> None:
         self._file = file or "a file for `haptic-panel page --settings`"
@@ -93,10 +87,7 @@ class Permissions:
     def rights(self, origins: Sequence[str], host: str) -> frozenset[str] | Refusal:
         """Rights of a page by its Origin fields, or why it has none.
 
-        Parameters
-        ----------
-        host : str
-            The request's Host field, which `host_refusal` has accepted.
+        `host` is the request's Host field, which `host_refusal` has accepted.
         """
         if len(origins) != 1:
             reason = f"{len(origins)} Origin fields: a browser sends one, and other programs use the Unix socket"

@@ -40,14 +40,8 @@ async def relay(
 ) -> None:
     """Pass messages on until page or panel ends the connection; the other side is then ended too.
 
-    Parameters
-    ----------
-    called : str
-        What the page is called where it stops the panel.
-    screen : Screen
-        Where the screen lies on the plate: the page is greeted with it, and again when it changes.
-    running : set of str
-        As in `PageTools`, of all pages.
+    `called` is what the page is called where it stops the panel, `screen` where the screen lies on the plate: the page is greeted
+    with it, and again when it changes. `running` is as in `PageTools`, of all pages.
     """
     try:
         async with asyncio.timeout(PANEL_S):

@@ -26,18 +26,8 @@ def evaluated(
 ) -> tuple[bytes, str]:
     """A line for the panel, or an answer to the page; one of the two is empty, or both where the bridge answers later.
 
-    A request to stop is always within the rate.
-
-    Parameters
-    ----------
-    frame : str
-        One JSON object.
-    rights : frozenset of str
-        Of the page.
-    own : mapping
-        What carries out the kinds of messages that are for the bridge.
-    called : str
-        The page, for whom a stop is asked for.
+    `frame` is one JSON object, `rights` are the page's, `own` carries out the kinds of messages that are for the bridge, and
+    `called` is the page, for whom a stop is asked for. A request to stop is always within the rate.
     """
     try:
         message = _decoder.decode(frame)

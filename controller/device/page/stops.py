@@ -30,13 +30,7 @@ class StopLine:
         self._opening = asyncio.Lock()
 
     async def open(self) -> None:
-        """Connect, if it is not connected, and hold a place.
-
-        Raises
-        ------
-        OSError
-            If there is no panel, or none that has a place.
-        """
+        """Connect, if it is not connected, and hold a place; raises OSError if there is no panel, or none that has a place."""
         async with self._opening, asyncio.timeout(PANEL_S):
             if self._to_panel is None:
                 from_panel, self._to_panel = await asyncio.open_unix_connection(self._socket, limit=LINE_BYTES_MAX)

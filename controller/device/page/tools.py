@@ -42,16 +42,8 @@ class Calibrate(msgspec.Struct, forbid_unknown_fields=True, tag_field="kind", ta
 class PageTools:
     """What one page has had started.
 
-    Parameters
-    ----------
-    socket : str
-        The panel's.
-    address : str
-        The page's.
-    running : set of str
-        Kinds of requests that are being carried out for any page: one of each at a time.
-    put : callable
-        Sends a line to the page.
+    `socket` is the panel's, `address` the page's; `running` are the kinds of requests that are being carried out for any page: one
+    of each at a time. `put` sends a line to the page.
     """
 
     def __init__(self, socket: str, address: str, traces: TraceFolder, running: set[str], put: Callable[[bytes], None]) -> None:

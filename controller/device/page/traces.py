@@ -24,13 +24,7 @@ class ReadTrace(msgspec.Struct, forbid_unknown_fields=True, tag_field="kind", ta
 
 
 class TraceFolder:
-    """The traces in a folder.
-
-    Parameters
-    ----------
-    folder : Path
-        That of the panel's socket.
-    """
+    """The traces in a folder, that of the panel's socket."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -47,25 +41,13 @@ class TraceFolder:
         return {"kind": "traces", "files": sorted(found, key=lambda file: -int(str(file["written"])))}
 
     def path(self, name: object) -> Path:
-        """A trace by its name.
-
-        Raises
-        ------
-        ConfigError
-            If a trace is not called so.
-        """
+        """A trace by its name; raises ConfigError if none is called so."""
         if name not in NAMES:
             raise ConfigError(f"name = {str(name)[:40]!r}: must be one of {', '.join(map(repr, NAMES))}")
         return self._folder / str(name)
 
     def part(self, message: dict[str, Any]) -> dict[str, Any]:
-        """Answer to `read_trace`.
-
-        Raises
-        ------
-        ConfigError
-            If there is no such trace (any more), or the message is none.
-        """
+        """Answer to `read_trace`; raises ConfigError if there is no such trace (any more), or the message is none."""
         try:
             asked = msgspec.convert(message, ReadTrace)
         except msgspec.ValidationError as error:

@@ -1,8 +1,8 @@
 """Which cells of a bank a scene needs."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Bools, Floats
 from controller.device.scene.scene import Scene
 from controller.device.scene.shapes import Boxes
 
@@ -11,9 +11,7 @@ SLACK_M = 0.25e-3
 FAR_M = 1e3  # beyond every plate
 
 
-def cells_needed(
-    scene: Scene, points_m: NDArray[np.float64], pitch_m: float, margin_m: float = 0.0, *, wave_scale: float = 1.0
-) -> NDArray[np.bool_]:
+def cells_needed(scene: Scene, points_m: Floats, pitch_m: float, margin_m: float = 0.0, *, wave_scale: float = 1.0) -> Bools:
     """Cells that a scene can ask for: the four cells around every point where it may emit.
 
     A point beyond the outermost cells needs those nearest to it. An effect of `leave` may be felt anywhere, and the
@@ -38,7 +36,7 @@ def cells_needed(
     return needed
 
 
-def _influence(at: NDArray[np.float64], half_m: float, pitch_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _influence(at: Floats, half_m: float, pitch_m: float) -> tuple[Floats, Floats]:
     """Along one axis, lower and upper end of the points that need each cell, both (cell,): a pitch to either side.
 
     The interval of the two outermost rows has no end: a point beyond the outermost row is treated as if it lay on that row, and

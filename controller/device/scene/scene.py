@@ -14,8 +14,8 @@ from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 from msgspec import Meta, Struct
-from numpy.typing import NDArray
 
+from controller.arrays import Bools, Floats
 from controller.device.board.board import Board
 from controller.device.board.records import PlaceM
 from controller.device.scene.effects import EffectTable
@@ -117,11 +117,11 @@ class SpatialIndex(Struct, frozen=True, array_like=True, forbid_unknown_fields=T
         return cls(low_x, low_y, 1 / tile_x, 1 / tile_y, tuple(tiles))
 
 
-def _bounds_meet(bounds: NDArray[np.float64], boxes: Boxes) -> NDArray[np.bool_]:
+def _bounds_meet(bounds: Floats, boxes: Boxes) -> Bools:
     """Which boxes of the whole grid of tiles meet which bounds, (region, 4): (box, region)."""
     columns = (boxes.x_low[::TILES, None] <= bounds[:, 2]) & (boxes.x_high[::TILES, None] >= bounds[:, 0])
     rows = (boxes.y_low[:TILES, None] <= bounds[:, 3]) & (boxes.y_high[:TILES, None] >= bounds[:, 1])
-    met: NDArray[np.bool_] = (columns[:, None] & rows[None]).reshape(TILES * TILES, -1)
+    met: Bools = (columns[:, None] & rows[None]).reshape(TILES * TILES, -1)
     return met
 
 

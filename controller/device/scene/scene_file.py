@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE
 from controller.device.board.paths import state_folder
@@ -161,7 +161,7 @@ def check_effects(key: str, region: AnyRegionTable, effects: tuple[EffectTable, 
             )
 
 
-def covering(shape: Shape, earlier: list[CheckedRegion], bounds: NDArray[np.float64]) -> int | None:
+def covering(shape: Shape, earlier: list[CheckedRegion], bounds: Floats) -> int | None:
     """Index of the first earlier region that covers a shape, which is never felt then: a finger belongs to the first region.
 
     Only regions whose bounds, (region, 4), contain those of the shape are compared in detail: a scene may have thousands.

@@ -9,11 +9,10 @@ from typing import Annotated
 
 import numpy as np
 from msgspec import Meta, Struct
-from numpy.typing import NDArray
 
+from controller.arrays import Bools, Floats
 from controller.device.board.records import PlaceM, SizeM
 
-Array = NDArray[np.float64]
 Point = tuple[PlaceM, PlaceM]
 
 
@@ -21,12 +20,12 @@ Point = tuple[PlaceM, PlaceM]
 class Boxes:
     """Many axis-parallel boxes: (box,) arrays of their sides in m."""
 
-    x_low: Array
-    x_high: Array
-    y_low: Array
-    y_high: Array
+    x_low: Floats
+    x_high: Floats
+    y_low: Floats
+    y_high: Floats
 
-    def contain(self, x_m: float, y_m: float) -> NDArray[np.bool_]:
+    def contain(self, x_m: float, y_m: float) -> Bools:
         """Which boxes contain the point (x_m, y_m), border included: (box,)."""
         return (self.x_low <= x_m) & (x_m <= self.x_high) & (self.y_low <= y_m) & (y_m <= self.y_high)
 
@@ -53,7 +52,7 @@ class Rectangle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True
         """Whether the point (x_m, y_m) lies in it."""
         return self.x_low <= x_m <= self.x_high and self.y_low <= y_m <= self.y_high
 
-    def meets(self, boxes: Boxes) -> NDArray[np.bool_]:
+    def meets(self, boxes: Boxes) -> Bools:
         """Which boxes have a point in common with it: (box,)."""
         return (
             (boxes.x_low <= self.x_high)
@@ -85,11 +84,11 @@ class Circle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, t
         """Whether the point (x_m, y_m) lies in it."""
         return math.hypot(x_m - self.x_m, y_m - self.y_m) <= self.radius_m
 
-    def meets(self, boxes: Boxes) -> NDArray[np.bool_]:
+    def meets(self, boxes: Boxes) -> Bools:
         """Which boxes have a point in common with it: (box,)."""
         nearest_x = np.clip(self.x_m, boxes.x_low, boxes.x_high)
         nearest_y = np.clip(self.y_m, boxes.y_low, boxes.y_high)
-        near: NDArray[np.bool_] = np.hypot(nearest_x - self.x_m, nearest_y - self.y_m) <= self.radius_m
+        near: Bools = np.hypot(nearest_x - self.x_m, nearest_y - self.y_m) <= self.radius_m
         return near
 
 
@@ -129,7 +128,7 @@ class Polygon(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, 
             ax, ay = bx, by
         return inside
 
-    def meets(self, boxes: Boxes) -> NDArray[np.bool_]:
+    def meets(self, boxes: Boxes) -> Bools:
         """Which boxes have a point in common with it: those that an edge meets, and those entirely inside: (box,)."""
         x, y = (boxes.x_low + boxes.x_high) / 2, (boxes.y_low + boxes.y_high) / 2
         half_x, half_y = (boxes.x_high - boxes.x_low) / 2, (boxes.y_high - boxes.y_low) / 2
@@ -140,7 +139,7 @@ class Polygon(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, 
             met |= ~aside & Rectangle(min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)).meets(boxes)
         return met
 
-    def _contain(self, x: Array, y: Array) -> NDArray[np.bool_]:
+    def _contain(self, x: Floats, y: Floats) -> Bools:
         """`contains` of many points."""
         inside = np.zeros(len(x), bool)
         for (ax, ay), (bx, by) in self.edges():

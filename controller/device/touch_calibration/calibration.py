@@ -11,8 +11,8 @@ from statistics import median
 from typing import Final, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.touch.source import TouchSample
 from controller.errors import CalibrationError
 
@@ -177,7 +177,7 @@ def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: PlateSi
     return Calibration(x_row, y_row, tuple(float(off) for off in residuals))
 
 
-def _leave_one_out_mm(columns: NDArray[np.float64], off_mm: NDArray[np.float64]) -> NDArray[np.float64]:
+def _leave_one_out_mm(columns: Floats, off_mm: Floats) -> Floats:
     """Distance of each touch from the least-squares map of all others.
 
     `columns` (touch, 3) is the design matrix of the fit, `off_mm` (touch, 2) are the residuals of the fit of all; a leave-one-out
@@ -190,11 +190,11 @@ def _leave_one_out_mm(columns: NDArray[np.float64], off_mm: NDArray[np.float64])
             f"without touch {redundancy.argmin() + 1} the others lie on one line, so they cannot show whether it missed its target:"
             " put the targets near the plate's corners"
         )
-    residuals_mm: NDArray[np.float64] = np.hypot(*off_mm.T) / redundancy
+    residuals_mm: Floats = np.hypot(*off_mm.T) / redundancy
     return residuals_mm
 
 
-def _check_axes(found: NDArray[np.float64], plate: PlateSize) -> None:
+def _check_axes(found: Floats, plate: PlateSize) -> None:
     """Refuse axes that are not nearly parallel to different sides of the plate, or of implausible length."""
     sides = []
     for name, (along_x, along_y) in zip("xy", np.abs(found[:2]), strict=True):
@@ -224,6 +224,6 @@ def _refuse_coincident(points: Sequence[Point], closest: float, message: str) ->
                 raise CalibrationError(message.format(i + 1, j + 1))
 
 
-def _distance_from_line(points: NDArray[np.float64]) -> float:
+def _distance_from_line(points: Floats) -> float:
     """Root mean square distance of points from the straight line that fits best."""
     return float(np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1] / np.sqrt(len(points)))

@@ -76,21 +76,10 @@ def ghost_figures(recording: Recording, board: Board) -> GhostFigures:
 
 
 def figures_of(emissions: Sequence[tuple[float, float]], contacts: Sequence[ContactSpan], name: str) -> GhostFigures:
-    """Evaluate emissions on an untouched panel.
+    """Evaluate emissions, at least one, on an untouched panel: start and end of each in s, in order.
 
-    Parameters
-    ----------
-    emissions : sequence of (float, float)
-        Start and end of each in s, in order; at least one.
-    contacts : sequence of ContactSpan
-        All that the panel reported meanwhile, in order.
-    name : str
-        Of the measurement, for messages.
-
-    Raises
-    ------
-    CalibrationError
-        If there are too few emissions, or contacts that cannot be ghosts.
+    `contacts` are all that the panel reported meanwhile, in order; messages name the measurement. Raises CalibrationError if there
+    are too few emissions, or contacts that cannot be ghosts.
     """
     if any(later - end_s < MAX_GHOST_LIFE_S for (_, end_s), (later, _) in pairwise(emissions)):
         raise CalibrationError(f"{name}: emissions less than {MAX_GHOST_LIFE_S:g} s apart: ghosts have no certain cause")

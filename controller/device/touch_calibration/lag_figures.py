@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats, Indices
 from controller.device.board.board import Board
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.recordings.replay import RecordingSource
@@ -33,14 +33,12 @@ MAX_ERROR_S: Final = 2e-3
 SEVERAL: Final = "several fingers on the panel: slide one finger alone, and keep the hand off the glass"
 MAX_MOUSE_PERIOD_S: Final = 10e-3  # the lag is uncertain by half of it
 
-Array = NDArray[np.float64]
-
 
 class TimedPlaces(NamedTuple):
     """When something was where: times in s, (n,), and places, (n, 2), in m or in counts."""
 
-    at_s: Array
-    places: Array
+    at_s: Floats
+    places: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +104,7 @@ def _mouse(recording: Recording) -> TimedPlaces:
     return TimedPlaces(np.array(list(steps)), np.cumsum(np.array(list(steps.values()), np.float64), axis=0))
 
 
-def _period_s(at_s: Array) -> float:
+def _period_s(at_s: Floats) -> float:
     return float(np.median(np.diff(at_s)))
 
 
@@ -131,7 +129,7 @@ def finger_track(reports: list[tuple[float, float, float]]) -> TimedPlaces:
     return TimedPlaces(table[:, 0], table[:, 1:])
 
 
-def _turns(positions_m: Array) -> int:
+def _turns(positions_m: Floats) -> int:
     """Turns of the finger along its principal direction."""
     _, _, axes = np.linalg.svd(positions_m - positions_m.mean(axis=0), full_matrices=False)
     along = (positions_m @ axes[0]).tolist()
@@ -147,7 +145,7 @@ def _turns(positions_m: Array) -> int:
     return turns
 
 
-def _windows(at_s: Array, positions_m: Array) -> list[NDArray[np.intp]]:
+def _windows(at_s: Floats, positions_m: Floats) -> list[Indices]:
     """Indices of the reports of each second in which the finger moved far enough."""
     numbers = ((at_s - at_s[0]) // WINDOW_S).astype(int)
     found = []
@@ -159,13 +157,13 @@ def _windows(at_s: Array, positions_m: Array) -> list[NDArray[np.intp]]:
     return found
 
 
-def _counts(mouse: TimedPlaces, at_s: Array) -> Array:
+def _counts(mouse: TimedPlaces, at_s: Floats) -> Floats:
     """The mouse's counts at times `at_s`, (n, 2), linear between its reports."""
     times_s, counts = mouse
     return np.stack([np.interp(at_s, times_s, counts[:, axis]) for axis in (0, 1)], axis=1)
 
 
-def _fit(at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse: TimedPlaces, lag_s: float) -> tuple[float, Array]:
+def _fit(at_s: Floats, positions_m: Floats, windows: list[Indices], mouse: TimedPlaces, lag_s: float) -> tuple[float, Floats]:
     """Rms residual in m, and the (2, 2) map from counts to m that fits all windows best, each about its own mean."""
     counts = _counts(mouse, at_s - lag_s)
     here = np.concatenate([counts[window] - counts[window].mean(axis=0) for window in windows])
@@ -174,7 +172,7 @@ def _fit(at_s: Array, positions_m: Array, windows: list[NDArray[np.intp]], mouse
     return float(np.sqrt(np.mean(np.sum((here @ map_of - there) ** 2, axis=1)))), map_of
 
 
-def _lag_of(at_s: Array, positions_m: Array, mouse: TimedPlaces, map_of: Array, near_s: float) -> float:
+def _lag_of(at_s: Floats, positions_m: Floats, mouse: TimedPlaces, map_of: Floats, near_s: float) -> float:
     """Least-squares lag of one window within 15 ms of `near_s`, refined by a parabola through the minimum."""
     lags_s = near_s + np.arange(-15e-3, 15.05e-3, 0.5e-3)
     errors = []

@@ -43,10 +43,7 @@ class PageMouse:
     def track(self) -> tuple[TimedPlaces, float]:
         """When the mouse was where, by our clock, and how far off these times may be.
 
-        Raises
-        ------
-        CalibrationError
-            If the clocks cannot be compared well enough, or the steps' times are of no such clock.
+        Raises CalibrationError if the clocks cannot be compared well enough, or the steps' times are of no such clock.
         """
         error_s = self._clock.error_s
         if not -1e-6 <= error_s <= MAX_CLOCK_ERROR_S:
@@ -72,13 +69,7 @@ class StandardInput:
         os.set_blocking(STDIN, False)
 
     def read(self) -> list[ArrivedSteps]:
-        """What has come.
-
-        Raises
-        ------
-        CalibrationError
-            If nothing will come any more, or it is no such message.
-        """
+        """What has come; raises CalibrationError if nothing will come any more, or it is no such message."""
         try:
             more = os.read(STDIN, READ_BYTES)
         except BlockingIOError:

@@ -42,12 +42,7 @@ class Progress(Protocol):
 def running_axes(panel: PanelClient, targets: Sequence[Point], progress: Progress) -> Calibration:
     """Ask for a touch on each of the `targets` (x_mm, y_mm) in turn, and fit the map.
 
-    Raises
-    ------
-    CalibrationError
-        If the touches determine no map, or one lies at the plate's edge.
-    ControllerError
-        If the panel refuses.
+    Raises CalibrationError if the touches determine no map, or one lies at the plate's edge; ControllerError if the panel refuses.
     """
     about = panel.describe()
     if not panel.state().panel_present:
@@ -86,10 +81,7 @@ def _held_place(panel: PanelClient, held: StationaryTouches, say: Callable[[str]
 def axes_values(about: Description, place_mm: Point) -> Point:
     """What the touch panel's axes read, 0 to 1, at a place that the map in force gives.
 
-    Raises
-    ------
-    CalibrationError
-        If it is at the plate's edge: where exactly it was is not known then.
+    Raises CalibrationError if it is at the plate's edge: where exactly it was is not known then.
     """
     x_mm, y_mm = place_mm
     if min(x_mm, about.length_mm - x_mm, y_mm, about.width_mm - y_mm) < EDGE_MM:
@@ -150,12 +142,8 @@ class _Survey:
 def running_ghosts(panel: PanelClient, progress: Progress) -> GhostFigures:
     """Play clicks while nobody touches the panel, and count what it reports.
 
-    Raises
-    ------
-    CalibrationError
-        If contacts cannot be ghosts, something else plays, or clicks are not played.
-    ControllerError
-        If the panel refuses.
+    Raises CalibrationError if contacts cannot be ghosts, something else plays, or clicks are not played; ControllerError if the
+    panel refuses.
     """
     about, state = panel.describe(), panel.state()
     if state.state not in PLAYS:

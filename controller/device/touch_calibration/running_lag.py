@@ -28,12 +28,7 @@ class RunningLag:
 def running_lag(panel: PanelClient, said: StandardInput, progress: Progress, seconds: float) -> RunningLag:
     """Follow finger and mouse for some seconds, from when both have moved.
 
-    Raises
-    ------
-    CalibrationError
-        If they tell nothing, or the page's clock is not known well enough.
-    ControllerError
-        If the panel refuses.
+    Raises CalibrationError if they say nothing, or the page's clock is not known well enough; ControllerError if the panel refuses.
     """
     if not panel.state().panel_present:
         raise CalibrationError("no touch panel answers: nothing can be touched")

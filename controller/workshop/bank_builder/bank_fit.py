@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Bools
 from controller.device.bank.file_format import model_version_of
 from controller.device.bank.inspection import bounds_of, verify_bank, wrong_pitch
 from controller.device.bank.provenance import MODEL_VERSION
@@ -25,10 +25,10 @@ class Fit:
     """Whether a bank suits a board and a scene."""
 
     reason: str  # why it does not; empty: it does
-    cells: NDArray[np.bool_]  # (cells of the grid,): cells of a bank that does
+    cells: Bools  # (cells of the grid,): cells of a bank that does
 
 
-def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
+def fit(path: Path, board: Board, cells: Bools) -> Fit:
     """Whether a bank is whole, built by this version for this board and its pitch, and has the cells that are needed.
 
     `cells`, of the board's grid, are those that it must have; further cells are kept when it is built again because cells are
@@ -40,7 +40,7 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     return Fit(reasons[0] if reasons else "", np.logical_or.reduce([one.cells for one in found]))
 
 
-def _fit(path: Path, one: Board, board: Board, cells: NDArray[np.bool_]) -> Fit:
+def _fit(path: Path, one: Board, board: Board, cells: Bools) -> Fit:
     """As `fit`, of the file of one FPGA of a board."""
     if not is_there(path):
         return Fit("there is none yet", cells)

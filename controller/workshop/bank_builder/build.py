@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.arrays import Words
+from controller.arrays import Indices, Reals, Words
 from controller.device.bank.file_format import Header
 from controller.device.bank.packing import CHANNELS, WORD, channel_bits, drive_words, edges, quantise
 from controller.device.board.board import Board
@@ -138,7 +138,7 @@ def _plain_words(plan: BankPlan) -> Words:
     return found
 
 
-def _compared(plan: BankPlan) -> NDArray[np.intp]:
+def _compared(plan: BankPlan) -> Indices:
     """Which of the cells are compared with plain ones: evenly spaced among those of the bank."""
     return np.unique(np.linspace(0, len(plan.points_m) - 1, CELLS_COMPARED).round().astype(np.intp))
 
@@ -160,7 +160,7 @@ def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, nam
 def _write_compact(plan: BankPlan, design: CompactDesign, entries: _Entries) -> dict[str, Any]:
     """Compute and write rows and tables of a compact bank; what it loses."""
 
-    def count(cell: int, response: NDArray[np.floating[Any]]) -> None:
+    def count(cell: int, response: Reals) -> None:
         entries.count_edges(drive_words(response, plan.board.idle_word), f"cell {cell}")
 
     rows, scales = design.rows(plan.source, plan.wanted, count)

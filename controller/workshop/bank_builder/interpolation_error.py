@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices, Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import as_words, channel_bits, drive_words
@@ -49,7 +49,7 @@ class InterpolationError:
         return figures
 
 
-def interpolation_error(board: Board, source: ResponseSource, grid: Grid, cells: NDArray[np.bool_]) -> InterpolationError:
+def interpolation_error(board: Board, source: ResponseSource, grid: Grid, cells: Bools) -> InterpolationError:
     """Evaluate a grid at random places between the `cells` (cells of the grid,) that are built.
 
     A place is evaluated where all four around it are; there may be none.
@@ -76,7 +76,7 @@ def interpolation_error(board: Board, source: ResponseSource, grid: Grid, cells:
     return InterpolationError(np.array(distances), np.array(interpolated), np.array(nearest))
 
 
-def _sample(grid: Grid, cells: NDArray[np.bool_]) -> list[tuple[int, Floats]]:
+def _sample(grid: Grid, cells: Bools) -> list[tuple[int, Floats]]:
     """Rows of the grid, and places in the squares above each, (place, 2), all of one y."""
     if grid.nx < 2 or grid.ny < 2:
         return []
@@ -96,16 +96,16 @@ def _sample(grid: Grid, cells: NDArray[np.bool_]) -> list[tuple[int, Floats]]:
     return sample
 
 
-def _cell_places(grid: Grid, cells: NDArray[np.intp]) -> Floats:
+def _cell_places(grid: Grid, cells: Indices) -> Floats:
     return np.array([grid.place(cell) for cell in cells.tolist()])
 
 
-def _responses(board: Board, source: ResponseSource, places_m: Floats) -> NDArray[np.floating[Any]]:
+def _responses(board: Board, source: ResponseSource, places_m: Floats) -> Reals:
     rows = board.waveform.samples + math.ceil(board.waveform.samples / REST_SAMPLES)
     return source.entry_responses(places_m, out=np.empty((len(places_m), rows, board.channels), np.float32))
 
 
-def _displacement(words: NDArray[np.uint32], whole: NDArray[np.floating[Any]], idle_word: int) -> float:
+def _displacement(words: NDArray[np.uint32], whole: Reals, idle_word: int) -> float:
     """Displacement at T from rest at the idle word, for each volt, of words at a place with a whole response (sample, channel)."""
     idle_bits = channel_bits(as_words(idle_word, words))[0].astype(np.float32)
     return float(np.vdot(channel_bits(words) - idle_bits, whole))

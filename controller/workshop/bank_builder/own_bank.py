@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from controller.arrays import Bools
 from controller.console import tell
 from controller.device.bank.grid import Grid
 from controller.device.bank.inspection import measured_at
@@ -59,11 +59,11 @@ class Order:
         return compact_grid(self.board, self.pitch_m) if self.compact else Grid.of(self.board.plate, self.pitch_m)
 
     @property
-    def cells(self) -> NDArray[np.bool_] | None:
+    def cells(self) -> Bools | None:
         """Cells of the grid that the scene can reach; None: all."""
         return None if self.scene is None or self.compact else reached(self.board, self.scene, self.pitch_m)
 
-    def build(self, path: Path, cells: NDArray[np.bool_] | None = None, **how: Any) -> BuildReport:
+    def build(self, path: Path, cells: Bools | None = None, **how: Any) -> BuildReport:
         """Build it, its file beside or in place of another; for several FPGAs a file for each; the report is of all of them.
 
         `cells` (cells of the grid,) take the place of those of the scene; `how` has further fields of `BankRequest`, of which a
@@ -129,7 +129,7 @@ def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None =
     return Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice, choice["compact"])
 
 
-def reached(board: Board, scene: Scene, pitch_m: float) -> NDArray[np.bool_]:
+def reached(board: Board, scene: Scene, pitch_m: float) -> Bools:
     """Cells of the grid of a pitch that a scene can reach."""
     return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M, wave_scale=wave_scale(board))
 

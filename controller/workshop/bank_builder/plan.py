@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike
 
-from controller.arrays import Reals
+from controller.arrays import Bools, Floats, Indices, Reals
 from controller.device.bank.file_format import REST_SAMPLES, Header, creator
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
@@ -39,9 +39,9 @@ class BankPlan:
     """What is computed, and from what."""
 
     board: Board
-    wanted: NDArray[np.bool_]  # (cells of the grid,)
-    numbers: NDArray[np.intp]  # numbers, points_m: of the cells that are wanted
-    points_m: NDArray[np.float64]
+    wanted: Bools  # (cells of the grid,)
+    numbers: Indices  # numbers, points_m: of the cells that are wanted
+    points_m: Floats
     source: ResponseSource  # of the words: under the board's finger, if it has one
     modes: int | None  # in every response; None: the responses do not come from modes
     header: Header  # its parameters that are results are filled in as entries are made; it is written last
@@ -99,7 +99,7 @@ def refuse_aim(board: Board, aim: DescentAim, *, measured: bool, compact: bool) 
         raise ConfigError(f"board {board.name!r}: entries are optimised for {what}: leave out {key}, or --optimise")
 
 
-def _wanted(request: BankRequest, grid: Grid) -> NDArray[np.bool_]:
+def _wanted(request: BankRequest, grid: Grid) -> Bools:
     """Cells of the grid that are to be built."""
     wanted = np.ones(grid.cells, bool) if request.cells is None else np.asarray(request.cells, bool)
     if wanted.shape != (grid.cells,):
@@ -111,7 +111,7 @@ def _wanted(request: BankRequest, grid: Grid) -> NDArray[np.bool_]:
     return wanted
 
 
-def _parameters(request: BankRequest, grid: Grid, wanted: NDArray[np.bool_], source: ResponseSource) -> dict[str, Any]:
+def _parameters(request: BankRequest, grid: Grid, wanted: Bools, source: ResponseSource) -> dict[str, Any]:
     """Build parameters, as the header has them, and places for what is known at the end."""
     board, choice, emitters, aim = request.board_as_chosen, request.choice, request.emitters, request.aim
     parameters: dict[str, Any] = {
@@ -159,7 +159,7 @@ def inputs_sha256(board: Board, parameters: dict[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _blocks(numbers: NDArray[np.intp], cells_per_row: int, most: int) -> list[range]:
+def _blocks(numbers: Indices, cells_per_row: int, most: int) -> list[range]:
     """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows: at most `most` cells, but one row."""
     at_once = max(most // cells_per_row, 1) * cells_per_row
     firsts = np.flatnonzero(np.diff(numbers // at_once, prepend=-1)).tolist()

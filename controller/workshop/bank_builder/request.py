@@ -7,8 +7,8 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Bools
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.scene.scene import FixedEmitter
@@ -19,7 +19,7 @@ from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.workers.workers import ALONE, Workers
 
 
-def cells_around(grid: Grid, places_m: Iterable[tuple[float, float]]) -> NDArray[np.bool_]:
+def cells_around(grid: Grid, places_m: Iterable[tuple[float, float]]) -> Bools:
     """The cells that are interpolated between at some places: (cells of the grid,)."""
     cells = np.zeros(grid.cells, bool)
     for x_m, y_m in places_m:
@@ -34,7 +34,7 @@ class BankRequest:
     board: Board
     path: Path  # its folder is made if it is missing
     pitch_m: float | None = None  # of the grid; the board's own by default
-    cells: NDArray[np.bool_] | None = None  # (cells of the grid,): cells to build; all by default
+    cells: Bools | None = None  # (cells of the grid,): cells to build; all by default
     emitters: Sequence[FixedEmitter] = ()
     scene: str | None = None  # what `cells` and `fixed emitters` came from, noted in the build parameters
     highest_hz: float | None = None  # modes above are left out; `mode_cut_hz` by default

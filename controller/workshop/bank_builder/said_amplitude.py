@@ -1,11 +1,10 @@
 """What amplitudes a bank foresees: kept in its header, so that a device can say them without a look at any response."""
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.responses.response_source import ResponseSource
@@ -14,9 +13,9 @@ PLACES: Final = 64  # at which a bank is asked, a few a block
 QUANTILES: Final = (0.025, 0.5, 0.975)
 
 
-def foreseen_um(responses: NDArray[np.floating[Any]], supply_v: float) -> NDArray[np.float64]:
+def foreseen_um(responses: Reals, supply_v: float) -> Floats:
     """Amplitude in um that drive words from band-limited responses, (place, sample, 32) in m per V, have by these: (place,)."""
-    found: NDArray[np.float64] = 0.5e6 * supply_v * np.abs(responses).sum(axis=(1, 2), dtype=np.float64)
+    found: Floats = 0.5e6 * supply_v * np.abs(responses).sum(axis=(1, 2), dtype=np.float64)
     return found
 
 
@@ -37,6 +36,6 @@ def said_amplitude(board: Board, source: ResponseSource, points_m: Floats, of_pl
     return over_places(np.array(found) * factor)
 
 
-def over_places(amplitudes_um: NDArray[np.float64]) -> list[float]:
+def over_places(amplitudes_um: Floats) -> list[float]:
     """`QUANTILES` over places, four digits of each: another place is beyond them as probably as they say (Weibull, 1939)."""
     return [float(f"{value:.4g}") for value in np.quantile(amplitudes_um, QUANTILES, method="weibull")]

@@ -22,6 +22,7 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Bools
 from controller.device.bank.file_format import COMPOSITION, FOCI, MAGIC, Header, Section, begins_as_bank
 from controller.device.bank.packing import CHANNELS, WORD
 from controller.device.kernel import pack_loads
@@ -40,7 +41,7 @@ class BankWriter:
     it is untouched.
     """
 
-    def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_], *, overwrite: bool = False) -> None:
+    def __init__(self, path: Path, header: Header, cells: Bools, *, overwrite: bool = False) -> None:
         if cells.shape != (header.grid.cells,) or np.count_nonzero(cells) != header.entries:
             raise ValueError(f"{np.count_nonzero(cells)} of {cells.shape} cells do not fit the header")
         header.pack(header.sections())  # parameters that do not fit the format are refused before the work

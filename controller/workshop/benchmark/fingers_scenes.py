@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.touch.prediction import Motion
@@ -103,7 +103,7 @@ def scenes(board: Board, seed: int, each: int, random_scenes: int) -> list[Finge
     return made
 
 
-def _apart(random: np.random.Generator, fingers: int, near: NDArray[np.float64], far: NDArray[np.float64]) -> list[Place]:
+def _apart(random: np.random.Generator, fingers: int, near: Floats, far: Floats) -> list[Place]:
     """Random places at least `APART_M` from each other; closer on a plate that is too small for that."""
     apart_m = min(APART_M, 0.5 * float(np.sqrt(np.prod(far - near) / fingers)))
     while True:
@@ -113,7 +113,7 @@ def _apart(random: np.random.Generator, fingers: int, near: NDArray[np.float64],
             return [(x_m, y_m) for x_m, y_m in places.tolist()]
 
 
-def _null(random: np.random.Generator, points: Sequence[Place], size: NDArray[np.float64]) -> Place:
+def _null(random: np.random.Generator, points: Sequence[Place], size: Floats) -> Place:
     """A place between 10 and 40 mm from the nearest point; the one farthest from them if there is none in 1000 tries."""
     best, place = -1.0, (0.0, 0.0)
     for x_m, y_m in random.uniform(MARGIN_M, size - MARGIN_M, (1000, 2)).tolist():
@@ -125,7 +125,7 @@ def _null(random: np.random.Generator, points: Sequence[Place], size: NDArray[np
     return place
 
 
-def _near_edge(random: np.random.Generator, size: NDArray[np.float64]) -> Place:
+def _near_edge(random: np.random.Generator, size: Floats) -> Place:
     """A place between `MARGIN_M` and `INNER_M` from the nearest edge."""
     while True:
         x_m, y_m = random.uniform(MARGIN_M, size - MARGIN_M).tolist()

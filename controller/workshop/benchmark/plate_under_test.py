@@ -4,12 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats, Words
+from controller.arrays import Floats, Reals, Words
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.workshop.bank_builder.methods.dual import farthest
@@ -94,7 +92,7 @@ class PlateUnderTest:
         unit = np.divide(in_band, sizes, out=np.zeros_like(in_band), where=sizes > 0)
         return Reference(alone, whole, alone / most, unit, bound(unit.reshape(len(points), -1)))
 
-    def near_responses(self, place: tuple[float, float]) -> NDArray[np.floating[Any]]:
+    def near_responses(self, place: tuple[float, float]) -> Reals:
         """As `Prediction.near_responses`."""
         return self._prediction.near_responses(place)
 

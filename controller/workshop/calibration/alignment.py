@@ -3,9 +3,8 @@
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Complex, Floats
 from controller.errors import CalibrationError
 
 BELOW: Final = 0.35  # of the rate: what lies above may be an alias
@@ -13,7 +12,7 @@ LEAST_CORRELATION: Final = 0.5  # of the second track with what the channel play
 ALIKE: Final = 0.8  # of the largest correlation: emissions are alike up to their signs, and the first of them is meant
 
 
-def begin_of(sync: Floats, rate_hz: float, levels: NDArray[np.bool_], bit_clock_hz: float, nominal: float, slack: int) -> float:
+def begin_of(sync: Floats, rate_hz: float, levels: Bools, bit_clock_hz: float, nominal: float, slack: int) -> float:
     """Sample, with its fraction, at which the first word of an emission begins.
 
     `sync` (sample,) is the second track, in any unit and of either sign; `levels` (word,) are what the channel played. The emission
@@ -62,7 +61,7 @@ def shifted(record: Floats, begin: float, before: int, count: int) -> Floats:
     return moved[pad : pad + count]
 
 
-def _spectrum(levels: NDArray[np.bool_], bit_clock_hz: float, frequency_hz: Floats) -> NDArray[np.complex128]:
+def _spectrum(levels: Bools, bit_clock_hz: float, frequency_hz: Floats) -> Complex:
     """Spectrum of a channel's levels from 0 on, each held for a bit period, without their mean."""
     from scipy.signal import czt  # noqa: PLC0415 - takes 0.3 s
 
@@ -70,5 +69,5 @@ def _spectrum(levels: NDArray[np.bool_], bit_clock_hz: float, frequency_hz: Floa
     step = frequency_hz[1] / bit_clock_hz
     sampled = czt(values, len(frequency_hz), np.exp(-2j * np.pi * step))
     half = np.pi * frequency_hz / bit_clock_hz
-    spectrum: NDArray[np.complex128] = sampled * np.sinc(half / np.pi) * np.exp(-1j * half)
+    spectrum: Complex = sampled * np.sinc(half / np.pi) * np.exp(-1j * half)
     return spectrum

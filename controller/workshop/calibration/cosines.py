@@ -11,10 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.fft import dct
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices
 from controller.workshop.calibration.kriging import NOISE, Prior, alike
 from controller.workshop.calibration.spectra import Spectra
 
@@ -29,7 +28,7 @@ class Lattice:
 
     x_m: Floats  # x_m, y_m: (nx,), (ny,): places along the sides
     y_m: Floats
-    place: NDArray[np.intp]  # (point,): of each point: row * nx + column
+    place: Indices  # (point,): of each point: row * nx + column
 
     @classmethod
     def found_in(cls, points_m: Floats) -> Lattice | None:
@@ -53,7 +52,7 @@ class Lattice:
             for places, extent in ((self.x_m, length_m), (self.y_m, width_m))
         )
 
-    def window(self, place: int) -> NDArray[np.intp]:
+    def window(self, place: int) -> Indices:
         """Places of a square around one, shifted where it would reach beyond the grid."""
         sides = []
         for at, count in zip(divmod(place, self.x_m.size), (self.y_m.size, self.x_m.size), strict=True):
@@ -101,7 +100,7 @@ class Cosines:
 def fill_places(
     lattice: Lattice,
     values: Spectra,  # (bin, place, channel): completed in place
-    known: NDArray[np.bool_],  # (place, channel)
+    known: Bools,  # (place, channel)
     prior: Prior,
     noise: float = NOISE,  # variance of the noise, in that of the field
     progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the number of places done and of all

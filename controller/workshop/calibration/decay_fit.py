@@ -1,13 +1,11 @@
 """How fast the plate's vibration decays, in parts of the band: from the power of the records against time."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.fft import irfft, rfft
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Reals
 from controller.device.board.panel import Waveform
 from controller.workshop.physics.responses.modal_response import band_gain
 
@@ -28,9 +26,7 @@ class Decay:
     error_s: float  # its standard deviation, from the scatter between channels
 
 
-def fit_decays(
-    responses: NDArray[np.floating[Any]], known: NDArray[np.bool_], noise: Floats, waveform: Waveform, bit_clock_hz: float
-) -> list[Decay]:
+def fit_decays(responses: Reals, known: Bools, noise: Floats, waveform: Waveform, bit_clock_hz: float) -> list[Decay]:
     """Fit the decay in parts of the band; those in which nothing can be determined are left out.
 
     `responses` are (point, sample, channel), `known` and `noise` (point, channel): the standard deviation of a sample, NaN where it

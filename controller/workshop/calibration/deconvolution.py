@@ -17,7 +17,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Bools, Complex, Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.records.drives import Drive, held_spectrum, transform
@@ -64,7 +64,7 @@ class Deconvolution:
         drive = measurement.drive
         self._duration_s = drive.duration_s
         played = drive.spectra(self.bins.frequency_hz[0], self.bins.step_hz, len(self.bins.gain), 1 / board.waveform.bit_clock_hz)
-        self.driven: NDArray[np.bool_] = np.asarray(drive.drives.any(axis=0))
+        self.driven: Bools = np.asarray(drive.drives.any(axis=0))
         self._drives = drive.drives[:, self.driven]
         end_s, needed_s = length / self._rate_hz + first_s, drive.duration_s + board.waveform.duration_s / 2
         if end_s < needed_s:
@@ -110,7 +110,7 @@ class Deconvolution:
         """Whether noise of a record comes to lie before the pulse too: not if what was played is short."""
         return self._duration_s >= EARLIEST_S
 
-    def transfers(self, spectra: Complex, there: NDArray[np.bool_]) -> Transfers:
+    def transfers(self, spectra: Complex, there: Bools) -> Transfers:
         """Least squares over what is there (emission, repetition) of `spectra` (emission, repetition, bin)."""
         count = there.sum(axis=1)
         inverse, spread, resolution, leverage = self._operator(count)
@@ -157,7 +157,7 @@ class Deconvolution:
         excited = self.bins.frequency_hz[self._excited]
         return float(excited[0]), float(excited[-1])
 
-    def _excited_bins(self, measurement: Measurement, drive: Drive) -> NDArray[np.bool_]:
+    def _excited_bins(self, measurement: Measurement, drive: Drive) -> Bools:
         """Frequencies at which every channel's drive has power enough."""
         power = (abs(self._played) ** 2).sum(axis=1)
         held = held_spectrum(self.bins.frequency_hz, 1 / self.bins.bit_clock_hz)
@@ -199,7 +199,7 @@ class Deconvolution:
         return self._operators[key]
 
 
-def _tapered(mask: NDArray[np.bool_], width: int) -> Floats:
+def _tapered(mask: Bools, width: int) -> Floats:
     """1 well inside of `mask`, falling to 0 at its ends over this many bins; the ends of the array are inside."""
     padded = np.pad(mask.astype(np.float64), 2 * width, mode="edge")
     inner = np.convolve(padded, np.ones(2 * width + 1), "same") > 2 * width + 0.5

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Bools, Complex, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.records.drives import held_spectrum
@@ -51,7 +51,7 @@ def direct_wave(
     bit_clock_hz: float,
     points_m: Floats,
     factor: float = 1.0,
-    patches: slice | NDArray[np.intp] = slice(None),
+    patches: slice | Indices = slice(None),
 ) -> Complex:
     """The same at any frequencies."""
     actuators = np.array([(a.x_mm, a.y_mm, a.size_mm) for a in board.actuators])[patches] * 1e-3
@@ -72,7 +72,7 @@ def direct_waves(
     bins: RawBins,
     points_m: Floats,  # (point, 2)
     transfers: NDArray[np.complexfloating],  # (point, channel, bin): in m s per V
-    resolved: NDArray[np.bool_],  # (point, channel)
+    resolved: Bools,  # (point, channel)
     widest_s: float,  # delays are looked for from minus this to this; half of the longest record at most
 ) -> DirectWaves | None:
     """Regression of transfer functions on the direct wave.
@@ -119,9 +119,7 @@ class _Arrival(NamedTuple):
     stands_out: float  # that height over the pulse's rms
 
 
-def _arrival(
-    board: Board, bins: RawBins, points_m: Floats, measured: Complex, shown: NDArray[np.bool_], widest_s: float
-) -> _Arrival:
+def _arrival(board: Board, bins: RawBins, points_m: Floats, measured: Complex, shown: Bools, widest_s: float) -> _Arrival:
     """Factor and delay with which the records fit best; a factor further from 1 has to fit better by 3 %."""
     lags_s = np.fft.fftfreq(bins.length) * bins.length / bins.bit_clock_hz
     near = abs(lags_s) <= widest_s

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Indices
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.learned import LearnedResponses
@@ -98,7 +98,7 @@ def stretch(board: Board, before: NDArray[np.floating], after: NDArray[np.floati
     measured = _band_limited(board, after)[:, :until]
     scale = np.sqrt((measured**2).sum())
 
-    def alike(ratios: Floats, some: NDArray[np.intp]) -> Floats:
+    def alike(ratios: Floats, some: Indices) -> Floats:
         """Correlation of some records at each ratio: (ratio,)."""
         stretched = [spline(time[:until] * ratio)[some] for ratio in ratios.tolist()]
         return np.array([(one * measured[some]).sum() / np.sqrt((one**2).sum()) / scale for one in stretched])

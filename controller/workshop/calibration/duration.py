@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Bools, Floats
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.workshop.calibration import point_fit, wave_fit
@@ -89,7 +89,7 @@ def _waves(board: Board, bins: Bins) -> Waves:
     return Waves.of(Dispersion.of(board.plate), bins, board, wave_fit.EDGE_VARIANCES[-1])
 
 
-def _ones(board: Board, bins: Bins, points_m: NDArray[np.float64]) -> tuple[Spectra, NDArray[np.bool_]]:
+def _ones(board: Board, bins: Bins, points_m: Floats) -> tuple[Spectra, Bools]:
     """Spectra (bin, point, channel), all known."""
     spectra = np.ones((len(bins.frequency_hz), len(points_m), board.channels), np.complex64)
     return spectra, np.ones(spectra.shape[1:], bool)

@@ -7,6 +7,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.cosines import Cosines, Lattice, fill_places
@@ -35,7 +36,7 @@ MOST_MODES = 800  # of glass whose size is looked for: each size takes 0.2 s of 
 MOST_FITTED = 1000  # points whose errors are looked for, some minutes
 
 Progress = Callable[[str, int, int], None]
-Measured = tuple[NDArray[np.float64], Spectra, NDArray[np.bool_], Bins]  # points in m, spectra, which are known, their bins
+Measured = tuple[Floats, Spectra, Bools, Bins]  # points in m, spectra, which are known, their bins
 
 
 def interpolate(
@@ -160,7 +161,7 @@ def _model_of(
     """
     modes = model(board)
 
-    def left(there: Board) -> NDArray[np.float64]:
+    def left(there: Board) -> Floats:
         of_there = model(there)
         return unforeseen(*measured, lambda some: ModalPrior.of(board, of_there, waves, some))
 
@@ -173,7 +174,7 @@ def _model_of(
     return chosen, size if left(size.of(board)).mean() < OTHER_SIZE * min(stated, by_waves) else None
 
 
-def _checked(board: Board, learned: LearnedResponses, dead: Collection[int]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+def _checked(board: Board, learned: LearnedResponses, dead: Collection[int]) -> tuple[Bools, Indices]:
     """What was measured of the channels that have actuators, at the points where anything was: known, and which points."""
     waveform = board.waveform
     if not abs(learned.bit_clock_hz / waveform.bit_clock_hz - 1) < 1e-9:
@@ -217,10 +218,10 @@ def _refuse_coarse(board: Board, lattice: Lattice) -> None:
 def _evaluated(
     board: Board,
     bins: Bins,
-    points_m: NDArray[np.float64],
+    points_m: Floats,
     spectra: NDArray[np.complex64],
     foreseen: NDArray[np.complex64],
-    known: NDArray[np.bool_],
+    known: Bools,
 ) -> LeaveOut:
     """Leave-out error, points in blocks; those beyond the cells of a bank are not evaluated: nobody plays there."""
     known = known & ~np.isnan(foreseen[0])
@@ -241,7 +242,7 @@ def _evaluated(
     return LeaveOut(points_m, kept, over_foreseen, _trusted(bins, spectra, foreseen, known))
 
 
-def _trusted(bins: Bins, spectra: Spectra, foreseen: Spectra, known: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _trusted(bins: Bins, spectra: Spectra, foreseen: Spectra, known: Bools) -> Floats:
     """`LeaveOut.trusted`, of the bins around each."""
     agreed, expected = np.zeros((2, len(spectra)))
     for bin_, (measured, estimate) in enumerate(zip(spectra, foreseen, strict=True)):
@@ -249,5 +250,5 @@ def _trusted(bins: Bins, spectra: Spectra, foreseen: Spectra, known: NDArray[np.
         agreed[bin_], expected[bin_] = np.vdot(there, measured[known]).real, np.vdot(there, there).real
     around = np.ones(1 + 2 * round(AROUND_HZ / (2 * bins.frequency_hz[1])))
     over, under = (np.convolve(one, around, mode="same") for one in (agreed, expected))
-    found: NDArray[np.float64] = np.clip(np.divide(over, under, out=np.zeros(len(spectra)), where=under > 0), 0, 1)
+    found: Floats = np.clip(np.divide(over, under, out=np.zeros(len(spectra)), where=under > 0), 0, 1)
     return found

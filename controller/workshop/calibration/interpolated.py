@@ -1,12 +1,11 @@
 """Measured responses at any place of the plate: what a bank is built from."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Reals
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
@@ -85,7 +84,7 @@ class InterpolatedResponses:
         some = self.bins.in_band
         return foreseen_shares(*self._reach, points, some[:: max(len(some) // BINS_ASKED, 1)])
 
-    def near_enough(self, points_m: Floats) -> NDArray[np.bool_]:
+    def near_enough(self, points_m: Floats) -> Bools:
         """Whether responses are estimated at points, (point, 2) in m: (point,)."""
         return self.foreseen(points_m) >= LEAST_SHARE
 
@@ -95,8 +94,8 @@ class InterpolatedResponses:
         *,
         band_limited: bool = False,
         dtype: DTypeLike = np.float64,
-        out: NDArray[np.floating[Any]] | None = None,
-    ) -> NDArray[np.floating[Any]]:
+        out: Reals | None = None,
+    ) -> Reals:
         """As `ResponseSource` says; beyond the band as far as it was measured, nothing above it.
 
         Raises CalibrationError if a point is too far from all that were measured; ValueError if `out` has another shape or type.
@@ -109,17 +108,13 @@ class InterpolatedResponses:
             out[some] = self.bins.band_limited(spectra) if band_limited else self.bins.whole(spectra)
         return out
 
-    def drive_order_responses(
-        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
-    ) -> NDArray[np.floating[Any]]:
+    def drive_order_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
         """As `ResponseSource` says. Errors as in `responses`."""
         out = self.responses(points_m, band_limited=True, dtype=dtype, out=out)
         out[:] = out[:, ::-1].copy()
         return out
 
-    def entry_responses(
-        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
-    ) -> NDArray[np.floating[Any]]:
+    def entry_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
         """As `ResponseSource` says; outside the band, rows of rest hold what was measured there. Errors as in `responses`."""
         points = self._checked(points_m)
         rows = self.bins.rest_rows
@@ -143,7 +138,7 @@ class InterpolatedResponses:
         return points
 
 
-def _room(out: NDArray[np.floating[Any]] | None, shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[np.floating[Any]]:
+def _room(out: Reals | None, shape: tuple[int, ...], dtype: DTypeLike) -> Reals:
     kind = np.dtype(dtype)
     if out is None:
         return np.empty(shape, kind)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, lapack
 from scipy.special import j0, j1
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.cores import cores, on_all_cores
 from controller.workshop.calibration.dispersion import Dispersion
@@ -145,7 +145,7 @@ class WaveField:
             some = slice(first, first + POINTS_AT_ONCE)
             covariance = inside.between(targets_m[some], self.points_m)
 
-            def fill(bins: NDArray[np.intp], some: slice = some, covariance: Covariance = covariance) -> None:
+            def fill(bins: Indices, some: slice = some, covariance: Covariance = covariance) -> None:
                 for bin_ in bins.tolist():
                     plain = covariance(bin_).astype(np.float32) @ self.weights[bin_]
                     if self.fading:
@@ -159,7 +159,7 @@ class WaveField:
 def krige(
     points_m: Floats,  # (point, 2)
     spectra: Spectra,  # (bin, point, channel)
-    known: NDArray[np.bool_],  # (point, channel): what of it was measured
+    known: Bools,  # (point, channel): what of it was measured
     prior: Prior,
     noise: float = NOISE,  # variance of the noise, in that of the field
     progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the number of bins done and of all
@@ -188,7 +188,7 @@ def krige(
     return prior.field(points_m, weights), left_out
 
 
-def foreseen_shares(prior: Prior, points_m: Floats, targets_m: Floats, bins: NDArray[np.intp], noise: float = NOISE) -> Floats:
+def foreseen_shares(prior: Prior, points_m: Floats, targets_m: Floats, bins: Indices, noise: float = NOISE) -> Floats:
     """Share of the amplitude that estimates at targets will keep, from the places of the points alone: (target,).
 
     The correlation between the estimate and the field, mean over some bins: drive words are the estimate's sign, which keeps of a
@@ -204,7 +204,7 @@ def foreseen_shares(prior: Prior, points_m: Floats, targets_m: Floats, bins: NDA
     return np.sqrt(np.clip(explained, 0, 1))
 
 
-def alike(known: NDArray[np.bool_]) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+def alike(known: Bools) -> Iterator[tuple[Indices, Indices]]:
     """Points, and channels that were all measured at just these points."""
     patterns, owner = np.unique(known, axis=1, return_inverse=True)
     for index in range(patterns.shape[1]):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.checks import FATAL, NOISY_COHERENCE, Objection, raise_fatal
@@ -158,7 +158,7 @@ def _unloaded(
     return chain, {point: replace(found, transfer=found.transfer * free) for point, found in results.items()}
 
 
-def _stacked(results: dict[int, Transfers]) -> tuple[NDArray[np.complex64], NDArray[np.bool_]]:
+def _stacked(results: dict[int, Transfers]) -> tuple[NDArray[np.complex64], Bools]:
     """Transfer functions (point, 32, bin), and which are resolved."""
     return np.stack([found.transfer for found in results.values()]), np.stack([found.resolved for found in results.values()])
 

@@ -16,7 +16,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Bools, Complex, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.direct_wave import NEAR_WAVELENGTHS, direct_wave
 from controller.workshop.calibration.dispersion import Dispersion
@@ -50,7 +50,7 @@ class _Records:
     board: Board
     bins: RawBins
     points_m: Floats  # (point, 2)
-    patches: NDArray[np.intp]
+    patches: Indices
     places_m: Floats  # (patch, 2): of these
     frequency_hz: Floats
     values: Complex  # (point, patch, bin)
@@ -61,7 +61,7 @@ def locate(
     bins: RawBins,
     points_m: Floats,  # (point, 2): as stated
     transfers: NDArray[np.complexfloating],  # (point, 32, bin)
-    resolved: NDArray[np.bool_],  # (point, 32)
+    resolved: Bools,  # (point, 32)
 ) -> MeasuringFrame | None:
     """Find the frame; None from too few points, or if the direct waves do not stand out in any."""
     if not enough(board, len(points_m)):
@@ -89,7 +89,7 @@ def locate(
     return frame if inside.all() and _coherence(few, frame, factor) > KEPT * coherence else None
 
 
-def _as_stated(many: _Records, frame: MeasuringFrame, factor: float, free: NDArray[np.bool_]) -> tuple[MeasuringFrame, float]:
+def _as_stated(many: _Records, frame: MeasuringFrame, factor: float, free: Bools) -> tuple[MeasuringFrame, float]:
     """The frame, and its factor, of which only some is free; the rest is as stated, and known no better than it was off."""
     errors = np.where(free, frame.errors, np.maximum(np.abs(frame.changes), frame.errors))
     frame = frame.with_changes(frame.changes * free, errors)
@@ -103,7 +103,7 @@ def enough(board: Board, points: int) -> bool:
     return points >= LEAST_POINTS and points * len(board.actuators) >= LEAST_RECORDS
 
 
-def away_from_edges(board: Board, points_m: Floats) -> NDArray[np.intp]:
+def away_from_edges(board: Board, points_m: Floats) -> Indices:
     """Points whose direct waves come alone; all if these are few."""
     from_edge_m = np.minimum(points_m, 2 * middle_m(board) - points_m).min(axis=1)
     inside = np.flatnonzero(from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_low_hz))
@@ -115,7 +115,7 @@ def _records(
     bins: RawBins,
     points_m: Floats,
     transfers: NDArray[np.complexfloating],
-    resolved: NDArray[np.bool_],
+    resolved: Bools,
     most: tuple[int, int, int],  # points, patches, bins
     part: float,
 ) -> _Records:
@@ -133,7 +133,7 @@ def _records(
     return _Records(board, bins, points_m[points], patches, places_m, bins.frequency_hz[chosen], values)
 
 
-def _some(count: int, most: int) -> NDArray[np.intp]:
+def _some(count: int, most: int) -> Indices:
     return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
 
 
@@ -180,7 +180,7 @@ def _explained(many: _Records, frame: MeasuringFrame, factor: float) -> float:
 
 
 def _step(
-    many: _Records, frame: MeasuringFrame, factor: float, free: NDArray[np.bool_] | tuple[bool, ...] = (True,) * 4
+    many: _Records, frame: MeasuringFrame, factor: float, free: Bools | tuple[bool, ...] = (True,) * 4
 ) -> tuple[MeasuringFrame, float]:
     """One of Gauss and Newton's steps, for the wavenumber and what of offset, rotation and scale is free, together."""
     places_m = frame.places(many.points_m, middle_m(many.board))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.kriging import Covariance, SpectralField, Waves, krige
 from controller.workshop.calibration.spectra import Bins, Spectra
@@ -61,7 +61,7 @@ class ModalPrior:
         bins, points, channels = weights.shape
         plain = weights.view(np.float32).reshape(bins, points, 2 * channels)
         shapes = self.modes.shapes(points_m, np.float32)
-        amplitudes: list[tuple[NDArray[np.intp], NDArray[np.float32]]] = []
+        amplitudes: list[tuple[Indices, NDArray[np.float32]]] = []
         for bin_ in range(bins):
             some = np.flatnonzero(self.variances[bin_])
             amplitudes.append((some, self.variances[bin_, some][:, None] * (shapes[:, some].T @ plain[bin_])))
@@ -74,7 +74,7 @@ class ModalField:
 
     modes: Modes
     # Modes that move in each bin, and how: real and imaginary parts in turn
-    amplitudes: list[tuple[NDArray[np.intp], NDArray[np.float32]]]
+    amplitudes: list[tuple[Indices, NDArray[np.float32]]]
 
     def at(self, targets_m: Floats) -> Spectra:
         """As `SpectralField` says."""
@@ -85,7 +85,7 @@ class ModalField:
 def unforeseen(
     points_m: Floats,
     spectra: Spectra,
-    known: NDArray[np.bool_],
+    known: Bools,
     bins: Bins,
     prior_of: Callable[[Bins], Waves | ModalPrior],
 ) -> Floats:

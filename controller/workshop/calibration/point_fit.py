@@ -18,7 +18,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.cores import on_all_cores
 from controller.workshop.calibration.kriging import Waves, inverse
@@ -57,7 +57,7 @@ def fit_points(
     board: Board,
     points_m: Floats,  # (point, 2): as stated
     responses: NDArray[np.floating],  # (point, sample, channel)
-    known: NDArray[np.bool_],  # (point, channel)
+    known: Bools,  # (point, channel)
     bins: Bins,
     waves: WaveFit,
     progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the work done and all of it
@@ -101,7 +101,7 @@ class _Records:
     points_m: Floats
     responses: NDArray[np.floating]
     bins: Bins
-    chosen: NDArray[np.intp]
+    chosen: Indices
     waves: WaveFit
 
     def step(self, errors: Floats, noise: float) -> tuple[Floats, Floats]:

@@ -9,9 +9,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.calibration.dispersion import Dispersion
@@ -106,7 +105,7 @@ def wiring_points(board: Board, count: int, beside_m: Floats = NONE) -> Floats:
     return scattered_points(board, count, margin_m, avoid_actuators=True, beside_m=beside_m)
 
 
-def short_path(points_m: Floats) -> NDArray[np.intp]:
+def short_path(points_m: Floats) -> Indices:
     """Order of points, (point, 2), along strips to and fro: about 1.1 sqrt(area * points) long."""
     extent = np.ptp(points_m, axis=0)
     strips = max(round(math.sqrt(len(points_m) * extent[1] / (3 * extent[0] or 1))), 1)
@@ -119,7 +118,7 @@ def path_m(points_m: Floats) -> float:
     return float(np.hypot(*np.diff(points_m, axis=0).T).sum())
 
 
-def _on_actuators(board: Board, points_m: Floats) -> NDArray[np.bool_]:
+def _on_actuators(board: Board, points_m: Floats) -> Bools:
     """Whether each point lies on a patch."""
     on = np.zeros(len(points_m), bool)
     for actuator in board.actuators:

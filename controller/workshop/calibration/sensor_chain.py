@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Bools, Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import Objection
 from controller.workshop.calibration.direct_wave import direct_transfer
@@ -91,7 +91,7 @@ def sensor_chain(
     bins: RawBins,
     points_m: Floats,  # (point, 2): where they lie on the plate
     transfers: NDArray[np.complexfloating],  # (point, 32, bin)
-    resolved: NDArray[np.bool_],  # (point, 32)
+    resolved: Bools,  # (point, 32)
     factor: float,  # of the wavenumber
     around_s: float,  # what the delay is nearly
 ) -> SensorChain:

@@ -7,13 +7,12 @@ what the transform would else wrap round, and by which bins are nearer to each o
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Indices, Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
 from controller.workshop.calibration.cores import cores
@@ -47,7 +46,7 @@ class Bins:
         return cls(length, waveform.samples, frequency_hz, gain, rest_taps(waveform))
 
     @property
-    def in_band(self) -> NDArray[np.intp]:
+    def in_band(self) -> Indices:
         """Bins that the filter passes at all."""
         return np.flatnonzero(self.gain)
 
@@ -56,14 +55,14 @@ class Bins:
         """Rows of rest that follow an entry's samples."""
         return -(-self.samples // REST_SAMPLES)
 
-    def part(self, chosen: NDArray[np.intp]) -> Bins:
+    def part(self, chosen: Indices) -> Bins:
         """Some of the bins."""
         return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen])
 
     def of_records(
         self,
-        responses: NDArray[np.floating[Any]],
-        points: NDArray[np.intp],
+        responses: Reals,
+        points: Indices,
         higher: Floats | None = None,  # of each point: by which all frequencies of the plate were higher; corrected
     ) -> Spectra:
         """Spectra of the records, (point, sample, channel), of some points, by bins: (bin, point, channel)."""

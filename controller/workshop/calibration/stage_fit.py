@@ -12,9 +12,8 @@ from typing import Final, NamedTuple
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Bools, Complex, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.learned import LearnedResponses
@@ -67,7 +66,7 @@ def stage_notes(board: Board, learned: LearnedResponses) -> list[str]:
     ]
 
 
-def _early(board: Board, learned: LearnedResponses, points: NDArray[np.intp]) -> tuple[Floats, Floats, Complex, Complex]:
+def _early(board: Board, learned: LearnedResponses, points: Indices) -> tuple[Floats, Floats, Complex, Complex]:
     """Frequencies, distances k r (point, channel, bin), and early spectra (point, channel, bin): measured, and of the model."""
     channels = [one.channel for one in board.actuators]
     places_m = np.array([(one.x_mm, one.y_mm) for one in board.actuators]) * 1e-3
@@ -102,9 +101,7 @@ def _alike(turns: Floats, measured: Complex, modelled: Complex) -> float:
     return float(total / (powers[0] * powers[1]).sum())
 
 
-def _time_constant(
-    board: Board, frequency_hz: Floats, turns: Floats, measured: Complex, modelled: Complex, used: NDArray[np.bool_]
-) -> float:
+def _time_constant(board: Board, frequency_hz: Floats, turns: Floats, measured: Complex, modelled: Complex, used: Bools) -> float:
     """Factor on R C by some points."""
     from scipy.optimize import least_squares  # noqa: PLC0415 - takes 0.3 s
 

@@ -1,12 +1,10 @@
 """Transfer functions to learned responses in time, each with its noise, and where they come from."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import NOISY_COHERENCE
 from controller.workshop.calibration.deconvolution import Deconvolution
@@ -62,7 +60,7 @@ def responses_in_time(
     return found_all, float(np.median(ringing))
 
 
-def _noise(deconvolution: Deconvolution, found: Transfers, whole: NDArray[np.floating[Any]], early: slice) -> tuple[Floats, Floats]:
+def _noise(deconvolution: Deconvolution, found: Transfers, whole: Reals, early: slice) -> tuple[Floats, Floats]:
     """Standard deviation of the noise in each of a point's responses, and their coherence, (channel,) both.
 
     `whole` are the responses (channel, sample); `early` are samples of noise alone, for responses whose variance is not known.

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats
 from controller.device.board.board import Board
 from controller.workshop.physics.responses.modal_response import edge_width_hz
 
@@ -66,7 +66,7 @@ class Transfers:
     """Transfer functions of one point."""
 
     transfer: NDArray[np.complex64]  # (32, bin): in m s per V; zero where not resolved
-    resolved: NDArray[np.bool_]  # (32,): whether the records that are there determine the channel
+    resolved: Bools  # (32,): whether the records that are there determine the channel
     # (32,): of the real and imaginary parts of `transfer` together, mean over the bins; NaN where nothing is left to tell it
     # from
     variance: Floats

@@ -9,9 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.dispersion import Dispersion
@@ -60,7 +59,7 @@ def fit_waves(
     board: Board,  # what its plate's constants say is where the search begins
     points_m: Floats,  # (point, 2)
     spectra: Spectra,  # (bin, point, channel)
-    known: NDArray[np.bool_],  # (point, channel)
+    known: Bools,  # (point, channel)
     bins: Bins,
     progress: Callable[[int, int], None] = lambda _done, _total: None,  # called with the work done and all of it
 ) -> WaveFit:
@@ -77,7 +76,7 @@ def fit_waves(
 
     done = 0
 
-    def error(factor: float, chosen: NDArray[np.intp], edge_variance: float, noise: float) -> float:
+    def error(factor: float, chosen: Indices, edge_variance: float, noise: float) -> float:
         nonlocal done
         prior = Waves.of(replace(dispersion, factor=factor), bins.part(chosen), board, edge_variance)
         found = _unforeseen(points_m[whole], spectra[np.ix_(chosen, whole, channels)], inside, prior, noise)
@@ -106,7 +105,7 @@ def fit_waves(
     return _line(dispersion, edge_variance, noise, bins.frequency_hz[parts].mean(axis=1), factors)
 
 
-def of_one_pattern(known: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def of_one_pattern(known: Bools) -> tuple[Indices, Indices]:
     """Points, and channels that are known at every one of them, as most are."""
     whole = np.flatnonzero(known.any(axis=1))
     if len(whole) > POINTS:
@@ -115,16 +114,16 @@ def of_one_pattern(known: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[
     return whole[known[np.ix_(whole, channels)].all(axis=1)], channels
 
 
-def _inside(board: Board, points_m: Floats) -> NDArray[np.bool_]:
+def _inside(board: Board, points_m: Floats) -> Bools:
     """Which points judge: those away from the edges, or all if few are."""
     from_edge_m = np.minimum(points_m, (board.plate.length_m, board.plate.width_m) - points_m).min(axis=1)
-    inside: NDArray[np.bool_] = from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_high_hz)
+    inside: Bools = from_edge_m > EDGE_WAVES * Dispersion.of(board.plate).wavelength_m(board.waveform.band_high_hz)
     if inside.sum() < len(points_m) / 5:
         inside[:] = True
     return inside
 
 
-def _unforeseen(points_m: Floats, spectra: Spectra, inside: NDArray[np.bool_], prior: Waves, noise: float) -> float:
+def _unforeseen(points_m: Floats, spectra: Spectra, inside: Bools, prior: Waves, noise: float) -> float:
     """Energy of points inside, each left out, that the others do not foresee, over all."""
     _, foreseen = krige(points_m, spectra, np.ones(spectra.shape[1:], bool), prior, noise)
     scale = (np.abs(spectra[:, inside]) ** 2).mean(axis=(1, 2), keepdims=True)

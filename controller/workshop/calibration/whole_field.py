@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
@@ -72,7 +73,7 @@ class _BelowBand:
         less = self._bins[self._trusted < 0.5]
         return float(self._frequency_hz[less.max() + 1]) if less.size else 0.0
 
-    def completed(self, spectra: Spectra, points_m: NDArray[np.float64]) -> Spectra:
+    def completed(self, spectra: Spectra, points_m: Floats) -> Spectra:
         """Spectra at points, (bin, point, channel), completed in place."""
         shapes, forces = self._model.plate_modes.shapes(points_m, np.float32), self._model.forces.astype(np.float32)
         for index, (bin_, trusted) in enumerate(zip(self._bins.tolist(), self._trusted.tolist(), strict=True)):
@@ -81,7 +82,7 @@ class _BelowBand:
         return spectra
 
 
-def _unforeseen(board: Board, source: InterpolatedResponses, points_m: NDArray[np.float64]) -> float:
+def _unforeseen(board: Board, source: InterpolatedResponses, points_m: Floats) -> float:
     """Share of the field's energy that is not foreseen: of points left out, or by the places of the points, where that is more."""
     by_places = 1 - source.foreseen(points_m) ** 2
     found = round(float(np.maximum(by_places, source.leave_out.unforeseen()).mean()), 4)

@@ -8,18 +8,18 @@ points that are composed together are free.
 
 import itertools
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats, Reals
 from controller.device.bank.packing import drive_words
 
 BALANCING_ROUNDS = 20
 BALANCED = 1e-3  # spread of the shares, over their mean, at which weights are taken as they are
 
 
-def balanced_weights(responses: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+def balanced_weights(responses: Reals) -> Floats:
     """Weights of free sign with which all points get the same share of what each would get alone.
 
     Of all polarities those with the largest energy of the sum are taken (`s' G s`, G: inner products of the responses), with
@@ -43,11 +43,11 @@ def balanced_weights(responses: NDArray[np.floating[Any]]) -> NDArray[np.float64
         if not shares.size or np.ptp(shares) <= BALANCED * abs(shares.mean()):
             break
         weights[moving] *= np.clip(shares.mean() / np.where(shares > 0, shares, np.inf), 0.5, 2)
-    balanced: NDArray[np.float64] = weights * each
+    balanced: Floats = weights * each
     return balanced
 
 
-def focus(responses: NDArray[np.floating[Any]], weights: Sequence[float], idle_word: int) -> NDArray[np.uint32]:
+def focus(responses: Reals, weights: Sequence[float], idle_word: int) -> NDArray[np.uint32]:
     """Drive words that focus on one or several points at the end of the emission.
 
     `responses` (point, sample, channel) are band-limited, in drive order (`ResponseModel.drive_order_responses`), m per V. Each

@@ -11,14 +11,14 @@ fix polynomials of which values and second derivatives are integrated over disc 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike
 from scipy.linalg import eigh
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.board.panel import Actuator, Plate
 from controller.device.board.patches import Patch, Patches
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
@@ -77,9 +77,9 @@ class CombinedModes:
         """None: a shape is a sum of products."""
         return None
 
-    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> NDArray[np.floating[Any]]:
+    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> Reals:
         """As in `Modes`."""
-        shapes: NDArray[np.floating[Any]] = self.base.shapes(points_m, dtype) @ self.parts.astype(dtype, copy=False)
+        shapes: Reals = self.base.shapes(points_m, dtype) @ self.parts.astype(dtype, copy=False)
         return shapes
 
     def on_grid(self, amplitudes: Floats, x_m: ArrayLike, y_m: ArrayLike) -> Floats:

@@ -3,12 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.bank.packing import as_words, channel_bits
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
 
 
-def volts_above_idle(board: Board, words: NDArray[np.uint32]) -> NDArray[np.float64]:
+def volts_above_idle(board: Board, words: NDArray[np.uint32]) -> Floats:
     """Voltage of each channel's stage above that at rest: (sample, channel)."""
     above = channel_bits(words).astype(np.float64) - channel_bits(as_words(board.idle_word, words))
     above *= board.driver.supply_v

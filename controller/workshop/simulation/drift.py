@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.devices import Temperature
 from controller.device.fpga.capture import Capture
 from controller.errors import ConfigError
@@ -38,10 +38,10 @@ COLUMNS: Final = ("time_s", "drift_percent", "sensor_c")
 class Drift:
     """Relative change of all frequencies of a plate over the time of a recording."""
 
-    time_s: NDArray[np.float64]  # (row,): rising; before the first row and after the last the drift stays
-    drift: NDArray[np.float64]  # (row,): relative: 0.005 is 0.5 % higher
+    time_s: Floats  # (row,): rising; before the first row and after the last the drift stays
+    drift: Floats  # (row,): relative: 0.005 is 0.5 % higher
     # (row,): what the sensor says from `time_s` on, in °C, NaN where it fails; None: the temperature that the drift means
-    sensor_c: NDArray[np.float64] | None = None
+    sensor_c: Floats | None = None
 
     @classmethod
     def constant(cls, percent: float) -> Drift:

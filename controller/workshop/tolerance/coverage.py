@@ -8,8 +8,8 @@ from typing import Any, Final
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Reals
 from controller.device.bank.expectation import Expectation, Interval
 from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
@@ -51,7 +51,7 @@ def records_of(study: Unseen, plates: int, workers: Workers) -> list[PlateRecord
     return [record_of(np.frombuffer(mapped.results[number])) for number in range(plates)]
 
 
-def record_of(values: NDArray[np.floating[Any]]) -> PlateRecord:
+def record_of(values: Reals) -> PlateRecord:
     """From the values of a record."""
     return PlateRecord._make(values.tolist())
 

@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Complex, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
@@ -26,7 +26,7 @@ BLOCK = 32  # samples: exponentials are products of those at the blocks' starts 
 class PlayedPlate:
     """Partial fractions of every mode on every channel that has a patch."""
 
-    channels: NDArray[np.intp]  # (channel,)
+    channels: Indices  # (channel,)
     step: StepResponse  # of the board's own stage: poles, and which mode they belong to
     pole_gain: Complex  # (channel, pole): m per V after a unit step
     driver_poles: Complex  # (channel, 2)

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.device.touch import event_codes as ev
 from controller.device.touch.axes import AxisRange, PanelAxes
@@ -38,9 +38,9 @@ class Track:
     """Reported positions of one finger from its first report to its last."""
 
     finger: int  # number in the touch samples
-    time_s: NDArray[np.float64]  # time_s, x_m, y_m: (report,): one entry for each report while the finger was down
-    x_m: NDArray[np.float64]
-    y_m: NDArray[np.float64]
+    time_s: Floats  # time_s, x_m, y_m: (report,): one entry for each report while the finger was down
+    x_m: Floats
+    y_m: Floats
 
     @classmethod
     def of(cls, finger: int, reports: Sequence[tuple[float, float, float]]) -> Track:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from controller.arrays import Reals
+from controller.arrays import Bools, Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
@@ -120,7 +120,7 @@ class CompactDesign:
         return self.grid.cells * self.pulses.weights * CHANNELS * 25.0
 
     def rows(
-        self, source: ResponseSource, there: NDArray[np.bool_], use: Callable[[int, Reals], None]
+        self, source: ResponseSource, there: Bools, use: Callable[[int, Reals], None]
     ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
         """Bytes of the cells that are `there` (cell, byte), and m per V of a level; `use` is called with cells and responses."""
 
@@ -165,7 +165,7 @@ def _fitted(
     grid: Grid,
     own: CompactStencil,
     pulses: Pulses,
-    there: NDArray[np.bool_],
+    there: Bools,
     responses: Callable[[Reals, list[int]], Reals],
 ) -> NDArray[np.float32]:
     """Weights of all cells, (cell, weight, 32), whose sums between cells are next to the responses: least squares.

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Indices
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
 from controller.device.kernel import compact_twin
@@ -40,7 +40,7 @@ class Pulses:
     taps: NDArray[np.int16]  # (output, tap)
     odd: tuple[int, int]  # taps of odd samples: of the sum of the two even neighbours, beside a half; of the next two, negative
     analysis: NDArray[np.float32]  # (weight, row of a response)
-    together: NDArray[np.float64]  # (weight, weight): how much the errors of two count together
+    together: Floats  # (weight, weight): how much the errors of two count together
     error: float  # square error over the power of responses, before rounding, as a loss counts it
 
     @property
@@ -74,7 +74,7 @@ def rest_pulses(waveform: Waveform, rests: Floats) -> Pulses:
     return _learned(*_envelopes(np.arange(rows), apart), rests, np.eye(rows), (0.0, 0.0))
 
 
-def _envelopes(at: NDArray[Any], apart: float) -> tuple[NDArray[np.intp], Floats]:
+def _envelopes(at: NDArray[Any], apart: float) -> tuple[Indices, Floats]:
     """For each output the first of the pulses that it meets, which are `apart`, and a windowed sinc around their middles."""
     position = at / apart + 1
     first = position.astype(int) - (MET - 1) // 2
@@ -96,7 +96,7 @@ def _odd_taps(waveform: Waveform) -> tuple[float, float]:
     return float(near), float(far)
 
 
-def _learned(first: NDArray[np.intp], start: Floats, responses: Floats, to_rows: Floats, odd: tuple[float, float]) -> Pulses:
+def _learned(first: Indices, start: Floats, responses: Floats, to_rows: Floats, odd: tuple[float, float]) -> Pulses:
     """Fit pulses, which begin as `start` (output, tap), and weights to responses in turns; `to_rows` (row, output) of outputs."""
     (outputs, taps), weights = start.shape, int(first[-1]) + start.shape[1]
     met, rows = first[:, None] + np.arange(taps), responses[:, :, ::4].transpose(1, 0, 2).reshape(len(to_rows), -1)

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Reals
+from controller.arrays import Indices, Reals
 from controller.device.bank.packing import CHANNELS, SCALE_BITS
 from controller.device.kernel import compact_twin
 from controller.workshop.bank_builder.compact.stencils import CompactStencil
@@ -47,7 +47,7 @@ def rounded(
 class _Descent:
     """Errors of all weights, which shrink; `steps` (row, column, block, 32) are half the distances of levels."""
 
-    def __init__(self, weights: Reals, steps: Reals, block_of: NDArray[np.intp]) -> None:
+    def __init__(self, weights: Reals, steps: Reals, block_of: Indices) -> None:
         self._weights, self._steps, self._block_of = weights, steps, block_of
         reach = compact_twin.MAX_ACROSS
         ny, nx, count, channels = weights.shape
@@ -96,7 +96,7 @@ def _level(wanted: Reals, steps: Reals) -> Reals:
     return found
 
 
-def _scales(weights: Reals, block_of: NDArray[np.intp]) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.float32]]:
+def _scales(weights: Reals, block_of: Indices) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.float32]]:
     """Scales of channels (cell, 32), of blocks (cell, block, 32), and of cells (cell,).
 
     Those of channels are 256ths of the cells', which have 13 significant bits; those of blocks 16ths of these, less 1.

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Reals
+from controller.arrays import Bools, Reals
 from controller.device import kernel
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
@@ -35,7 +35,7 @@ class Trial:
         board: Board,
         source: ResponseSource,
         design: CompactDesign,
-        there: NDArray[np.bool_],
+        there: Bools,
         rows: NDArray[np.uint8],
         scales: NDArray[np.float32],
         tables_of: Callable[[float], bytes],

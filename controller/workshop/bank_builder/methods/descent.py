@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Indices
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
@@ -192,7 +192,7 @@ class Descent:
         found: Floats = np.sum(cells.pull * (levels - self._idle), axis=(0, 2))
         return found
 
-    def _cells(self, points_m: Floats, words: NDArray[np.uint32]) -> tuple[_Cells, NDArray[np.intp]]:
+    def _cells(self, points_m: Floats, words: NDArray[np.uint32]) -> tuple[_Cells, Indices]:
         """State of the points at which there is something to optimise, and which they are."""
         plain = np.stack([channel_bits(row) for row in words], axis=1).astype(np.float64)
         shapes = self.field.shapes(points_m)

@@ -6,11 +6,12 @@ builder and benchmark take any of them.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Reals
 from controller.device.kernel import Point
 
 Place = tuple[float, float]  # x_m, y_m
@@ -22,8 +23,8 @@ class WaveformDesign:
 
     words: NDArray[np.uint32]  # (sample,): drive words, first played first
     # (point,): at each point at T, from rest at the idle word; negative where the point is kicked downwards
-    displacement_m: NDArray[np.floating[Any]]
-    nulls_m: NDArray[np.floating[Any]]  # (null,): largest absolute displacement at each null near T
+    displacement_m: Reals
+    nulls_m: Reals  # (null,): largest absolute displacement at each null near T
 
 
 class DesignMethod(Protocol):

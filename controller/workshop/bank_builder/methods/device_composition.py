@@ -1,11 +1,10 @@
 """The device's composition as a `DesignMethod`: for benchmarks and banks, not for the loop, which uses `Composer` as it is."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.packing import CHANNELS, WORD, channel_bits
 from controller.device.bank.reader import Bank
@@ -13,8 +12,6 @@ from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.device.waveforms.composition import Composer
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
-
-Floats = NDArray[np.floating[Any]]
 
 NEAR_S = 25e-6  # a null is evaluated this long before and after T
 
@@ -41,7 +38,7 @@ class DeviceComposition:
         reached_m = np.array([np.sum(self._response(x_m, y_m) * volts) for x_m, y_m, _ in points])
         return WaveformDesign(words, reached_m, np.array([self._most_near(self._response(*place), volts) for place in nulls]))
 
-    def _response(self, x_m: float, y_m: float) -> Floats:
+    def _response(self, x_m: float, y_m: float) -> Reals:
         """All that a bit does at a place, in the band and outside it, (sample, 32): interpolated as the composer does.
 
         Between cells waves of the corners cancel in part; the size of the response is interpolated by itself.
@@ -63,7 +60,7 @@ class DeviceComposition:
                 size += share * float(np.abs(response).sum())
         return in_band * (size / (float(np.abs(in_band).sum()) or 1.0)) + outside
 
-    def _most_near(self, response: Floats, volts: Floats) -> float:
+    def _most_near(self, response: Reals, volts: Reals) -> float:
         """Largest absolute displacement within `NEAR_S` of T."""
         near, end = self._near_samples, len(volts)
         found = []

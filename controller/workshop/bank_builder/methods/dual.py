@@ -11,13 +11,11 @@ mend that.
 """
 
 from itertools import product
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.floating[Any]]
-Bits = NDArray[np.bool_]
+from controller.arrays import Bools, Floats, Reals
 
 ROUNDINGS: Final = (1.0, 0.3, 0.1, 0.03, 0.01)  # d, over the mean of the absolute sums
 MAX_STEPS: Final = 30  # of Newton's method for each; most need two
@@ -28,7 +26,7 @@ MAX_FLIPS: Final = 600
 WEAK_SHARE: Final = 0.25  # of all bits: those with the smallest sums may be flipped
 
 
-def likely_polarities(rows: Floats, count: int) -> list[NDArray[np.float64]]:
+def likely_polarities(rows: Reals, count: int) -> list[Floats]:
     """Directions in which to push places so that they get most when all get the same, best ones first.
 
     For weights `w` the sum of absolute values of `w @ rows` grows about as the root of `w G w` (G: inner products of the rows); its
@@ -43,7 +41,7 @@ def likely_polarities(rows: Floats, count: int) -> list[NDArray[np.float64]]:
     return list(signs[np.argsort(squares, kind="stable")[:count]])
 
 
-def farthest(rows: Floats, proportions: Floats, roundings: tuple[float, ...] = ROUNDINGS) -> tuple[Floats, float]:
+def farthest(rows: Reals, proportions: Reals, roundings: tuple[float, ...] = ROUNDINGS) -> tuple[Reals, float]:
     """Weights whose bits push as far as possible in given proportions.
 
     `rows` are (goal, bit), `proportions` (goal,): wanted displacements, up to a factor, 0 for a goal that shall stay still. The
@@ -55,21 +53,21 @@ def farthest(rows: Floats, proportions: Floats, roundings: tuple[float, ...] = R
     return weights, float(np.maximum(weights @ rows, 0).sum())
 
 
-def cheapest(rows: Floats, wanted: Floats, cost: Floats, start: Floats) -> Floats:
+def cheapest(rows: Reals, wanted: Reals, cost: Reals, start: Reals) -> Reals:
     """Weights whose bits, where `weights @ rows > cost`, give `wanted`, (goal,), with the least sum of costs, (bit,)."""
     return _newton(rows, cost, wanted, start, ROUNDINGS, None)
 
 
-def _gram(rows: Floats) -> Floats:
+def _gram(rows: Reals) -> Reals:
     """Inner products of rows, (goal, goal), with as much on the diagonal that equal rows do not make it singular."""
-    products: Floats = rows @ rows.T
+    products: Reals = rows @ rows.T
     products += 1e-9 * np.trace(products) / len(rows) * np.eye(len(rows))
     return products
 
 
 def _newton(
-    rows: Floats, cost: Floats, wanted: Floats, weights: Floats, roundings: tuple[float, ...], proportions: Floats | None
-) -> Floats:
+    rows: Reals, cost: Reals, wanted: Reals, weights: Reals, roundings: tuple[float, ...], proportions: Reals | None
+) -> Reals:
     """Smallest rounded sum; with `proportions`, over the weights whose product with them stays what it is."""
     count = len(rows)
     system = np.zeros((count + 1, count + 1))
@@ -100,11 +98,11 @@ def _newton(
     return weights
 
 
-def _rounded(sums: Floats, square: float) -> float:
+def _rounded(sums: Reals, square: float) -> float:
     return float((sums + np.sqrt(sums**2 + square)).sum()) / 2
 
 
-def flip(bits: Bits, strength: Floats, rows: Floats, wanted: Floats, tolerance: float) -> None:
+def flip(bits: Bools, strength: Reals, rows: Reals, wanted: Reals, tolerance: float) -> None:
     """Flip bits, those that cost little, until `rows @ bits` is as wanted or no flip brings it nearer.
 
     `bits` (bit,) are changed in place; `strength` (bit,) is how far each bit's sum is above or below what decides it. `rows` (goal,

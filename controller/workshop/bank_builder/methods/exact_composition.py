@@ -15,13 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from controller.arrays import Bools, Reals
 from controller.device.bank.packing import CHANNELS, WORD, channel_bits
 from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.device.kernel.amplitude_twin import masking_threshold
 from controller.device.waveforms.composition import BLOCK_S, MAX_FOCI
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
-from controller.workshop.bank_builder.methods.dual import Bits, Floats, cheapest, farthest, flip, likely_polarities
+from controller.workshop.bank_builder.methods.dual import cheapest, farthest, flip, likely_polarities
 from controller.workshop.physics.responses.response_source import ResponseSource
 
 EQUAL: Final = 5e-4  # of what a point shall get: flips mend a larger difference
@@ -51,7 +52,7 @@ class ExactComposition:
         places_m, asked = checked_points(points)
         return WaveformDesign(*self.words(places_m, asked, np.zeros((0, self._source.samples * CHANNELS))), np.zeros(0))
 
-    def words(self, places_m: Floats, asked: Floats, nulls: Floats) -> tuple[NDArray[np.uint32], Floats]:
+    def words(self, places_m: Reals, asked: Reals, nulls: Reals) -> tuple[NDArray[np.uint32], Reals]:
         """Drive words for points at which (point,) amplitudes are asked for, and rows (row, bit) that shall stay zero.
 
         With the displacements that they give, (point,) in m.
@@ -63,13 +64,13 @@ class ExactComposition:
         packed: NDArray[np.uint32] = np.packbits(bits.reshape(-1, CHANNELS), axis=1, bitorder="little").view(WORD)[:, 0]
         return packed ^ np.uint32(self.idle_word), whole @ bits
 
-    def deviations(self, responses: Floats) -> Floats:
+    def deviations(self, responses: Reals) -> Reals:
         """What each bit adds where it deviates from idle, (point, bit) in m, from responses in drive order."""
         rows: NDArray[Any] = (responses * self.volts).reshape(len(responses), -1)
         return rows
 
 
-def checked_points(points: Sequence[Point]) -> tuple[Floats, Floats]:
+def checked_points(points: Sequence[Point]) -> tuple[Reals, Reals]:
     """Places (point, 2) and amplitudes (point,) of points.
 
     Raises ValueError if there are none or too many, or a number is not finite or beyond its range.
@@ -84,7 +85,7 @@ def checked_points(points: Sequence[Point]) -> tuple[Floats, Floats]:
     return reported[:, :2], reported[:, 2]
 
 
-def best_bits(in_band: Floats, whole: Floats, asked: Floats, nulls: Floats, block_samples: int) -> Bits:
+def best_bits(in_band: Reals, whole: Reals, asked: Reals, nulls: Reals, block_samples: int) -> Bools:
     """Where to deviate from idle.
 
     `in_band` and `whole` (point, bit) are what each bit adds at each point in m: in the band, of which the sum is made, and in
@@ -102,11 +103,11 @@ def best_bits(in_band: Floats, whole: Floats, asked: Floats, nulls: Floats, bloc
     rows = np.concatenate([in_band, still * float(np.linalg.norm(in_band, axis=1).mean())])
     signs = _polarities(left, rows)
 
-    def proportions(shares: Floats) -> Floats:
+    def proportions(shares: Reals) -> Reals:
         return np.append(shares, np.zeros(len(nulls)))
 
     shares = signs
-    bits: Bits = np.zeros(rows.shape[1], bool)
+    bits: Bools = np.zeros(rows.shape[1], bool)
     for _ in range(ROUNDS):
         weights, _ = farthest(rows, proportions(shares))
         sums = weights @ rows
@@ -132,7 +133,7 @@ def best_bits(in_band: Floats, whole: Floats, asked: Floats, nulls: Floats, bloc
     return bits
 
 
-def _polarities(left: Floats, rows: Floats) -> Floats:
+def _polarities(left: Reals, rows: Reals) -> Reals:
     """Directions of the points with the largest bound, of those that are likely to have it."""
     count = len(left)
     likely = likely_polarities(left, min(FULL_POLARITIES, 2 ** max(count - 3, 0)) if count > 2 else 1)
@@ -144,7 +145,7 @@ def _polarities(left: Floats, rows: Floats) -> Floats:
     return signs
 
 
-def _require_independent(in_band: Floats, left: Floats, asked: Floats) -> None:
+def _require_independent(in_band: Reals, left: Reals, asked: Reals) -> None:
     """Refuse points that cannot move, and those that would have to move otherwise than another one at the same place."""
     norms, kept = np.linalg.norm(in_band, axis=1), np.linalg.norm(left, axis=1)
     if not norms.all():

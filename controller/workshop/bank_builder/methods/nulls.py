@@ -12,12 +12,12 @@ from typing import Final
 
 import numpy as np
 
+from controller.arrays import Reals
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.device.kernel import Point
 from controller.device.waveforms.pad import OFFSETS, PAD_M, pad_places
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
-from controller.workshop.bank_builder.methods.dual import Floats
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition, checked_points
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.physics.responses.impulse_response import ResponseModel
@@ -49,16 +49,16 @@ class ExactNulls:
         each_m = most_m.reshape(len(nulls_m), len(OFFSETS)).max(axis=1, initial=0.0)
         return WaveformDesign(words, reached_m, each_m)
 
-    def near_focus(self, places_m: Sequence[Place]) -> Floats:
+    def near_focus(self, places_m: Sequence[Place]) -> Reals:
         """What each bit that deviates adds to places, (place, 2), at each sample within 25 us of T: (place * time, bit) in m."""
         rows = [self._composition.deviations(self._prediction.near_responses(place_m)) for place_m in places_m]
         return np.concatenate(rows) if rows else np.zeros((0, self._model.samples * CHANNELS))
 
 
-def independent(rows: Floats) -> Floats:
+def independent(rows: Reals) -> Reals:
     """Orthogonal rows, (fewer, bit), of which `rows`, (row, bit), are made; combinations that are next to zero are left out."""
     if not len(rows):
         return rows
     squares, directions = np.linalg.eigh(rows @ rows.T)
-    kept: Floats = directions[:, squares > HEARD**2 * squares[-1]].T @ rows
+    kept: Reals = directions[:, squares > HEARD**2 * squares[-1]].T @ rows
     return kept

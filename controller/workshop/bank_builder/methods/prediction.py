@@ -1,11 +1,11 @@
 """What drive words give at points of the plate: inner products of bits with the whole response, not only its band."""
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from controller.arrays import Floats, Reals
 from controller.device.board.board import Board
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.modal_response import pulse_response
@@ -24,10 +24,10 @@ class FocusPrediction:
     def __init__(self, board: Board, source: ResponseSource) -> None:
         self._source, self._board = source, board
 
-    def at_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
+    def at_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> Reals:
         """Displacement at T of each of `points_m`, (point, 2): (point,) in m."""
         responses = self._source.responses(points_m)[:, ::-1]
-        reached: NDArray[np.floating[Any]] = responses.reshape(len(responses), -1) @ volts_above_idle(self._board, words).ravel()
+        reached: Reals = responses.reshape(len(responses), -1) @ volts_above_idle(self._board, words).ravel()
         return reached
 
 
@@ -38,11 +38,11 @@ class Prediction(FocusPrediction):
         super().__init__(board, model)
         self._model = model
         self._bit_period_s = board.waveform.bit_period_s
-        self._modal: NDArray[np.float64] | None = None  # of each mode, longer than an emission
+        self._modal: Floats | None = None  # of each mode, longer than an emission
         # samples before T, and as many after it, at which a null is evaluated
         self.near_samples = math.ceil(NEAR_S / self._bit_period_s)
 
-    def near_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
+    def near_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> Reals:
         """Displacement of each of `points_m`, (point, 2), at every sample within 25 us of T: (point, time) in m.
 
         The channels return to the idle word at T.
@@ -54,7 +54,7 @@ class Prediction(FocusPrediction):
             found[index] = np.tensordot(self.near_responses(place_m), volts, 2)
         return found
 
-    def near_responses(self, place_m: ArrayLike) -> NDArray[np.floating[Any]]:
+    def near_responses(self, place_m: ArrayLike) -> Reals:
         """Responses of one place in drive order, as they are met at each sample within 25 us of T: (time, sample, 32) in m per V.
 
         After T what the first words still do is in it; before T the last words have not been played yet.

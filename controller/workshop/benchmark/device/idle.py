@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Reals
 from controller.device.board.board import Board
 from controller.workshop.benchmark.focus.focus_figures import emit, idling_low, random_points, spread
 from controller.workshop.benchmark.focus.sound_figures import ramp_samples, ramp_words
@@ -26,9 +25,6 @@ from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.pictures.figure_file import save_figure
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-
-Bits = NDArray[np.bool_]
-Responses = NDArray[np.floating[Any]]
 
 RAMPS_MS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 NOTHING = np.zeros(0, np.uint32)
@@ -90,7 +86,7 @@ def _of_point(board: Board, model: ResponseModel, twins: Mapping[str, PlateTwin]
 def _of_ramps(board: Board, decibels: Callable[[float], float]) -> dict[str, Any]:
     """Audible energy of arming and disarming, with the board's own ramp and with others."""
 
-    def arming(bits: Bits) -> float:
+    def arming(bits: Bools) -> float:
         return decibels(surface_energy(board, ramp_words(board, bits), board.idle_word, before_word=0))
 
     own = ramp_samples(board, board.limits.ramp_ms)
@@ -109,7 +105,7 @@ def _of_ramps(board: Board, decibels: Callable[[float], float]) -> dict[str, Any
     }
 
 
-def first_order_bits(samples: int) -> Bits:
+def first_order_bits(samples: int) -> Bools:
     """First-order density of a linear ramp, (sample,) bits: high whenever the accumulated level passes a whole number."""
     return np.diff(np.cumsum(np.arange(1, samples + 1)) // samples, prepend=0) > 0
 
@@ -126,7 +122,7 @@ def plot_idle(path: Path, board: Board, figures: dict[str, Any]) -> None:
     save_figure(figure, path, 110)
 
 
-def _draw_maps(figure: Figure, pair: tuple[Axes, Axes], board: Board, drive_order: Responses, figures: dict[str, Any]) -> None:
+def _draw_maps(figure: Figure, pair: tuple[Axes, Axes], board: Board, drive_order: Reals, figures: dict[str, Any]) -> None:
     """The plate at T of a focus: left with the board's idle word, right with all channels idle low."""
     left, right = pair
     for axes, idling, name in ((left, board, "idle_word"), (right, idling_low(board), "all_low")):
@@ -142,7 +138,7 @@ def _draw_maps(figure: Figure, pair: tuple[Axes, Axes], board: Board, drive_orde
     figure.colorbar(picture, ax=(left, right), label="displacement at T (µm), clipped", shrink=0.8)
 
 
-def _draw_spectra(axes: Axes, board: Board, drive_order: Responses, figures: dict[str, Any]) -> None:
+def _draw_spectra(axes: Axes, board: Board, drive_order: Reals, figures: dict[str, Any]) -> None:
     """Audible spectra of an emission and of three ways to arm."""
     idle = board.idle_word
     own = ramp_samples(board, figures["ramp_ms"])

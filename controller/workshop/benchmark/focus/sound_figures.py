@@ -3,9 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Words
+from controller.arrays import Bools, Words
 from controller.device.bank.packing import drive_words
 from controller.device.board.board import Board
 from controller.workshop.gateware.model.pins import ramp_bits
@@ -41,7 +40,7 @@ def ramp_samples(board: Board, ramp_ms: float) -> int:
     return max(1, round(ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
 
 
-def ramp_words(board: Board, bits: NDArray[np.bool_]) -> Words:
+def ramp_words(board: Board, bits: Bools) -> Words:
     """Drive words of a ramp: the idle word where the ramp's bit is high, else 0."""
     idle = [board.idle_word >> channel & 1 for channel in range(board.channels)]
     return drive_words(np.outer(bits, idle))

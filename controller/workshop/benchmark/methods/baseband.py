@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Words
+from controller.arrays import Floats, Words
 from controller.device.bank.packing import CHANNELS, drive_words
 from controller.device.board.panel import Waveform
 from controller.device.kernel import Point
@@ -57,7 +57,7 @@ class FromBaseband:
         return drive_words(self._pulses @ self._weights.sum(points).reshape(-1, CHANNELS), self._idle_word)
 
 
-def pulse_matrix(waveform: Waveform, decimation: int) -> NDArray[np.float64]:
+def pulse_matrix(waveform: Waveform, decimation: int) -> Floats:
     """Pulses on the carrier, real and imaginary: (sample, 2 * pulses)."""
     samples = np.arange(waveform.samples)
     middles = np.arange(-1, -(-waveform.samples // decimation) + 2) * decimation

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import j0
 
+from controller.arrays import Floats, Indices
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
@@ -36,7 +37,7 @@ def cubic(grid: Grid, x_m: float, y_m: float) -> Stencil:
     return _product(grid, x_m, y_m, 4, _lagrange)
 
 
-def _lagrange(offset: float, size: int) -> NDArray[np.float64]:
+def _lagrange(offset: float, size: int) -> Floats:
     """Weights of the polynomial through `size` cells at 0, 1, ..., for a place at `offset`."""
     nodes = np.arange(size)
     weights = np.ones(size)
@@ -46,14 +47,14 @@ def _lagrange(offset: float, size: int) -> NDArray[np.float64]:
     return weights
 
 
-def _product(grid: Grid, x_m: float, y_m: float, size: int, along: Callable[[float, int], NDArray[np.float64]]) -> Stencil:
+def _product(grid: Grid, x_m: float, y_m: float, size: int, along: Callable[[float, int], Floats]) -> Stencil:
     x, x_offset = block(grid.nx, (x_m - grid.x0_m) / grid.pitch_m, size)
     y, y_offset = block(grid.ny, (y_m - grid.y0_m) / grid.pitch_m, size)
     weights = np.outer(along(y_offset, len(y)), along(x_offset, len(x)))
     return Stencil((y[:, None] * grid.nx + x).ravel(), weights.ravel().astype(np.float32))
 
 
-def block(count: int, position: float, size: int) -> tuple[NDArray[np.intp], float]:
+def block(count: int, position: float, size: int) -> tuple[Indices, float]:
     """Indices of `size` cells around a position, within the grid, and the position from the first of them on."""
     size = min(size, count)
     position = min(max(position, 0.0), count - 1.0)
@@ -103,12 +104,12 @@ class BandInterpolation:
         solved = np.linalg.solve(alike, wanted.reshape(-1, len(ix)).T)
         return np.ascontiguousarray(solved.T, np.float32).reshape(len(y), len(x), -1)
 
-    def _correlation(self, distance_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _correlation(self, distance_m: Floats) -> Floats:
         low_hz, high_hz = self.board.waveform.band_low_hz, self.board.waveform.band_high_hz
         hz = self.modes.angular_frequency / (2 * np.pi)
         number = 2 * np.pi / bending_wavelength_m(self.board.plate, 1.0) * np.sqrt(hz)  # of the waves of each mode, in 1/m
         in_band: NDArray[Any] = number[(hz >= low_hz) & (hz <= high_hz)]
         far = np.linspace(0, float(distance_m.max()) + 1e-6, 2000)
         mean = j0(np.outer(far, in_band[:: max(len(in_band) // 256, 1)])).mean(axis=1)
-        found: NDArray[np.float64] = np.interp(distance_m, far, mean)
+        found: Floats = np.interp(distance_m, far, mean)
         return found

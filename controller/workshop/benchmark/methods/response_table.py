@@ -8,11 +8,11 @@ alike.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Indices, Reals
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
@@ -28,7 +28,7 @@ LOUDEST_RMS = {4: 2.6, 2: 1.494, 1: 0.798}
 class Stencil:
     """Cells around a point and the weights with which their responses are summed."""
 
-    cells: NDArray[np.intp]
+    cells: Indices
     weights: Floats
 
 
@@ -51,7 +51,7 @@ class ResponseTable:
         self._packed = np.zeros((0, self._row_bytes), np.uint8)
         self._held: list[tuple[NDArray[np.uint8], Floats]] = []
 
-    def hold(self, cells: NDArray[np.intp], flat: NDArray[np.floating[Any]]) -> None:
+    def hold(self, cells: Indices, flat: Reals) -> None:
         """Take the responses of further cells: (cell, sample, 32), in drive order, flat; `take` after the last of them."""
         values = flat if self._projection is None else np.matmul(self._projection, flat)
         packed, scale = pack(values.reshape(len(cells), -1), self._bits)
@@ -78,7 +78,7 @@ class ResponseTable:
         return response
 
 
-def fill(board: Board, model: ResponseModel, wanted: Sequence[tuple[ResponseTable, NDArray[np.intp]]]) -> None:
+def fill(board: Board, model: ResponseModel, wanted: Sequence[tuple[ResponseTable, Indices]]) -> None:
     """Compute the responses of cells once and give them to tables of one grid: to each its cells, in ascending order."""
     cells = np.unique(np.concatenate([some for _, some in wanted]))
     rising = decay(board)[::-1, None].astype(np.float32)
@@ -100,7 +100,7 @@ def decay(board: Board) -> NDArray[np.float64]:
     return fallen
 
 
-def pack(values: NDArray[np.floating[Any]], bits: int) -> tuple[NDArray[np.uint8], Floats]:
+def pack(values: Reals, bits: int) -> tuple[NDArray[np.uint8], Floats]:
     """Round rows of values to `bits` bits and pack them, the first value in the highest bits of a byte.
 
     `values` are (row, value); of 8 `bits` they are whole numbers of -127 to 127, of 4, 2 or 1 odd numbers, so that none is zero.

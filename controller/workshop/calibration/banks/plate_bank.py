@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from controller.arrays import Bools
 from controller.device.board.board import Board, of_one_fpga
 from controller.device.scene.scene import load_scene
 from controller.device.scene.scene_file import find_scene
@@ -141,7 +140,7 @@ def _learned(wanted: PlateBank, folder: Path, progress: Progress) -> tuple[Learn
     return found, [channel for finding in found.findings if finding.kind == "dead" for channel in finding.channels]
 
 
-def _notes(wanted: PlateBank, fitted: FittedPlate, cells: NDArray[np.bool_], built: BuildReport) -> list[str]:
+def _notes(wanted: PlateBank, fitted: FittedPlate, cells: Bools, built: BuildReport) -> list[str]:
     """What of the bank is less than was asked for."""
     notes, source = [], fitted.source
     if source.size is not None:

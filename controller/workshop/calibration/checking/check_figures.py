@@ -3,15 +3,15 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import FATAL
 from controller.workshop.calibration.deconvolution import REGULARISATION
 from controller.workshop.calibration.learning import Learned
 
 
-def snr_db(learned: Learned) -> NDArray[np.float64]:
+def snr_db(learned: Learned) -> Floats:
     """Of each response, its rms over that of its noise in dB, (point, 32); NaN where unknown."""
     found = learned.responses
     rms = np.sqrt((found.responses.astype(np.float64) ** 2).mean(axis=1))
@@ -73,6 +73,6 @@ def check_figures(board: Board, learned: Learned) -> dict[str, Any]:
     }
 
 
-def _number(of: Any, values: NDArray[np.float64], digits: int) -> float | None:
+def _number(of: Any, values: Floats, digits: int) -> float | None:
     reported = values[np.isfinite(values)]
     return round(float(of(reported)), digits) if len(reported) else None

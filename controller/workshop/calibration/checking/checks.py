@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats
 from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.direct_wave import DirectWaves
@@ -52,7 +51,7 @@ def listed(names: Sequence[object]) -> str:
     return " and ".join([", ".join(shown[:-1]), shown[-1]]) if len(shown) > 1 else "".join(shown)
 
 
-def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], driven: NDArray[np.bool_]) -> list[Objection]:
+def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], driven: Bools) -> list[Objection]:
     """Channels of which nothing arrives anywhere.
 
     `power` (point, 32) is that of the responses, noise taken off, NaN where not resolved; `coherence` is as large. `channels` are
@@ -121,7 +120,7 @@ def clipped_records(counts: dict[str, int]) -> list[Objection]:
     return [Objection("clipped", text, points=tuple(counts))]
 
 
-def noisy_records(coherence: Floats, known: NDArray[np.bool_], names: Sequence[str]) -> list[Objection]:
+def noisy_records(coherence: Floats, known: Bools, names: Sequence[str]) -> list[Objection]:
     """Points where some channel's record is mostly noise."""
     bad = known & (_or(coherence, 1.0) < NOISY_COHERENCE)
     points = np.flatnonzero(bad.any(axis=1)).tolist()

@@ -2,17 +2,14 @@
 
 from pathlib import Path
 
-import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
 
 
-def plot_plan(
-    path: Path, board: Board, points_m: NDArray[np.float64], places_m: NDArray[np.float64], shares: NDArray[np.float64]
-) -> None:
+def plot_plan(path: Path, board: Board, points_m: Floats, places_m: Floats, shares: Floats) -> None:
     """Draw it to a PNG, SVG or PDF file.
 
     `points_m` (point, 2) are in the order of the path; `shares` (place,) are foreseen at `places_m` (place, 2). Raises ConfigError

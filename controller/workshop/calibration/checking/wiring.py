@@ -11,10 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from controller.arrays import Floats
+from controller.arrays import Bools, Floats, Indices
 from controller.workshop.calibration.direct_wave import DirectWaves
 
 FIRST_POINTS = 8  # that mostly give a verdict, 30 mm from the edges
@@ -72,7 +71,7 @@ def wiring_of(waves: DirectWaves | None, channels: Sequence[int], alive: Sequenc
     )
 
 
-def _errors(table: Floats, error: Floats, living: NDArray[np.bool_], taken: NDArray[np.intp]) -> tuple[Floats, Floats]:
+def _errors(table: Floats, error: Floats, living: Bools, taken: Indices) -> tuple[Floats, Floats]:
     """Standard errors: of each channel's strength at its patch, and of what a pair gains over the exchange of their patches.
 
     A channel's error is what the regression found, or more if its strength at other patches shows more. How much more than that a
@@ -92,7 +91,7 @@ def _rms(values: Floats, prior: float) -> Floats:
     return np.asarray(np.sqrt((np.nansum(values**2, axis=0) + PRIOR_ROWS * prior) / known))
 
 
-def _circles(taken: NDArray[np.intp]) -> list[list[int]]:
+def _circles(taken: Indices) -> list[list[int]]:
     """Of a permutation, rows that take each other's place."""
     circles: list[list[int]] = []
     seen: set[int] = set()

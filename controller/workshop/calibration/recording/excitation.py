@@ -8,10 +8,9 @@ as much energy of each channel as if it had played alone in every one of them.
 from typing import Final, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import hadamard
 
-from controller.arrays import Words
+from controller.arrays import Bools, Words
 from controller.device.bank import packing
 from controller.device.board.board import Board
 from controller.errors import ConfigError
@@ -59,21 +58,21 @@ def period_s(board: Board, ring_s: float) -> float:
     return max(board.waveform.duration_s + ring_s, board.waveform.duration_s / limits.max_duty, apart_s)
 
 
-def _chirp(board: Board) -> NDArray[np.bool_]:
+def _chirp(board: Board) -> Bools:
     """Signs of a chirp, (word,)."""
     waveform = board.waveform
     low_hz, high_hz = waveform.band_low_hz * BEYOND[0], waveform.band_high_hz * BEYOND[1]
     time_s = (np.arange(waveform.samples) + 0.5) * waveform.bit_period_s
     cycles = low_hz * time_s + (high_hz - low_hz) * time_s**2 / (2 * waveform.duration_s)
-    signs: NDArray[np.bool_] = cycles % 1 < 0.5
+    signs: Bools = cycles % 1 < 0.5
     return signs
 
 
-def _noise(board: Board, seed: int) -> NDArray[np.bool_]:
+def _noise(board: Board, seed: int) -> Bools:
     """Signs of band-limited noise, (word,)."""
     waveform = board.waveform
     spectrum = np.fft.rfft(np.random.default_rng(seed).standard_normal(waveform.samples))
     frequency_hz = np.fft.rfftfreq(waveform.samples, waveform.bit_period_s)
     spectrum[(frequency_hz < waveform.band_low_hz * BEYOND[0]) | (frequency_hz > waveform.band_high_hz * BEYOND[1])] = 0
-    signs: NDArray[np.bool_] = np.fft.irfft(spectrum, waveform.samples) > 0
+    signs: Bools = np.fft.irfft(spectrum, waveform.samples) > 0
     return signs

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import CZT
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Bools, Complex, Floats
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
@@ -33,7 +33,7 @@ class Drive:
 
     volts: Floats  # (emission or 1, channel or 1, sample): each sample held until the next; difference from the level at rest
     rate_hz: float  # of these samples
-    drives: NDArray[np.bool_]  # (emission, channel): which channels an emission drives
+    drives: Bools  # (emission, channel): which channels an emission drives
     held: bool = True  # whether samples are held; else they are those of a continuous drive
 
     @property
@@ -87,7 +87,7 @@ def read_drive(folder: Path, table: DriveTable, board: Board) -> Drive:
         return _words(folder, table, board)
     if (most := max(table.channels)) >= board.channels:
         raise CalibrationError(f"{folder / NAME}: drive.channels: {most} is beyond the {board.channels} of board {board.name!r}")
-    one_by_one: NDArray[np.bool_] = np.arange(board.channels) == np.array(table.channels)[:, None]
+    one_by_one: Bools = np.arange(board.channels) == np.array(table.channels)[:, None]
     match table:
         case SweepDrive():
             return Drive(_sweep(table)[None, None], _sweep_rate_hz(table), one_by_one, held=False)

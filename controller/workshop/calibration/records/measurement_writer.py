@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.io import wavfile
 
+from controller.arrays import Floats
 from controller.errors import CalibrationError
 from controller.workshop.calibration.records.measurement_file import (
     NAME,
@@ -163,7 +164,7 @@ def _write_uff(file: Path, settings: MeasurementFile, records: dict[int, NDArray
         writer.write_sets(sets, "overwrite")
 
 
-def _add_nodes(file: Path, nodes: list[int], points_m: NDArray[np.float64]) -> None:
+def _add_nodes(file: Path, nodes: list[int], points_m: Floats) -> None:
     import pyuff  # noqa: PLC0415
 
     none = np.zeros(len(nodes), int)

@@ -8,8 +8,8 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.arrays import Bools, Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.records.drives import Drive, read_drive
@@ -36,16 +36,16 @@ Place = tuple[int, int]  # emission, repetition
 class PointRecords:
     """Records of one point."""
 
-    values: NDArray[np.float64]  # (emission, repetition, sample): in m, m/s or m/s². NaN where `there` is not
-    there: NDArray[np.bool_]  # (emission, repetition): whose file was found
+    values: Floats  # (emission, repetition, sample): in m, m/s or m/s². NaN where `there` is not
+    there: Bools  # (emission, repetition): whose file was found
     # (emission, repetition): time of the first sample after the recorder's start of the emission, in s of the recorder;
     # `starts_s` and the delay not counted
-    first_s: NDArray[np.float64]
-    clipped: NDArray[np.bool_]  # (emission, repetition): whether samples in a row stand at the record's extreme
+    first_s: Floats
+    clipped: Bools  # (emission, repetition): whether samples in a row stand at the record's extreme
     files: tuple[Path, ...]  # what was read
 
     @property
-    def sound(self) -> NDArray[np.bool_]:
+    def sound(self) -> Bools:
         """Records that are there and not clipped: (emission, repetition)."""
         return self.there & ~self.clipped
 
@@ -57,7 +57,7 @@ class Measurement:
     folder: Path
     settings: MeasurementFile
     names: tuple[str, ...]  # of the points
-    points_m: NDArray[np.float64]  # (point, 2)
+    points_m: Floats  # (point, 2)
     drive: Drive  # what was played
 
     @property

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.text_file import read_text
@@ -20,7 +21,7 @@ MOST_POINTS = 20_000
 EDGE_MM = 1e-6  # a place on the edge is on the plate
 
 
-def points_of(folder: Path, settings: MeasurementFile, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+def points_of(folder: Path, settings: MeasurementFile, board: Board) -> tuple[tuple[str, ...], Floats]:
     """Names of the points of a measurement, and their places (point, 2) in m.
 
     Raises CalibrationError, naming file and point: absent, off the plate, twice, or none.
@@ -30,7 +31,7 @@ def points_of(folder: Path, settings: MeasurementFile, board: Board) -> tuple[tu
     return _checked(folder / settings.records.files, _points_of_records(folder, settings), board)
 
 
-def read_points(file: Path, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+def read_points(file: Path, board: Board) -> tuple[tuple[str, ...], Floats]:
     """Names and places in m of points, (point, 2), from a CSV file with point,x_mm,y_mm.
 
     Raises CalibrationError, naming file and point: unreadable, off the plate, twice, or none.
@@ -38,7 +39,7 @@ def read_points(file: Path, board: Board) -> tuple[tuple[str, ...], NDArray[np.f
     return _checked(file, _points_of_csv(file), board)
 
 
-def _checked(where: Path, found: list[tuple[str, float, float]], board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+def _checked(where: Path, found: list[tuple[str, float, float]], board: Board) -> tuple[tuple[str, ...], Floats]:
     """Names and places in m of points that may be measured."""
     if not found:
         raise CalibrationError(f"{where}: no points")

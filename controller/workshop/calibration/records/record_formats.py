@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.io import wavfile
 
+from controller.arrays import Floats, Reals
 from controller.errors import CalibrationError
 
 LARGEST_BYTES = 4 << 30  # of a file that is read as a whole
@@ -27,7 +28,7 @@ RATE_TOLERANCE = 1e-4  # the abscissa of a set has six digits
 # Python 3.11 and 3.12 parse the header of an array in one state for all threads: two at once may fail (python/cpython#106905).
 ONE_HEADER = threading.Lock()
 
-Numbers = NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
+Numbers = Reals | NDArray[np.integer[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +36,7 @@ class UffSets:
     """Time responses of a UFF file."""
 
     # (point, emission, repetition), the first a node number, the others counted from 0, to samples (n,)
-    records: dict[tuple[int, int, int], NDArray[np.float64]]
+    records: dict[tuple[int, int, int], Floats]
     nodes_m: dict[int, tuple[float, float]]  # node number to (x_m, y_m), of sets 15 or 2411
 
 
@@ -121,7 +122,7 @@ def _records_of(sets: list[dict[str, Any]], file: Path, rate_hz: float, unit: st
     per_m = float(units[0]["length"]) if units else 1.0  # units of the file in a metre
     if not np.isfinite(per_m) or per_m <= 0:
         raise CalibrationError(f"{file}: set 164 gives {per_m} as its unit of length")
-    records: dict[tuple[int, int, int], NDArray[np.float64]] = {}
+    records: dict[tuple[int, int, int], Floats] = {}
     nodes_m: dict[int, tuple[float, float]] = {}
     for found in sets:
         if found.get("type") in (15, 2411):
@@ -205,7 +206,7 @@ def is_clipped(record: Numbers) -> bool:
     return any(counts[0] >= max(3, 3 * float(counts[1:5].mean()) if len(counts) > 1 else 0) for counts in (least, largest))
 
 
-def in_unit(record: Numbers, full_scale: float | None, where: str) -> NDArray[np.float64]:
+def in_unit(record: Numbers, full_scale: float | None, where: str) -> Floats:
     """Samples in the unit of the records; whole numbers are parts of `full_scale`."""
     values = np.asarray(record, np.float64)
     if record.dtype.kind != "f":

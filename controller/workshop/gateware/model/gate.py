@@ -5,6 +5,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.arrays import Bools
 from controller.device.fpga.registers import Fault
 from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.limits import StageLimits
@@ -159,7 +160,7 @@ class OutputGate:
         self._live_until = tick + PIN_TICKS
         self.pins.put_word(tick + PIN_TICKS, 0, hv=0)
 
-    def _ramp(self, tick: int, state: GateState, bits: NDArray[np.bool_]) -> None:
+    def _ramp(self, tick: int, state: GateState, bits: Bools) -> None:
         bit_ticks = self._registers.bit_ticks
         self.state = state
         self._ramp_start = tick

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Words
+from controller.arrays import Bools, Words
 from controller.device.fpga.capture import Capture
 from controller.workshop.gateware.model.limits import StageLimits
 
@@ -155,13 +155,13 @@ def modulate(levels: range, full_scale: int, errors: tuple[int, int] = (0, 0)) -
 
 
 @lru_cache(maxsize=8)
-def ramp_bits(samples: int, *, up: bool) -> NDArray[np.bool_]:
+def ramp_bits(samples: int, *, up: bool) -> Bools:
     """Bits of a whole ramp up or down, (samples,) bool; `up`: levels 1, 2 ... samples, otherwise back to 0."""
     levels = range(1, samples + 1) if up else range(samples - 1, -1, -1)
     return np.array(modulate(levels, samples)[0], bool)
 
 
-def turned_ramp_bits(samples: int, reached: int) -> NDArray[np.bool_]:
+def turned_ramp_bits(samples: int, reached: int) -> Bools:
     """Bits of the way down, (reached,) bool, of a ramp up that was reversed at level `reached` of `samples`."""
     _, errors = modulate(range(1, reached + 1), samples)
     return np.array(modulate(range(reached - 1, -1, -1), samples, errors)[0], bool)

@@ -10,13 +10,12 @@ the shape (divergence theorem).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.board.panel import Actuator, Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.errors import ConfigError
@@ -97,12 +96,12 @@ class SimplySupported:
         """Number of modes."""
         return self.angular_frequency.size
 
-    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> NDArray[np.floating[Any]]:
+    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> Reals:
         """Shapes at `points_m`, (point, 2) in m: (point, mode)."""
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         along_x = self.factors.along_x(points[:, 0]).astype(dtype, copy=False)
         along_y = self.factors.along_y(points[:, 1]).astype(dtype, copy=False)
-        shapes: NDArray[np.floating[Any]] = along_x[:, self.factors.x_index] * along_y[:, self.factors.y_index]
+        shapes: Reals = along_x[:, self.factors.x_index] * along_y[:, self.factors.y_index]
         return shapes
 
     def on_grid(self, amplitudes: Floats, x_m: ArrayLike, y_m: ArrayLike) -> Floats:

@@ -3,12 +3,12 @@
 Everything above (responses, field at T, energy at the surface, twin) takes modes through this interface only.
 """
 
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.board.panel import Actuator
 
 POINTS_AT_ONCE = 256  # half a megabyte of a grid
@@ -74,7 +74,7 @@ class Modes(Protocol):
     def factors(self) -> TensorFactors | None:
         """Factors of the shapes, where they are products."""
 
-    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> NDArray[np.floating[Any]]:
+    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> Reals:
         """Shapes at `points_m`, (point, 2) in m: (point, mode)."""
 
     def on_grid(self, amplitudes: Floats, x_m: ArrayLike, y_m: ArrayLike) -> Floats:

@@ -7,12 +7,11 @@ not drive them, and beside the hundreds of modes that a finger feels in the band
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.board.panel import Actuator, Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.errors import ConfigError
@@ -90,7 +89,7 @@ class RitzModes:
         """None: a shape is a sum of products."""
         return None
 
-    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> NDArray[np.floating[Any]]:
+    def shapes(self, points_m: ArrayLike, dtype: DTypeLike = np.float64) -> Reals:
         """Shapes at `points_m`, (point, 2) in m: (point, mode); fastest where points share their y."""
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         rows_m, row_of = np.unique(points[:, 1], return_inverse=True)

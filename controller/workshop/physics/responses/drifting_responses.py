@@ -9,12 +9,10 @@ Between samples a response is interpolated by a sinc in a window of `REACH` samp
 samples, e of them all, are beyond what is known and left zero.
 """
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from controller.arrays import Reals
+from controller.arrays import Floats, Reals
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.physics.responses.transformed_responses import TransformedResponses
 
@@ -28,7 +26,7 @@ class DriftingResponses(TransformedResponses):
     def __init__(self, source: ResponseSource, percent: float) -> None:
         super().__init__(source, f"the mean of frequencies {percent:g} % off")
         self._share = percent / 100
-        self._means: dict[tuple[int, str], NDArray[np.floating[Any]]] = {}
+        self._means: dict[tuple[int, str], Reals] = {}
 
     def _transform(self, free: Reals, points_m: ArrayLike, period_s: float) -> None:
         del points_m, period_s  # all alike: time is counted in samples
@@ -40,7 +38,7 @@ class DriftingResponses(TransformedResponses):
             response[:] = self._means[key] @ response
 
 
-def resampling(samples: int, higher: float) -> NDArray[np.float64]:
+def resampling(samples: int, higher: float) -> Floats:
     """What makes responses of a plate whose frequencies are `higher` times as high: (sample, sample).
 
     Sample j is of a pulse of one bit period that began j + 1 periods before, half of one before its middle.
@@ -48,6 +46,6 @@ def resampling(samples: int, higher: float) -> NDArray[np.float64]:
     since = np.arange(samples) + 0.5
     apart = since[:, None] * higher - since
     window = np.i0(KAISER * np.sqrt(np.maximum(1 - (apart / REACH) ** 2, 0))) / np.i0(KAISER)
-    found: NDArray[np.float64] = np.where(np.abs(apart) < REACH, np.sinc(apart) * window / higher, 0)
+    found: Floats = np.where(np.abs(apart) < REACH, np.sinc(apart) * window / higher, 0)
     found[since * higher > samples] = 0
     return found

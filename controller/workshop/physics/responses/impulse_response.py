@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
@@ -44,7 +44,7 @@ class ResponseModel:
         self._band_hz, self._slope = waveform.band_hz, waveform.slope
         self._rest_taps = rest_taps(waveform)
         self._decay_time_s = slowest_decay_s(self.plate_modes)
-        self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
+        self._kernels: dict[tuple[str, str], Reals] = {}
         self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
         self._workspaces: dict[tuple[str, int], tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
 
@@ -87,26 +87,22 @@ class ResponseModel:
         *,
         band_limited: bool = False,  # the waveform's band only, zero phase
         dtype: DTypeLike = np.float64,
-        out: NDArray[np.floating[Any]] | None = None,  # (point, sample, channel): filled and returned
-    ) -> NDArray[np.floating[Any]]:
+        out: Reals | None = None,  # (point, sample, channel): filled and returned
+    ) -> Reals:
         """Responses in the order of time (point, sample, channel), m per V held for one bit period.
 
         Zero for channels without an actuator. Raises ValueError if `out` has another shape or type.
         """
         return self._responses(points_m, self._kernel(np.dtype(dtype), band_limited=band_limited), out)
 
-    def drive_order_responses(
-        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
-    ) -> NDArray[np.floating[Any]]:
+    def drive_order_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
         """Band-limited responses reversed in time: sample n belongs to drive word n, and sum(v * response) is u at T.
 
         Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`.
         """
         return self._responses(points_m, self._kernel(np.dtype(dtype), band_limited=True, reverse=True), out)
 
-    def entry_responses(
-        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
-    ) -> NDArray[np.floating[Any]]:
+    def entry_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
         """`drive_order_responses`, followed by what they leave out, beside the band and by its slope, in rows (`kept_rest`).
 
         With the latter the displacement that bits give at a point is known to 1 %, not only in the band; with a slope of -1 to 2 %.
@@ -116,7 +112,7 @@ class ResponseModel:
         """
         return self._responses(points_m, self._entry_kernel(np.dtype(dtype)), out)
 
-    def _entry_kernel(self, kind: np.dtype[Any]) -> NDArray[np.floating[Any]]:
+    def _entry_kernel(self, kind: np.dtype[Any]) -> Reals:
         """What `entry_responses` multiplies with, (sample and row, mode), computed with the first call."""
         key = ("entry", kind.str)
         if key not in self._kernels:
@@ -130,7 +126,7 @@ class ResponseModel:
             self._kernels[key] = kernel
         return self._kernels[key]
 
-    def _kernel(self, dtype: np.dtype[Any], *, band_limited: bool, reverse: bool = False) -> NDArray[np.floating[Any]]:
+    def _kernel(self, dtype: np.dtype[Any], *, band_limited: bool, reverse: bool = False) -> Reals:
         """Modal responses as the (sample, mode) factor of the GEMM; kept."""
         entry = self._kernels.get(("entry", dtype.str))
         if entry is not None and band_limited and reverse:
@@ -144,9 +140,7 @@ class ResponseModel:
             self._kernels[key] = kernel
         return self._kernels[key]
 
-    def _responses(
-        self, points_m: ArrayLike, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]] | None
-    ) -> NDArray[np.floating[Any]]:
+    def _responses(self, points_m: ArrayLike, kernel: Reals, out: Reals | None) -> Reals:
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         shape = (len(points), len(kernel), self._channels)
         if out is None:
@@ -161,7 +155,7 @@ class ResponseModel:
             self._responses_anywhere(points, kernel, out)
         return out
 
-    def _responses_anywhere(self, points: Floats, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]]) -> None:
+    def _responses_anywhere(self, points: Floats, kernel: Reals, out: Reals) -> None:
         """Fill `out` with the sum over all modes at each point: one GEMM for 16 points."""
         forces, driven, product = self._workspace(kernel)
         for first in range(0, len(points), POINTS_PER_GEMM):
@@ -172,7 +166,7 @@ class ResponseModel:
             np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
             out[first : first + len(some)] = result.reshape(len(kernel), len(some), self._channels).swapaxes(0, 1)
 
-    def _workspace(self, kernel: NDArray[np.floating[Any]]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+    def _workspace(self, kernel: Reals) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Forces (channel, mode), modal forces at points (point, channel, mode) and room for a product; kept."""
         key = (kernel.dtype.str, len(kernel))
         if key not in self._workspaces:

@@ -6,12 +6,11 @@ at 70. There the numbers are those of least squares: of all that could be kept t
 bits have the spectrum of the band's filter, and a tenth of that at all other frequencies.
 """
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import Waveform
 from controller.workshop.physics.responses.modal_response import band_gain
@@ -36,7 +35,7 @@ def rest_taps(waveform: Waveform) -> Floats:
     return taps
 
 
-def rest_rows(outside: NDArray[np.floating[Any]], taps: Floats) -> NDArray[np.floating[Any]]:
+def rest_rows(outside: Reals, taps: Floats) -> Reals:
     """Rows to keep, (n, row, ...), of what is left out, in drive order, (n, sample, ...); there is nothing beyond its ends."""
     samples, beyond = outside.shape[1], (len(taps) - REST_SAMPLES) // 2
     rows = -(-samples // REST_SAMPLES)

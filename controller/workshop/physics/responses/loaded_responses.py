@@ -11,10 +11,10 @@ for all points, that of an endless plate, which needs no modes. Fingers are poin
 
 import msgspec
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy import fft
 
-from controller.arrays import Reals
+from controller.arrays import Complex, Floats, Reals
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.finger import DYING, Finger, of_modes_above
@@ -66,7 +66,7 @@ class LoadedResponses(TransformedResponses):
 class _Receptances:
     """Receptances of points at complex frequencies `s`; above the highest mode, and without modes, those of an endless plate."""
 
-    def __init__(self, board: Board, modes: Modes | None, s: NDArray[np.complex128]) -> None:
+    def __init__(self, board: Board, modes: Modes | None, s: Complex) -> None:
         plate = board.plate
         self._endless = 1 / (8 * np.sqrt(bending_stiffness(plate) * plate.density_kg_m3 * plate.thickness_m) * s)
         self._modes, self._of_modes = modes, 0
@@ -78,7 +78,7 @@ class _Receptances:
         self._gives = np.concatenate([gives.real, gives.imag])  # a product of real numbers takes half the time
         self._above = of_modes_above(board, modes, s)
 
-    def of(self, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def of(self, points_m: Floats) -> Complex:
         """Displacement of each of `points_m` over a force there, (frequency, point) in m/N."""
         found = np.repeat(self._endless[:, None], len(points_m), axis=1)
         if self._modes is not None:

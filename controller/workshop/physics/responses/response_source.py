@@ -1,10 +1,11 @@
 """Where the responses of a bank come from: a model, measurements, or measurements completed by a model."""
 
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike
 
+from controller.arrays import Reals
 from controller.device.bank.provenance import Provenance, SourceFile
 
 __all__ = ["Provenance", "ResponseSource", "SourceFile"]
@@ -35,21 +36,17 @@ class ResponseSource(Protocol):
         *,
         band_limited: bool = False,
         dtype: DTypeLike = np.float64,
-        out: NDArray[np.floating[Any]] | None = None,
-    ) -> NDArray[np.floating[Any]]:
+        out: Reals | None = None,
+    ) -> Reals:
         """Responses at `points_m`, (point, 2) in m, in the order of time: (point, sample, channel), m per V held for a bit period.
 
         Sample j is the displacement (j + 1) bit periods after the start of the pulse. Zero for channels without an actuator.
         """
 
-    def drive_order_responses(
-        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
-    ) -> NDArray[np.floating[Any]]:
+    def drive_order_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
         """`responses`, band-limited and reversed in time: sample n belongs to drive word n, and sum(v * response) is u at T."""
 
-    def entry_responses(
-        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
-    ) -> NDArray[np.floating[Any]]:
+    def entry_responses(self, points_m: ArrayLike, out: Reals | None = None, dtype: DTypeLike = np.float32) -> Reals:
         """What a bank keeps: `drive_order_responses`, then what the band leaves out as means over `REST_SAMPLES`.
 
         (point, sample + row of rest, channel).

@@ -9,15 +9,14 @@ modes of one factor along x, weighted for a row, are the right factor of a GEMM 
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from controller.arrays import Reals
+from controller.arrays import Floats, Indices, Reals
 from controller.workshop.physics.modes.modes import TensorFactors
 
 POINTS_PER_ROW = 8  # fewer points a row than this on average, and the one large GEMM is as fast
 
 
-def in_rows(points_m: NDArray[np.float64]) -> bool:
+def in_rows(points_m: Floats) -> bool:
     """Whether enough of `points_m`, (point, 2), share their y for `RowResponses` to be faster."""
     return len(points_m) >= POINTS_PER_ROW * len(np.unique(points_m[:, 1]))
 
@@ -29,7 +28,7 @@ class RowResponses:
     the result.
     """
 
-    def __init__(self, factors: TensorFactors, forces: NDArray[np.float64], kernel: Reals) -> None:
+    def __init__(self, factors: TensorFactors, forces: Floats, kernel: Reals) -> None:
         by_order = np.argsort(factors.x_index, kind="stable")
         ends = np.searchsorted(factors.x_index[by_order], np.arange(factors.x_index.max() + 2)).tolist()
         self._factors = factors
@@ -39,7 +38,7 @@ class RowResponses:
         self._orders = [slice(first, last) for first, last in pairwise(ends)]  # the modes of each factor along x
         self._summed = np.empty((len(self._orders), len(kernel), forces.shape[1]), kernel.dtype)
 
-    def fill(self, points_m: NDArray[np.float64], out: Reals) -> None:
+    def fill(self, points_m: Floats, out: Reals) -> None:
         """Compute the responses of points (point, 2), fastest when the points of a row follow each other.
 
         `out` (point, sample, channel) is C-contiguous, of the kernel's type.
@@ -60,7 +59,7 @@ class RowResponses:
                 flat[members] = x_factors[members] @ flat_sum
 
 
-def _slice_or_index(index: NDArray[np.intp]) -> slice | NDArray[np.intp]:
+def _slice_or_index(index: Indices) -> slice | Indices:
     """The same points as a slice where they follow each other: a view, so that a GEMM can write to it."""
     first, last = int(index[0]), int(index[-1])
     return slice(first, last + 1) if last - first == len(index) - 1 else index
