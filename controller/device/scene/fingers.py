@@ -14,8 +14,6 @@ began on `leave` or by a command, when the finger leaves the region. What one fi
 the largest amplitude.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

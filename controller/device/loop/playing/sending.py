@@ -2,8 +2,6 @@
 next is sent ahead.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

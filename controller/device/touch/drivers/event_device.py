@@ -4,8 +4,6 @@ python-evdev opens the device but does not read it: it would create an object fo
 one buffer that is reused, one report at a time.
 """
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import os
