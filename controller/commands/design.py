@@ -1,26 +1,21 @@
 """`haptic-panel design`: a panel's performance, estimated from its parameters by the equations of the paper."""
 
-from __future__ import annotations
-
 import argparse
 import textwrap
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
 from controller.commands.common.arguments import Declare
 from controller.commands.common.output import picture_path, show
-from controller.device.board.board import load_board
+from controller.device.board.board import Board, load_board
 from controller.device.board.descriptions import unit_of
 from controller.device.board.lookup import find_board
 from controller.device.board.parts import Parts
 from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
 from controller.errors import ConfigError
-
-if TYPE_CHECKING:
-    from controller.device.board.board import Board
 
 ROWS = {  # what is printed of each figure; numbers in brackets are those of the paper's equations
     "felt_um": "felt amplitude (µm), estimate",

@@ -1,21 +1,16 @@
 """`haptic-panel focus`: focus on points of the plate model, and measure the focus."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.tables import amplitude_table, plain_table
 from controller.commands.focus_movie import add_movie, film, movie_path
-from controller.device.board.board import load_board, of_one_fpga
+from controller.device.board.board import Board, load_board, of_one_fpga
 from controller.device.board.lookup import find_board
 from controller.errors import ConfigError, UsageError
-
-if TYPE_CHECKING:
-    from controller.device.board.board import Board
 
 FINGER_MOST = (10e3, 1e3, 1e7)  # mg, N s/m, N/m
 

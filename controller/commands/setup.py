@@ -1,18 +1,17 @@
 """`haptic-panel setup`: the board folder of a new panel, from a few questions or flags, and the rest of the way."""
 
-from __future__ import annotations
-
 import argparse
 import subprocess
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from msgspec.inspect import StrType
+from msgspec.inspect import Field, StrType
 
 from controller.commands.common.arguments import Declare
 from controller.commands.common.output import show
 from controller.console import tell
+from controller.device.board.board import Board
 from controller.device.board.descriptions import described, structs_of, type_info, unit_of
 from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
@@ -22,11 +21,6 @@ from controller.device.service.installation import NO_WORKSHOP, is_installed
 from controller.device.setup.answers import SetupAnswers, wanted_of
 from controller.device.setup.board_folder import write_board
 from controller.errors import ConfigError
-
-if TYPE_CHECKING:
-    from msgspec.inspect import Field
-
-    from controller.device.board.board import Board
 
 FIELDS = {field.encode_name: field for field in structs_of(type_info(SetupAnswers))[0].fields}
 STDERR = 2  # of this process, also where sys.stderr is no file

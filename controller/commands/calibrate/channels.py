@@ -1,7 +1,5 @@
 """`haptic-panel calibrate channels`: which disc each channel moves, by a finger put where it buzzes; no sensor is needed."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import select
@@ -10,7 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import closing
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.common.fpga_link import fpga_link, fpga_links
@@ -19,17 +17,14 @@ from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 from controller.device.board.panel import CHANNELS
+from controller.device.fpga.links.link import Link
 from controller.device.service.drivers import open_session, open_touch
 from controller.device.touch.live_source import LiveSource
 from controller.device.touch.reports import FAULTS, describe_warnings
+from controller.device.touch.source import TouchSource
 from controller.device.touch_calibration.channel_map import ChannelMap, Place, channel_map
-from controller.device.touch_calibration.channel_survey import survey
+from controller.device.touch_calibration.channel_survey import Person, survey
 from controller.errors import UsageError
-
-if TYPE_CHECKING:
-    from controller.device.fpga.links.link import Link
-    from controller.device.touch.source import TouchSource
-    from controller.device.touch_calibration.channel_survey import Person
 
 
 class AtTerminal:

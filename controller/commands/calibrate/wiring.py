@@ -10,11 +10,10 @@ import numpy as np
 
 from controller.commands.common.output import progress_bar, show
 from controller.console import tell
-from controller.device.board.board import load_board
+from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
 
 if TYPE_CHECKING:
-    from controller.device.board.board import Board
     from controller.workshop.calibration.learning import Learned
 
 WRONG, UNDECIDED = 1, 75  # exit codes; 75: EX_TEMPFAIL, try again
