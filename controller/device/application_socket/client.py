@@ -9,10 +9,8 @@
 The same from a shell: `python -m controller.device.application_socket.client --socket S play click --at 100 70`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, Self
 
 import msgspec
 from msgspec import Raw
@@ -48,7 +46,7 @@ class PanelClient:
     def __init__(self, path: str = DEFAULT_PATH, timeout_s: float = 5.0) -> None:
         self._link = PanelLink(path, timeout_s)
 
-    def __enter__(self) -> PanelClient:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

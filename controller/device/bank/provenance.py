@@ -1,9 +1,7 @@
 """Where the responses of a bank come from, as its header tells it: the build parameter `responses`."""
 
-from __future__ import annotations
-
 from pathlib import PurePosixPath
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import msgspec
 
@@ -46,7 +44,7 @@ class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
         """Whether a real plate was measured: such responses cannot be computed again without the measurements."""
         return self.kind != "modelled"
 
-    def condensed(self) -> Provenance:
+    def condensed(self) -> Self:
         """The same with one entry for many files of a folder and a kind: `records/*.npy (250 files)`, by the hash of their hashes.
 
         A header has no room for a file for each of thousands of points.

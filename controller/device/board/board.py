@@ -4,8 +4,6 @@ Files use mm and ms; properties return SI units. An unknown key, a wrong type or
 names file, key and value. The reference for users (reference.md) is generated from these records and their docstrings.
 """
 
-from __future__ import annotations
-
 import operator
 import os
 from collections.abc import Collection
@@ -13,7 +11,7 @@ from contextlib import suppress
 from functools import cache, reduce
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import Annotated, Any, Self, cast
 
 import msgspec
 from msgspec import Meta
@@ -118,11 +116,11 @@ class Board(Record, frozen=True):
         return next((other for other in elsewhere if other.exists()), file)
 
     @property
-    def fpga_boards(self) -> tuple[Board, ...]:
+    def fpga_boards(self) -> tuple[Self, ...]:
         """The board as each of its FPGAs drives it: its own patches, their channels counted from 0 on; of one FPGA, the board."""
         return tuple(self._driven_by(number) for number in range(len(self.link.fpga))) or (self,)
 
-    def _driven_by(self, number: int) -> Board:
+    def _driven_by(self, number: int) -> Self:
         first = CHANNELS * number
         own = tuple(
             msgspec.structs.replace(a, channel=a.channel - first) for a in self.actuators if first <= a.channel < first + CHANNELS

@@ -1,9 +1,7 @@
 """The tables of board.toml that describe the panel itself: plate, actuators, driver stages, waveform, bank and limits."""
 
-from __future__ import annotations
-
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 import msgspec
 from msgspec import Meta
@@ -166,7 +164,7 @@ class Plate(Record, frozen=True, kw_only=True):
             elif abs(getattr(self, key) - of_layers) > 1e-9 * abs(of_layers):
                 raise ValueError(f"{key} = {getattr(self, key):g} beside layers, which make it {of_layers:.6g}: leave it out")
 
-    def with_stiffness(self, ratio: float) -> Plate:
+    def with_stiffness(self, ratio: float) -> Self:
         """The same plate with all Young's moduli times `ratio`: what a temperature does to its frequencies."""
         layers = tuple(msgspec.structs.replace(layer, young_modulus_pa=layer.young_modulus_pa * ratio) for layer in self.layers)
         return msgspec.structs.replace(self, young_modulus_pa=self.young_modulus_pa * ratio, layers=layers)

@@ -1,9 +1,7 @@
 """What the piezo patches weigh and how much they stiffen the plate: the table [patches] of board.toml."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple, Self
 
 import msgspec
 from msgspec import Meta
@@ -64,7 +62,7 @@ class Patches(Record, frozen=True):
                     raise ValueError(f"patches: that at {x_mm:g}, {y_mm:g} mm lies on that at {other_x_mm:g}, {other_y_mm:g} mm")
         return tuple(Patch(x_mm, y_mm, size_mm) for x_mm, y_mm in centres)
 
-    def with_places(self, plate: Plate, actuators: Sequence[Actuator]) -> Patches:
+    def with_places(self, plate: Plate, actuators: Sequence[Actuator]) -> Self:
         """The same with size and centres, whatever actuators a board has; raises ValueError as `on`."""
         places = self.on(plate, actuators)
         centres_mm = tuple((patch.x_mm, patch.y_mm) for patch in places)

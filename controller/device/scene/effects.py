@@ -3,10 +3,8 @@
 Which keys go together is in `primitives`; what stands behind a name is in `library`.
 """
 
-from __future__ import annotations
-
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import msgspec
 from msgspec import Meta
@@ -91,7 +89,7 @@ class EffectTable(Record, frozen=True):
             return self.duration_ms
         return 0.0 if self.rate_hz is None else (self.first_s + self.emissions / self.rate_hz) * 1e3
 
-    def over(self, base: EffectTable) -> EffectTable:
+    def over(self, base: Self) -> Self:
         """The effect `base`, with the keys that this one gives in place of those of `base`."""
         given = {name: value for name in self.__struct_fields__ if (value := getattr(self, name)) is not None}
         given.pop("effect", None)

@@ -3,14 +3,12 @@
 The types also say what may be in a scene that comes from another process (`device/service/scenes/scene_message.py`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import InitVar, dataclass, field
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Final, NamedTuple
+from typing import Annotated, Final, NamedTuple, Self
 
 import numpy as np
 from msgspec import Meta, Struct
@@ -87,7 +85,7 @@ class SpatialIndex(Struct, frozen=True, array_like=True, forbid_unknown_fields=T
         return RegionLookup(shapes, self.low_x_m, self.low_y_m, self.tiles_per_m_x, self.tiles_per_m_y, self.candidates)
 
     @classmethod
-    def of(cls, regions: tuple[Region, ...]) -> SpatialIndex:
+    def of(cls, regions: tuple[Region, ...]) -> Self:
         """Index of some regions."""
         bounds = [region.shape.bounds for region in regions] or [(0.0, 0.0, 1.0, 1.0)]
         low_x, low_y, high_x, high_y = (f(side) for f, side in zip((min, min, max, max), zip(*bounds, strict=True), strict=True))
@@ -146,7 +144,7 @@ class Scene:
         keep_armed = any(region.keep_armed for region in self.regions)
         object.__setattr__(self, "may_idle", not self.emitters and not keep_armed)
 
-    def under(self, layers: tuple[Layer, ...]) -> Scene:
+    def under(self, layers: tuple[Layer, ...]) -> Self:
         """This scene, which has no layers yet, with layers on top, the topmost first."""
         if not layers:
             return self

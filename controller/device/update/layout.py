@@ -3,13 +3,11 @@
 Everything below one folder, on one file system, so that releases share their banks by hard links.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 from controller.device.board.identity import MACHINE_ID
 from controller.device.board.lookup import MANIFEST as MANIFEST  # noqa: PLC0414 - part of the layout, which boards need too
@@ -38,7 +36,7 @@ class Layout:
     machine_id: Path = MACHINE_ID  # what tells this device from others
 
     @classmethod
-    def from_environment(cls) -> Layout:
+    def from_environment(cls) -> Self:
         """That of $HAPTIC_PANEL_ROOT and $HAPTIC_PANEL_TRUSTED_ROOT, for tests and images prepared elsewhere; else the device's."""
         return cls(Path(os.environ.get("HAPTIC_PANEL_ROOT", ROOT)), Path(os.environ.get("HAPTIC_PANEL_TRUSTED_ROOT", TRUSTED_ROOT)))
 

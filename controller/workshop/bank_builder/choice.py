@@ -5,13 +5,11 @@ them, with cells played within a snap distance. Each has an error, measured on t
 from the table of the benchmark; and bytes. Those that no other pulses in all three are the front, and the choice is on it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -56,7 +54,7 @@ class Setting:
     bytes: int
     compact: bool = False  # whether responses are weights of pulses, and no cell is played as it is
 
-    def beaten_by(self, other: Setting) -> bool:
+    def beaten_by(self, other: Self) -> bool:
         """Whether another is as good in everything, and better in something."""
         mine, its = ((s.error, s.lone_us, s.bytes) for s in (self, other))
         return its != mine and all(a <= b for a, b in zip(its, mine, strict=True))

@@ -1,11 +1,9 @@
 """What a build computes, chosen beforehand: cells, source of their responses, header, blocks that fit into memory."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
@@ -50,7 +48,7 @@ class BankPlan:
     design: CompactDesign | None = None  # of a compact bank
 
     @classmethod
-    def of(cls, request: BankRequest) -> BankPlan:
+    def of(cls, request: BankRequest) -> Self:
         """BankPlan a build; ConfigError where it cannot be."""
         board, source = request.board_as_chosen, request.source
         if request.aim is not None:

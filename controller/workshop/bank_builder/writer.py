@@ -5,8 +5,6 @@ renamed over the old bank, and the folder is fsynced. Any interruption, loss of 
 the next writer removes the temporary file of one that died.
 """
 
-from __future__ import annotations
-
 import contextlib
 import dataclasses
 import errno
@@ -18,6 +16,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +56,7 @@ class BankWriter:
         self.tables = b""  # of a compact bank: given before it is complete
         self._fd = -1
 
-    def __enter__(self) -> BankWriter:
+    def __enter__(self) -> Self:
         with self._disk_errors():
             folder = self.path.parent.stat()
             by_root_for_others = os.geteuid() == 0 != folder.st_uid

@@ -5,10 +5,9 @@ is needed, and no edge condition. Places of the grid where a channel was not mea
 between scattered points.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from scipy.fft import dct
@@ -31,7 +30,7 @@ class Lattice:
     place: Indices  # (point,): of each point: row * nx + column
 
     @classmethod
-    def found_in(cls, points_m: Floats) -> Lattice | None:
+    def found_in(cls, points_m: Floats) -> Self | None:
         """The grid on which points, (point, 2), lie, each on a place of its own and half of all places or more taken; or none."""
         x_m, y_m = _even(points_m[:, 0]), _even(points_m[:, 1])
         if x_m is None or y_m is None or len(points_m) * 2 < x_m.size * y_m.size:
@@ -74,7 +73,7 @@ class Cosines:
     amplitudes: Spectra  # (bin, half wave along y, half wave along x, channel)
 
     @classmethod
-    def of(cls, values: Spectra, columns: int, extents_m: tuple[float, float]) -> Cosines:
+    def of(cls, values: Spectra, columns: int, extents_m: tuple[float, float]) -> Self:
         """Of values at all places, (bin, place, channel), rows of this many columns."""
         bins, places, channels = values.shape
         plain = values.reshape(bins, places // columns, columns, channels)

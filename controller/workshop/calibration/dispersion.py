@@ -4,9 +4,8 @@ A little away from its edges, every field of one frequency is made of waves of o
 interpolation has to know of a plate.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,7 +28,7 @@ class Dispersion:
     reference_hz: float = 0.0
 
     @classmethod
-    def of(cls, plate: Plate) -> Dispersion:
+    def of(cls, plate: Plate) -> Self:
         """Of a board's plate, whatever its `theory`: measured waves are those of the real one (`MindlinPlate`)."""
         constants = MindlinPlate.of(plate)
         return cls(constants.mass_kg_m2, constants.stiffness_nm, constants.rotation_kg, constants.shear_n_m)

@@ -6,12 +6,10 @@ estimate of any other point follows from it. A little noise, and a little of wha
 allowed for. One Cholesky factor serves all channels measured at the same points.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,7 +61,7 @@ class Waves:
     edge_variance: float
 
     @classmethod
-    def of(cls, dispersion: Dispersion, bins: Bins, board: Board, edge_variance: float) -> Waves:
+    def of(cls, dispersion: Dispersion, bins: Bins, board: Board, edge_variance: float) -> Self:
         """For bins of a board's band."""
         near_m = NEAR_WAVES * dispersion.wavelength_m(board.waveform.band_high_hz)
         extents_m = (board.plate.length_m, board.plate.width_m)

@@ -4,10 +4,9 @@ Right edges make it worth twice the points, wrong ones make it worse than knowin
 better than waves in all directions do. Its frequencies need not be right to more than a percent.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +31,7 @@ class ModalPrior:
     variances: NDArray[np.float32]  # (bin, mode): a field of variance one together
 
     @classmethod
-    def of(cls, board: Board, modes: Modes, waves: WaveFit, bins: Bins) -> ModalPrior:
+    def of(cls, board: Board, modes: Modes, waves: WaveFit, bins: Bins) -> Self:
         """For bins of a plate whose frequencies are those of its model, times what was measured."""
         scale = np.full(bins.frequency_hz.shape, waves.frequency_scale)
         if board.plate.theory == "kirchhoff":

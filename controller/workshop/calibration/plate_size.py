@@ -4,10 +4,8 @@ The corner at the origin, from which patches are measured, stays; the edges are 
 size is a little like other edges: it is to be believed where it foresees much better than waves in all directions do.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, Self
 
 import msgspec
 import numpy as np
@@ -36,7 +34,7 @@ class GlassSize(NamedTuple):
         there = msgspec.structs.replace(plate, length_mm=plate.length_mm + self.longer_mm, width_mm=plate.width_mm + self.wider_mm)
         return msgspec.structs.replace(board, plate=there)
 
-    def in_frame(self, offset_error_m: tuple[float, float]) -> GlassSize:
+    def in_frame(self, offset_error_m: tuple[float, float]) -> Self:
         """The same, of points whose offset is known to this."""
         x_mm, y_mm = (1e3 * FRAME_SHARE * error_m for error_m in offset_error_m)
         longer_mm, wider_mm = float(np.hypot(self.longer_error_mm, x_mm)), float(np.hypot(self.wider_error_mm, y_mm))

@@ -4,9 +4,8 @@ Records need not be longer than an emission, though longer ones have sharper spe
 what the transform would else wrap round, and by which bins are nearer to each other.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +35,7 @@ class Bins:
     rest_taps: Floats  # of what it leaves out (`kept_rest`)
 
     @classmethod
-    def of(cls, waveform: Waveform, record_samples: int) -> Bins:
+    def of(cls, waveform: Waveform, record_samples: int) -> Self:
         """For records of this many samples at a waveform's bit clock."""
         length = int(next_fast_len(record_samples + int(np.ceil(SILENCE * waveform.samples)), real=True))
         band_hz = waveform.band_hz
@@ -55,7 +54,7 @@ class Bins:
         """Rows of rest that follow an entry's samples."""
         return -(-self.samples // REST_SAMPLES)
 
-    def part(self, chosen: Indices) -> Bins:
+    def part(self, chosen: Indices) -> Self:
         """Some of the bins."""
         return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen])
 

@@ -1,9 +1,8 @@
 """Transfer functions of a point in bins of frequency, and the responses in time that they are."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +23,7 @@ class RawBins:
     gain: Floats  # (bin,): 1 wherever the waveform's filter passes anything; falls to 0 beyond, over half the filter's edge
 
     @classmethod
-    def of(cls, board: Board, longest_s: float) -> RawBins:
+    def of(cls, board: Board, longest_s: float) -> Self:
         """Bins of a board's band, for records that end `longest_s` after the start of their emission."""
         waveform = board.waveform
         length = next_fast_len(int(np.ceil(1.1 * longest_s * waveform.bit_clock_hz)) + waveform.samples, real=True)

@@ -4,8 +4,6 @@ The same design gives the same bytes, in whatever folder, by whomever: the tools
 of their own, and have no clock, no random number but the seed, and one thread.
 """
 
-from __future__ import annotations
-
 import hashlib
 import importlib.metadata
 import importlib.util
@@ -18,7 +16,7 @@ import sysconfig
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from controller.device.board.board import Board
 from controller.device.board.lookup import data_folder
@@ -49,7 +47,7 @@ class FpgaDesign:
     parameters: Mapping[str, int]
 
     @classmethod
-    def of(cls, board: Board, top: Path, part: FpgaPart, device: str) -> FpgaDesign:
+    def of(cls, board: Board, top: Path, part: FpgaPart, device: str) -> Self:
         """The design of a board with the top.v and pins of a folder, for one of `part.devices`."""
         rtl = data_folder("fpga_rtl")
         rooms = (rtl, rtl / "board")

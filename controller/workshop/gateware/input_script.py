@@ -4,10 +4,8 @@ A file is {"parameters": those of `BuildParameters`, "end_tick": N, "steps": [{"
 base64; steps are in the order in which they are done. `tests/conformance` writes one of a script that fails.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Self
 
 import msgspec
 from msgspec import Meta, Struct
@@ -85,7 +83,7 @@ class InputScript(Struct, frozen=True, forbid_unknown_fields=True):
     steps: list[Step]
 
     @classmethod
-    def read(cls, path: Path) -> InputScript:
+    def read(cls, path: Path) -> Self:
         """Read a file; raises ConfigError if it is none, OSError if it cannot be read."""
         try:
             return msgspec.json.decode(read_regular(path, SCRIPT_BYTES_MAX, links=True), type=cls)

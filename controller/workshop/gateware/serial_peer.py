@@ -3,8 +3,6 @@
 `python -m controller.workshop.gateware.serial_peer [board]` prints its device and serves until it is interrupted.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 import select
@@ -13,6 +11,7 @@ import threading
 import time
 import tty
 from collections.abc import Callable
+from typing import Self
 
 from cobs import cobs
 
@@ -129,7 +128,7 @@ class PseudoTerminal:
             with contextlib.suppress(BlockingIOError):
                 os.write(self._controller, answer)
 
-    def __enter__(self) -> PseudoTerminal:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -5,11 +5,10 @@ T need no stepping. Displacements are relative to the position at rest at the id
 deflection by the idle levels never changes, so neither a finger nor a vibrometer detects it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -49,7 +48,7 @@ class FocusScale:
         return 0.8 * self.outside_m
 
     @classmethod
-    def of(cls, board: Board) -> FocusScale:
+    def of(cls, board: Board) -> Self:
         """Scale of a board, its factors rounded to three digits: exactly one for the shipped boards."""
         longer = wave_scale(board)
         slower = float(f"{MIDDLE_HZ / board.waveform.middle_hz:.3g}")
@@ -87,7 +86,7 @@ class Field:
     scale: FocusScale  # where the focus is measured
 
     @classmethod
-    def of_modal(cls, modes: Modes, step: StepResponse, modal: Floats, scale: FocusScale) -> Field:
+    def of_modal(cls, modes: Modes, step: StepResponse, modal: Floats, scale: FocusScale) -> Self:
         """A plate whose modes are displaced by `modal` at T, in m: (mode,); of no other time anything is known."""
         settled = np.zeros((modes.count, 2), np.complex128)
         return cls(

@@ -5,11 +5,10 @@ comes from f, w as the power of the responses there. Then spot and pulse at T ar
 w(f) cos(2 pi f t), a plate has 1 / (integral of w^2) hertz of bandwidth, and mass at the focus acts on each frequency alone.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from scipy.integrate import trapezoid
@@ -48,7 +47,7 @@ class FocalSpectrum:
     response_m_per_vs: float
 
     @classmethod
-    def of(cls, plate: Plate, driver: Driver, patch_m: float, band_hz: tuple[float, float], bit_clock_hz: float) -> FocalSpectrum:
+    def of(cls, plate: Plate, driver: Driver, patch_m: float, band_hz: tuple[float, float], bit_clock_hz: float) -> Self:
         """Spectrum by a square patch with edges of `patch_m` and its driver; waves come to it from all directions alike.
 
         The length of the words is a filter too.

@@ -1,12 +1,10 @@
 """The lock file: version and hashes of each package that a device gets, and which wheels of a folder it means for one platform."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 from packaging.requirements import InvalidRequirement, Requirement
 from packaging.tags import Tag, compatible_tags, cpython_tags
@@ -29,7 +27,7 @@ class Target:
     minor: int  # of Python 3
 
     @classmethod
-    def of(cls, platform: str) -> Target:
+    def of(cls, platform: str) -> Self:
         """Target of a platform such as `aarch64-cp311`; raises UpdateError if it is not written so."""
         found = re.fullmatch(r"([0-9a-z_]+)-cp3([0-9]{1,2})", platform)
         if not found:

@@ -9,15 +9,13 @@ A draft is written whole by `begin` and is published whole once each of its role
 makes devices see it, comes last. Private keys are never in this folder, and are never needed by it.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Self
 
 from securesystemslib.signer import CryptoSigner
 from tuf.api.exceptions import RepositoryError
@@ -54,7 +52,7 @@ class Repository:
 
     @classmethod
     @contextmanager
-    def opened(cls, folder: Path, *, new: bool = False, dated: str | None = None) -> Iterator[Repository]:
+    def opened(cls, folder: Path, *, new: bool = False, dated: str | None = None) -> Iterator[Self]:
         """Lock a repository, or a new one; raises UpdateError if it is none (or there is one), or another process works on it."""
         repository = cls(folder, dated)
         if new:

@@ -5,9 +5,8 @@ product for all channels and emissions: of exponentials of the plate's poles, (s
 and voltages, (sample, channel and emission). What the stage of a channel does to each pole is a factor of the product.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from typing import Self
 
 import msgspec
 import numpy as np
@@ -33,7 +32,7 @@ class PlayedPlate:
     driver_gain: Complex  # (channel, mode, 2): m per V
 
     @classmethod
-    def of(cls, board: Board, modes: Modes, gain: Floats, capacitance: Floats) -> PlayedPlate:
+    def of(cls, board: Board, modes: Modes, gain: Floats, capacitance: Floats) -> Self:
         """The plate of a board with `modes`; moments and capacitances of its channels, (32,) both, are over the board's."""
         forces = channel_forces(board, modes) * gain
         channels = np.sort([actuator.channel for actuator in board.actuators])

@@ -6,13 +6,11 @@ off, as in a calibration; the bank is what the product's own interpolation makes
 error, and nobody knows its mass. A record has what the device knows of all this beside what is true.
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, Self
 
 import msgspec
 import numpy as np
@@ -169,7 +167,7 @@ class _Plate:
         self.modes = modes_of(board)
 
     @classmethod
-    def of(cls, study: Unseen, number: int, random: np.random.Generator, *, other: bool = False) -> _Plate:
+    def of(cls, study: Unseen, number: int, random: np.random.Generator, *, other: bool = False) -> Self:
         drawn = draw(study.board, study.tolerances, study.seed + int(other), number)
         edges = _edges(number, random)
         plate = msgspec.structs.replace(drawn.board.plate, theory="mindlin" if number % len(KINDS) else "kirchhoff", **edges)

@@ -1,14 +1,12 @@
 """The file that keeps what is done: records of number and result with a CRC-32, of which the last may be torn."""
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import os
 import struct
 from collections.abc import Iterator
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Self
 
 from controller.device.kernel.crc import intact, sealed
 from controller.errors import UsageError, WorkersError
@@ -49,7 +47,7 @@ class KeptFile:
 
     @classmethod
     @contextlib.contextmanager
-    def open(cls, path: Path) -> Iterator[KeptFile]:
+    def open(cls, path: Path) -> Iterator[Self]:
         """The file at a path, made if it is not there; raises WorkersError if it cannot be written, UsageError if it is in use."""
         with writing(path):
             file = os.fdopen(open_private(path), "r+b")

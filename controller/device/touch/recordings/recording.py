@@ -5,13 +5,12 @@ Recordings come from other people and tools: lines and values that are not valid
 where fingers are, is an error.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 
@@ -43,13 +42,13 @@ class Track:
     y_m: Floats
 
     @classmethod
-    def of(cls, finger: int, reports: Sequence[tuple[float, float, float]]) -> Track:
+    def of(cls, finger: int, reports: Sequence[tuple[float, float, float]]) -> Self:
         """Track of `finger` from `reports`, each (time_s, x_m, y_m), in order of time."""
         time_s, x_m, y_m = np.array(reports, np.float64).T
         return cls(finger, time_s, x_m, y_m)
 
     @classmethod
-    def joined(cls, finger: int, parts: Iterable[Track]) -> Track:
+    def joined(cls, finger: int, parts: Iterable[Self]) -> Self:
         """Track of a `finger` that the panel lost and found again; `parts` are those of its contacts in order of time."""
         kept = list(parts)
         return cls(finger, *(np.concatenate([getattr(part, name) for part in kept]) for name in ("time_s", "x_m", "y_m")))
@@ -91,7 +90,7 @@ class Recording:
         self.x, self.y = (self._range(code, single) for code, single in zip(codes, ev.POSITIONS_SINGLE, strict=True))
 
     @classmethod
-    def open(cls, path: Path) -> Recording:
+    def open(cls, path: Path) -> Self:
         """Read the recording in the file `path`, at most `MAX_BYTES` long.
 
         Raises TouchError if the file cannot be read; ConfigError if it is no recording, holds no event, or see `read_recording`.

@@ -10,12 +10,10 @@ where root or targets end. A newer root, which two people sign, makes the device
 has stolen the key has no say after it was changed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 from tuf.api.metadata import Root, Signed, Targets, Timestamp
 
@@ -39,7 +37,7 @@ class Kept:
     timestamp_version: int = 0
 
     @classmethod
-    def read(cls, clock: Path) -> Kept | None:
+    def read(cls, clock: Path) -> Self | None:
         """What a file has; None if it is absent, or holds no time."""
         try:
             time, *versions = read_regular(clock, BYTES_MAX).decode("ascii").split()

@@ -1,11 +1,9 @@
 """What a compact bank of a board is made of: pulses and stencils, learned from responses at some places; then rows of all cells."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Final
+from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,7 +53,7 @@ class CompactDesign:
     samples: int
 
     @classmethod
-    def of(cls, board: Board, source: ResponseSource, grids: Sequence[Grid]) -> list[CompactDesign]:
+    def of(cls, board: Board, source: ResponseSource, grids: Sequence[Grid]) -> list[Self]:
         """Designs for some grids; ConfigError if the plate or the bit clock is too small for them."""
         waveform, plate = board.waveform, board.plate
         rest_grids = [_rest_grid(board, grid) for grid in grids]

@@ -16,12 +16,10 @@ but what a light touch feels (`felt_form`), by its derivative at the bits of the
 All products are exact (`exact.py`), so a point's words do not depend on the machine or on what is computed with it.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -102,7 +100,7 @@ class _Cells:
 class Descent:
     """Optimised waveforms for single points at full amplitude."""
 
-    def __init__(self, board: Board, plate: ResponseModel | MeasuredPlate, aim: DescentAim, like: Descent | None = None) -> None:
+    def __init__(self, board: Board, plate: ResponseModel | MeasuredPlate, aim: DescentAim, like: Self | None = None) -> None:
         """`like` has another aim for the same board and plate: what both need is taken from it."""
         self.name = f"descent: {aim.name}"
         self._aim, self._plate = aim, plate

@@ -4,11 +4,10 @@ The displacement of cosine j at T by a bit of channel q and sample n is a sum ov
 samples, `lines[n, k] * moved[k, j, q]`: measured responses end where the band does, so a third of the lines hold all of it.
 """
 
-from __future__ import annotations
-
 import io
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,7 +44,7 @@ class CosineShapes:
         return np.where(self.x_index > 0, 0.5, 1.0) * np.where(self.y_index > 0, 0.5, 1.0)
 
     @property
-    def factors(self) -> CosineShapes:
+    def factors(self) -> Self:
         """The factors of the shapes: `TensorFactors`."""
         return self
 
@@ -96,7 +95,7 @@ class MeasuredPlate:
         write_durably(path, data.getvalue())
 
     @classmethod
-    def read(cls, path: Path) -> MeasuredPlate:
+    def read(cls, path: Path) -> Self:
         """What `write` has written; raises OSError or ValueError."""
         with np.load(path) as file:
             length_m, width_m, samples, unforeseen, first_line = file["sizes"].tolist()

@@ -4,10 +4,8 @@ Its mass (paper, section V, fig. 11, appendix C): by eq. (7), and a point mass o
 VI, fig. 12): an illustration with numbers from literature, none fitted.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -80,7 +78,7 @@ class FreeFocus:
     displacement_m: Floats
 
     @classmethod
-    def of(cls, panel: PaperPanel, index: int) -> FreeFocus:
+    def of(cls, panel: PaperPanel, index: int) -> Self:
         """One of a panel's foci."""
         time_s: Floats = np.arange(0, BEFORE_S + AFTER_S, STEP_S, dtype=np.float64)
         motion = point_motion(

@@ -1,12 +1,10 @@
 """`measurement.toml`: what was played, what was recorded, in which unit, and where the records lie. Described in README.md."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 from string import Formatter
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import msgspec
 from msgspec import Meta
@@ -38,7 +36,7 @@ class WordsDrive(Record, frozen=True, tag_field="kind", tag="words"):
     idle_word: Word | Words = 0  # levels before and after an emission; of several FPGAs a list, one word of each
 
     @classmethod
-    def of(cls, board: Board) -> WordsDrive:
+    def of(cls, board: Board) -> Self:
         """What a board plays, in the file `drive.npy`."""
         idle = tuple(one.idle_word for one in board.fpga_boards)
         return cls(

@@ -7,9 +7,8 @@ its edges; the work it does on a mode is that moment times the patch integral of
 the shape (divergence theorem).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from typing import Self
 
 import msgspec
 import numpy as np
@@ -60,7 +59,7 @@ class SimplySupported:
     mean_square: Floats
 
     @classmethod
-    def of(cls, plate: Plate, highest_hz: float) -> SimplySupported:
+    def of(cls, plate: Plate, highest_hz: float) -> Self:
         """All modes of `plate` up to `highest_hz`.
 
         Raises ConfigError if there is none, or more than can be computed with; if another edge than "simply_supported" is asked

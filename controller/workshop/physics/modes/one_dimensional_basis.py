@@ -8,11 +8,9 @@ splines of degree 9 need fewer for an error of 1e-4, which counts where a pair o
 do not fall into four classes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, Self
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -132,7 +130,7 @@ class OneDimensionalBasis:
     coefficients: Floats  # (raw function, function): what each is the sum of
 
     @classmethod
-    def of(cls, functions: Functions, ends: tuple[Support, Support], parity: Parity | None = None) -> OneDimensionalBasis:
+    def of(cls, functions: Functions, ends: tuple[Support, Support], parity: Parity | None = None) -> Self:
         """Functions for an axis with these `ends`; with a parity only those, of ends that are alike."""
         chosen = np.eye(functions.count) if parity is None else functions.of_parity(parity)
         length = functions.length_m

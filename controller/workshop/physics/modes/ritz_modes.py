@@ -4,9 +4,8 @@ Rigid motions of a plate that nothing holds are left out: a patch bends the plat
 not drive them, and beside the hundreds of modes that a finger feels in the band their three do not count.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -41,7 +40,7 @@ class RitzModes:
     classes: tuple[tuple[ModeClass, NDArray[np.int64]], ...]
 
     @classmethod
-    def of(cls, plate: Plate, highest_hz: float) -> RitzModes:
+    def of(cls, plate: Plate, highest_hz: float) -> Self:
         """All modes of `plate` up to `highest_hz`.
 
         Raises ConfigError if there is none, or more than can be computed with, which says up to which frequency there are not too

@@ -5,10 +5,9 @@ with the same weights for every block, so all blocks are summed at once, and the
 `modal_history` but for those sums, which are in float32. Frames are two matrix products where shapes are products.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +51,7 @@ class Movie:
         to_s: float | None = None,
         step_s: float | None = None,  # from frame to frame, in whole bits; by default so that there are `frames`
         frames: int | None = None,  # `FRAMES` by default
-    ) -> Movie:
+    ) -> Self:
         """Frames of one emission; T is one of them.
 
         Raises ConfigError if the window does not contain T, or there are too many frames.
@@ -128,7 +127,7 @@ class PixelGrid:
     at_once: int
 
     @classmethod
-    def of(cls, modes: Modes, x_m: Floats, y_m: Floats) -> PixelGrid:
+    def of(cls, modes: Modes, x_m: Floats, y_m: Floats) -> Self:
         """Factors of the shapes on the grid, once for all frames."""
         at_once = max(1, int(64e6 / (8 * x_m.size * y_m.size)))
         if modes.factors is None:

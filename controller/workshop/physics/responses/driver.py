@@ -4,9 +4,8 @@ From the voltage of the stage to that on the piezo it is a low-pass of second or
 (paper, fig. 4): H(s) = w0^2 / (s^2 + R/L s + w0^2), w0^2 = 1 / (L C).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,7 +23,7 @@ class DriverResponse:
     gain: float  # w0^2 in 1/s^2
 
     @classmethod
-    def of(cls, driver: Driver) -> DriverResponse:
+    def of(cls, driver: Driver) -> Self:
         """Poles and residues of a board's driver."""
         half = driver.resistance_ohm / (2 * driver.inductance_h)
         gain = 1 / (driver.inductance_h * driver.capacitance_f)
