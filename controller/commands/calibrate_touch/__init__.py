@@ -14,7 +14,7 @@ from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.relations.devices import axes
+from controller.device.board.relations.touch import axes
 from controller.device.service.drivers import open_touch
 from controller.device.touch.live_source import LiveSource
 from controller.device.touch.recordings.recording import Recording

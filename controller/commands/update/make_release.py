@@ -12,16 +12,14 @@ from typing import TYPE_CHECKING
 
 from controller.commands.common.output import show
 from controller.device.bank.file_format import VERSION as BANK_FORMAT
-from controller.device.bank.file_format import Section
-from controller.device.bank.reader import Bank
 from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import data_folder, find_board, fpga_files
+from controller.device.board.lookup import data_folder, find_board
 from controller.device.board.paths import user_cache
 from controller.device.fpga.bitstream import differences, read_identity
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.registers import PROTOCOL_VERSION
 from controller.device.update.manifest import SETTINGS_FORMAT, Manifest, this_platform
-from controller.errors import BankError, GatewareError, UpdateError, UsageError
+from controller.errors import GatewareError, UpdateError, UsageError
 from controller.programs import ProgramError, run_program
 
 if TYPE_CHECKING:
@@ -29,7 +27,6 @@ if TYPE_CHECKING:
 
 DISTRIBUTION = "haptic-panel"
 GIT_S = 60.0  # for an answer
-PIECE_BYTES_MIN = 256  # rows of a bank shorter than this are one piece: an index has 8 bytes for each
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -72,6 +69,7 @@ def add(step: argparse.ArgumentParser) -> None:
 def make_release(options: argparse.Namespace) -> int:
     """Make the folder of a release."""
     from controller.workshop.publish.lock_file import Target
+    from controller.workshop.publish.release_banks import bank_made_by, bank_pieces, banks_for
     from controller.workshop.publish.release_folder import write_release
     from controller.workshop.publish.sbom import sbom
     from controller.workshop.publish.wheel_version import check_version
@@ -89,11 +87,11 @@ def make_release(options: argparse.Namespace) -> int:
         contents |= {f"boards/{name}/{path}": file for path, file in _files(board.folder)}
     pieces = {}
     for given in options.bank:
-        for path, file in _banks(given, boards):
+        for path, file in banks_for(given, boards):
             if path in pieces:
                 raise UsageError(f"{file}: is a second bank for {path}: give one for each board")
-            contents[path], pieces[path] = file, _bank_pieces(file)
-            made_by[path] = _bank_made_by(file)
+            contents[path], pieces[path] = file, bank_pieces(file)
+            made_by[path] = bank_made_by(file)
     contents |= _gateware(options.gateware, boards)
     made_by |= {path: _gateware_made_by(file) for path, file in contents.items() if path.startswith("gateware/")}
     with tempfile.TemporaryDirectory() as scratch:
@@ -186,41 +184,6 @@ def _files(folder: Path) -> Iterator[tuple[str, Path]]:
             raise UpdateError(f"{path}: is a link: a board of a release has files alone, put a copy there")
         if path.is_file():
             yield str(name), path
-
-
-def _banks(file: Path, boards: Mapping[str, Board]) -> Iterator[tuple[str, Path]]:
-    """Of a bank's file, and those of a board's further FPGAs beside it, the names in the release; for each board that it is for."""
-    with Bank.open(file) as bank:
-        digest = bank.header.board_digest
-    fitting = {name: board for name, board in boards.items() if board.fpga_boards[0].digest() == digest}
-    if not fitting:
-        raise BankError(f"{file}: was built for another board than {', '.join(boards) or 'none, as no --board is given'}")
-    for name, board in fitting.items():
-        Bank.open(file, board).close()
-        fpgas = len(board.link.fpga)
-        yield from zip(map(str, fpga_files(Path("banks") / f"{name}.bank", fpgas)), fpga_files(file, fpgas), strict=True)
-
-
-def _bank_pieces(file: Path) -> list[tuple[int, int]]:
-    """What changes of a bank as one."""
-    with Bank.open(file) as bank:
-        sections = sorted(bank.sections.values(), key=lambda section: section.offset)
-    return [piece for section in sections for piece in _pieces(section)]
-
-
-def _pieces(section: Section) -> Iterator[tuple[int, int]]:
-    """Rows of a section; short ones together."""
-    if section.stride < PIECE_BYTES_MIN:
-        yield section.offset, section.size
-    else:
-        yield from ((section.offset + row * section.stride, section.stride) for row in range(section.rows))
-
-
-def _bank_made_by(file: Path) -> dict[str, str]:
-    """What a bank tells of how it was built."""
-    with Bank.open(file) as bank:
-        provenance = bank.header.provenance
-        return {"creator": bank.header.creator, "responses": provenance.in_words() if provenance else "unknown"}
 
 
 def _gateware_made_by(file: Path) -> dict[str, str]:

@@ -1,28 +1,21 @@
 """Builds a board's bank: responses of the cells in blocks, packed, quantised and written as they come."""
 
-from __future__ import annotations
-
-import hashlib
 import resource
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from controller.arrays import Indices, Reals, Words
-from controller.device.bank.file_format import Header
-from controller.device.bank.packing import CHANNELS, WORD, channel_bits, drive_words, edges, quantise
-from controller.device.board.board import Board
+from controller.device.bank.packing import CHANNELS, WORD, drive_words
 from controller.device.board.paths import make_folder
-from controller.errors import ConfigError
 from controller.workshop.bank_builder.compact.design import CompactDesign
 from controller.workshop.bank_builder.compact.trial import Trial
+from controller.workshop.bank_builder.entries import Entries
 from controller.workshop.bank_builder.interpolation_error import interpolation_error
 from controller.workshop.bank_builder.methods.plain import SignOfSum
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
@@ -69,7 +62,7 @@ def build_bank(request: BankRequest) -> BuildReport:
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
         BankWriter(path, plan.header, plan.wanted, overwrite=request.overwrite) as writer,  # before the work: it may be refused
     ):
-        entries = _Entries(plan.board, plan.header, writer)
+        entries = Entries(plan.board, plan.header, writer)
         optimised, mapped = _optimised(request, plan) if aim else (None, None)
         if plan.design:
             error = _write_compact(plan, plan.design, entries)
@@ -143,7 +136,7 @@ def _compared(plan: BankPlan) -> Indices:
     return np.unique(np.linspace(0, len(plan.points_m) - 1, CELLS_COMPARED).round().astype(np.intp))
 
 
-def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, name: str, *, progress: bool) -> None:
+def _write_cells(plan: BankPlan, entries: Entries, optimised: Words | None, name: str, *, progress: bool) -> None:
     """Compute and write the entries of all cells."""
     header = plan.header
     room = np.empty((max(map(len, plan.blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
@@ -157,7 +150,7 @@ def _write_cells(plan: BankPlan, entries: _Entries, optimised: Words | None, nam
     entries.require_motion(len(plan.numbers))
 
 
-def _write_compact(plan: BankPlan, design: CompactDesign, entries: _Entries) -> dict[str, Any]:
+def _write_compact(plan: BankPlan, design: CompactDesign, entries: Entries) -> dict[str, Any]:
     """Compute and write rows and tables of a compact bank; what it loses."""
 
     def count(cell: int, response: Reals) -> None:
@@ -176,65 +169,6 @@ def _write_compact(plan: BankPlan, design: CompactDesign, entries: _Entries) -> 
     entries.set_tables(tables_of(gain))
     entries.require_motion(len(plan.numbers))
     return trial.loss(gain)
-
-
-class _Entries:
-    """Writes waveforms, and keeps what the header says of them."""
-
-    def __init__(self, board: Board, header: Header, writer: BankWriter) -> None:
-        self._board, self._results, self._writer = board, header.parameters, writer
-        self.content = hashlib.sha256()  # hash of all that was written
-        self.worst_edge_rate_hz = 0.0
-        self._moves = False  # whether any channel moves any cell
-
-    def add_cell(self, cell: int, words: NDArray[np.uint32], response: NDArray[np.float32]) -> None:
-        self.count_edges(words, f"cell {cell}")
-        levels, scale_m_per_v = quantise(response)
-        self._writer.add(cell, words, levels, scale_m_per_v)
-        self._moves = self._moves or scale_m_per_v > 0
-        for part in (words, levels, np.float32(scale_m_per_v)):
-            self.content.update(part.data)
-
-    def add_row(self, cell: int, row: NDArray[np.uint8], scale_m_per_v: float) -> None:
-        """Write the row of a cell of a compact bank."""
-        self._writer.add_row(cell, row, scale_m_per_v)
-        self._moves = self._moves or scale_m_per_v > 0
-        for part in (row, np.float32(scale_m_per_v)):
-            self.content.update(part.data)
-
-    def set_tables(self, tables: bytes) -> None:
-        """Give the writer the tables of a compact bank."""
-        self._writer.tables = tables
-        self.content.update(tables)
-
-    def require_motion(self, cells: int) -> None:
-        """Refuse a bank of nothing; raises ConfigError."""
-        if not self._moves:
-            raise ConfigError(
-                f"board {self._board.name!r}: no channel moves any of the {cells} cells: a bank of nothing is not written"
-            )
-
-    def add_composition(self, key: Sequence[tuple[int, int, int]], words: NDArray[np.uint32]) -> None:
-        self.count_edges(words, f"{len(key)} spots")
-        self._writer.add_composition(key, words)
-        self.content.update(words.data)
-
-    def count_edges(self, words: NDArray[np.uint32], name: str) -> None:
-        """Note the edges of the busiest channel, and of all; refused above the board's limit."""
-        board, results = self._board, self._results
-        idle = np.array([board.idle_word], np.uint32)
-        counts = edges(np.concatenate([idle, words, idle]))
-        own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
-        rate_hz = float(own_edges.max()) / board.waveform.duration_s
-        if rate_hz > board.limits.max_edge_rate_hz:
-            raise ConfigError(
-                f"board {board.name!r}: limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is less than the {rate_hz:g}"
-                f" edges per second of channel {int(own_edges.argmax())} in the waveform of {name}: raise it if the driver"
-                f" allows it"
-            )
-        results["channel_edges"] = max(results["channel_edges"], int(counts.max()))
-        results["all_edges"] = max(results["all_edges"], int(counts.sum()))
-        self.worst_edge_rate_hz = max(self.worst_edge_rate_hz, rate_hz)
 
 
 def _amplitude_of_plain(plan: BankPlan, words: Words) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import as_words, channel_bits, drive_words
 from controller.device.board.board import Board
-from controller.device.board.relations.panel import coarse
+from controller.device.board.relations.bank import coarse
 from controller.errors import ConfigError
 from controller.workshop.physics.responses.response_source import ResponseSource
 

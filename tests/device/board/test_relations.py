@@ -17,10 +17,10 @@ from controller.device.board.devices import ApplicationSocket, LinkedFpga, Tempe
 from controller.device.board.lookup import data_folder, find_board
 from controller.device.board.panel import Compose, Damping, DecayAt
 from controller.device.board.patches import Patches
+from controller.device.board.relations.bank import BANK_BYTES
 from controller.device.board.relations.bending_waves import bending_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.device.board.relations.checked import RELATIONS, judge
 from controller.device.board.relations.limits import ALIVE_HZ
-from controller.device.board.relations.panel import BANK_BYTES
 from controller.device.board.relations.stage import RAMP_EDGES
 from controller.device.board.relations.stage_heat import passed, worst_edge_j
 from controller.device.board.relations.touch_area import reached

@@ -10,17 +10,19 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING, NamedTuple
 
+from controller.device.board.relations import bank as bank_relations
 from controller.device.board.relations import devices as device_relations
 from controller.device.board.relations import limits as limit_relations
 from controller.device.board.relations import panel as panel_relations
 from controller.device.board.relations import plate as plate_relations
 from controller.device.board.relations import stage as stage_relations
+from controller.device.board.relations import touch as touch_relations
 from controller.device.board.relations.relation import Relation
 
 if TYPE_CHECKING:
     from controller.device.board.board import Board
 
-PARTS = (panel_relations, plate_relations, limit_relations, stage_relations, device_relations)
+PARTS = (panel_relations, bank_relations, plate_relations, limit_relations, stage_relations, touch_relations, device_relations)
 RELATIONS = tuple(found for part in PARTS for found in vars(part).values() if isinstance(found, Relation))
 
 OF_ONE_FPGA = frozenset(found for found in vars(stage_relations).values() if isinstance(found, Relation))  # each limits its own
