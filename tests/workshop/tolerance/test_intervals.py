@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -50,6 +51,12 @@ def test_a_bank_that_may_be_of_another_plate_never_promises_too_much():
     assert np.median(felt) < 0.2, "and there is a reason not to"
 
 
+def test_what_was_not_played_is_not_counted():
+    found = coverage(BOARD, [one._replace(other_free_um=math.nan, other_felt_um=math.nan) for one in KEPT.values()])
+    assert "finger" in found
+    assert not any(name.startswith("bank of another") for name in found)
+
+
 def same(number):
     """Whether a plate is what it was when it was kept; rounding of linear algebra apart."""
     with threadpool_limits(1, "blas"):
@@ -73,6 +80,12 @@ def test_the_command_plays_the_plates_that_were_kept(tmp_path, monkeypatch, caps
 @each_row("number", range(2 * len(KINDS)))
 def test_plates_are_what_they_were_when_they_were_kept(number):
     same(number)
+
+
+@pytest.mark.slow
+def test_a_plate_does_the_same_without_banks_of_others():
+    alone, besides = (replace(STUDY, others=others).record(1)._asdict() for others in (False, True))
+    assert {name for name in alone if alone[name] != besides[name]} == {"other_free_um", "other_felt_um"}
 
 
 @pytest.mark.slow
