@@ -4,6 +4,8 @@ python-evdev opens the device but does not read it: it would create an object fo
 one buffer that is reused, one report at a time.
 """
 
+from __future__ import annotations  # the event device of older versions of evdev has no kinds
+
 import contextlib
 import fcntl
 import os

@@ -1,5 +1,7 @@
 """Opening the kernel's input devices (python-evdev), by path or name, with event times on CLOCK_MONOTONIC."""
 
+from __future__ import annotations  # the event device of older versions of evdev has no kinds
+
 import contextlib
 import errno
 import fcntl
