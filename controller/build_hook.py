@@ -11,6 +11,8 @@ version of CPython alone. `HAPTIC_PANEL_WING=device`: a wheel for a device, with
 An editable installation stays as its sources are.
 """
 
+from __future__ import annotations
+
 import contextlib
 import os
 import shlex

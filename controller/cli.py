@@ -4,6 +4,8 @@ Only the module of the command that is called is imported: `--version`, `--help`
 simulation and benchmarks are imported only by the commands that need them: a device may lack their packages.
 """
 
+from __future__ import annotations
+
 import argparse
 import signal
 import sys

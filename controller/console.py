@@ -3,6 +3,8 @@
 All that is printed goes through `say` and `tell`, and each program's `main` is a `program`.
 """
 
+from __future__ import annotations
+
 import codecs
 import contextlib
 import io

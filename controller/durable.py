@@ -1,5 +1,7 @@
 """Files that are whole after a power cut: the old one or the new one, never a part."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress

@@ -7,6 +7,8 @@ All texts are made before the first is written, and a file is written beside the
 every file as it was. What takes minutes is made again only where its source has changed.
 """
 
+from __future__ import annotations
+
 import argparse
 import sys
 from collections.abc import Callable, Mapping, Sequence

@@ -4,6 +4,8 @@ Where standard error is connected to the journal ($JOURNAL_STREAM, systemd.exec(
 (systemd.io/JOURNAL_NATIVE_PROTOCOL), with their priority and, if they tell of an `Event`, its MESSAGE_ID; elsewhere they are text.
 """
 
+from __future__ import annotations
+
 import io
 import os
 import select

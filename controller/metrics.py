@@ -1,5 +1,7 @@
 """Counters and latency histograms of the hot path, in constant memory."""
 
+from __future__ import annotations
+
 import math
 from array import array
 from collections.abc import Sequence

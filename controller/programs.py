@@ -1,5 +1,7 @@
 """Programs of others: run with a time limit, ended with all they started, reported by how they ended and what they said last."""
 
+from __future__ import annotations
+
 import contextlib
 import os
 import signal

@@ -4,6 +4,8 @@ Whoever may write into a folder can put a pipe, a link to a device or a file wit
 opened here is a regular file, by its descriptor and not by its name, and no more of it is read than it may have.
 """
 
+from __future__ import annotations
+
 import contextlib
 import errno
 import os

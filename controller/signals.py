@@ -1,5 +1,7 @@
 """Signals that wake a selector."""
 
+from __future__ import annotations
+
 import contextlib
 import selectors
 import signal

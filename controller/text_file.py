@@ -1,5 +1,7 @@
 """Text files as people and other systems leave them: UTF-8 with or without a byte order mark, UTF-16 with one, any line ends."""
 
+from __future__ import annotations
+
 import codecs
 from pathlib import Path
 from typing import Final

@@ -1,5 +1,7 @@
 """Every line of a client is answered exactly once: at once, or under a ticket when its outcome is known; and counted."""
 
+from __future__ import annotations
+
 from controller.device.application_socket import messages
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import Connection, MessageTooLong

@@ -9,6 +9,8 @@
 The same from a shell: `python -m controller.device.application_socket.client --socket S play click --at 100 70`.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Self
 

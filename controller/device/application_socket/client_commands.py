@@ -1,5 +1,7 @@
 """The client on a command line: `python -m controller.device.application_socket.client --socket S play click --at 100 70`."""
 
+from __future__ import annotations
+
 import argparse
 from pathlib import Path
 from typing import Any

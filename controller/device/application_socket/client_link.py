@@ -1,5 +1,7 @@
 """A client's side of the application socket: requests go out, answers come back by their ids, and what comes unasked is kept."""
 
+from __future__ import annotations
+
 import contextlib
 import grp
 import os

@@ -1,5 +1,7 @@
 """The connected clients: who is accepted, who has to leave, and which of their sockets are watched for what."""
 
+from __future__ import annotations
+
 import contextlib
 import errno
 import math

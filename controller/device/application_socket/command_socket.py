@@ -4,6 +4,8 @@ Whatever clients send, a turn reads each of them once, answers at most `LINES_A_
 `clients.ACCEPTS_A_TURN` clients. The rest waits for later turns, between which the loop does its other work.
 """
 
+from __future__ import annotations
+
 import socket
 import time
 from collections.abc import Callable, Sequence

@@ -1,5 +1,7 @@
 """One client's connection: received lines and queued answers, in two buffers of fixed size."""
 
+from __future__ import annotations
+
 import math
 import socket
 

@@ -1,5 +1,7 @@
 """Counters of the application socket, as the `figures` command reports them."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from controller.device.application_socket.messages import Outcome

@@ -1,5 +1,7 @@
 """The panel described: plate, patches, axes, scene, effects, limits, versions, and the last faults."""
 
+from __future__ import annotations
+
 from collections import deque
 from typing import Any, Final
 

@@ -1,5 +1,7 @@
 """What is played, and what was due and is not, collected and sent to subscribers 30 times a second."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 from typing import Final

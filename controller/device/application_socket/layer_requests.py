@@ -1,5 +1,7 @@
 """A client's regions: whether it may send them now, and what is handed to the loop."""
 
+from __future__ import annotations
+
 from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
 from controller.device.application_socket.messages import MoveRegions, Regions, Transform

@@ -5,6 +5,8 @@ states are sent between answers to clients that subscribed to them. Lengths are 
 are refused, so that a misspelt key is noticed.
 """
 
+from __future__ import annotations
+
 from typing import Annotated, Any, Literal
 
 import msgspec

@@ -1,5 +1,7 @@
 """What clients are sent without a request, once subscribed: touches, and the panel's condition."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from math import isfinite
 

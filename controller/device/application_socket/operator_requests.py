@@ -1,5 +1,7 @@
 """What operators ask of the panel, and the one order that every client may give: off."""
 
+from __future__ import annotations
+
 from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
 from controller.device.application_socket.messages import Arm, ChannelTest, Disarm, LoadScene, SaveScene, Stop, WriteTrace

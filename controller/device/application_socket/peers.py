@@ -4,6 +4,8 @@ User and groups are those of the process when it connected (SO_PEERCRED, SO_PEER
 is not asked for groups: it could block the loop.
 """
 
+from __future__ import annotations
+
 import ctypes
 import errno
 import grp

@@ -1,5 +1,7 @@
 """Commands without an outcome yet: how many a client and a user may have, and who is answered."""
 
+from __future__ import annotations
+
 import math
 from collections import Counter
 

@@ -1,5 +1,7 @@
 """Who gets a place when there are more clients than places: a free one, or that of a client that gives way."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import NamedTuple
 

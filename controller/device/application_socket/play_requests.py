@@ -1,5 +1,7 @@
 """What a client asks to be played, and where: checked before anything of it is handed to the loop."""
 
+from __future__ import annotations
+
 from typing import Final, NamedTuple
 
 from controller.device.application_socket.answers import Answers

@@ -1,5 +1,7 @@
 """What clients ask for: what the panel is, its state and figures, now or at each change."""
 
+from __future__ import annotations
+
 import contextlib
 from dataclasses import asdict
 from typing import Any, Final

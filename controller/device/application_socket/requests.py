@@ -1,5 +1,7 @@
 """Clients' lines: decoded, checked against rate and rights, and handed to what carries them out."""
 
+from __future__ import annotations
+
 from typing import Any, Final, get_args
 
 import msgspec

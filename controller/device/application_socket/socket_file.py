@@ -1,5 +1,7 @@
 """The socket's file: created with owner, group and mode before it is visible, never taken from a running service."""
 
+from __future__ import annotations
+
 import contextlib
 import errno
 import fcntl

@@ -1,5 +1,7 @@
 """A stop among what a client has sent and nobody has read yet: a client over its rate is read slowly, its stop is not."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Final, TypeVar
 

@@ -1,5 +1,7 @@
 """The file beside the socket that remembers, over a restart of the service, that a client has switched the panel off, and who."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
 

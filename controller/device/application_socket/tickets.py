@@ -1,5 +1,7 @@
 """Tickets: numbers under which the event loop reports outcomes, and who is to be answered, in memory of fixed size."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 FULL = 0  # never a ticket: to the loop it means that nobody waits for the outcome

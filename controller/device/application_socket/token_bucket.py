@@ -1,5 +1,7 @@
 """A limit of rate with a burst."""
 
+from __future__ import annotations
+
 
 class TokenBucket:
     """Tokens that come at a constant rate in the long run; at most `burst` can be taken at once."""

@@ -1,5 +1,7 @@
 """The open file of a bank: what is read or mapped of it, and whether it is still the same."""
 
+from __future__ import annotations
+
 import mmap
 import os
 import weakref

@@ -1,5 +1,7 @@
 """Waveforms of a bank, packed as finished frames: those of cells, and those composed beforehand."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterable
 

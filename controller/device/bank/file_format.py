@@ -4,6 +4,8 @@ A header of one or more pages, then seven sections, of a compact bank eight, eac
 zero. Tables are covered by a CRC-32 in the header, entries by one each.
 """
 
+from __future__ import annotations
+
 import json
 import math
 import struct

@@ -1,5 +1,7 @@
 """Inspects whole banks: what a bank holds, whether every bit is as written, whether it suits a board."""
 
+from __future__ import annotations
+
 import os
 import zlib
 from collections.abc import Callable

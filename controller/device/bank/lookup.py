@@ -1,5 +1,7 @@
 """Which bank of a board is played: one measured on this device, else that of the running release, else the device's own."""
 
+from __future__ import annotations
+
 import os
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Whether the memory of the machine that plays suits a board's full bank; where it does not, the board gets a compact one."""
 
+from __future__ import annotations
+
 import os
 from dataclasses import dataclass
 from typing import Final

@@ -5,6 +5,8 @@ entry word by word and a memoryview of the bank goes to the wire as it is. The w
 have a column for each, (sample, FPGA); an entry is of one.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any
 

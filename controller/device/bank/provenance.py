@@ -1,5 +1,7 @@
 """Where the responses of a bank come from, as its header tells it: the build parameter `responses`."""
 
+from __future__ import annotations
+
 from pathlib import PurePosixPath
 from typing import Any, Literal, Self
 

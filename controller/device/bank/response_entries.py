@@ -1,5 +1,7 @@
 """Responses of a bank, from which waveforms for several points, or for places between cells, are composed."""
 
+from __future__ import annotations
+
 import contextlib
 import mmap
 import os

@@ -1,5 +1,7 @@
 """The small sections of a bank, read whole: which entry a cell has, CRC-32s, scales, what was composed beforehand."""
 
+from __future__ import annotations
+
 import os
 import zlib
 from dataclasses import dataclass

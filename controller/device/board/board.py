@@ -4,6 +4,8 @@ Files use mm and ms; properties return SI units. An unknown key, a wrong type or
 names file, key and value. The reference for users (reference.md) is generated from these records and their docstrings.
 """
 
+from __future__ import annotations
+
 import operator
 import os
 from collections.abc import Collection

@@ -1,5 +1,7 @@
 """What a file or message may hold at one place, in words: kind, range with unit, valid values. Taken from the records' types."""
 
+from __future__ import annotations
+
 import functools
 import re
 

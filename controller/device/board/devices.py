@@ -4,6 +4,8 @@ Name devices by what does not change from one boot or kernel to the next: paths 
 GPIO chips by label, lines by name or, where they have none, by number.
 """
 
+from __future__ import annotations
+
 from typing import Annotated, Any, Final, Literal
 
 from msgspec import Meta

@@ -4,6 +4,8 @@ Lines of some chips have no names, or one name for several ("NC", "-"): a line i
 text ("25"), which the wiring of the chip fixes. A name goes before a number, as in the tools of libgpiod.
 """
 
+from __future__ import annotations
+
 import difflib
 import errno
 from collections.abc import Iterable, Sequence

@@ -1,5 +1,7 @@
 """What tells one panel from another of the same board: a bank measured on one is of no use on the next."""
 
+from __future__ import annotations
+
 import re
 from pathlib import Path
 from typing import Final

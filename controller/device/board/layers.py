@@ -9,6 +9,8 @@ reported in a ratio to that of a solid plate. Where a layer is so soft that the 
 waves, which no single bending stiffness describes: such layers are refused.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Annotated, NamedTuple
 

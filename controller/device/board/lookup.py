@@ -1,5 +1,7 @@
 """Where boards, gateware and unit files lie: in /etc, in the running release, in the source tree, or in the installed data."""
 
+from __future__ import annotations
+
 import sys
 import sysconfig
 from pathlib import Path

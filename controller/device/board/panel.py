@@ -1,5 +1,7 @@
 """The tables of board.toml that describe the panel itself: plate, actuators, driver stages, waveform, bank and limits."""
 
+from __future__ import annotations
+
 from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 

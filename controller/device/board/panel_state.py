@@ -1,5 +1,7 @@
 """State of the panel, in the words that `systemctl status`, log, socket and exit share."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from enum import Enum
 

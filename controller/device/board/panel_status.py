@@ -3,6 +3,8 @@
 Readers are of any release, that of the service or another: they ignore what they do not know.
 """
 
+from __future__ import annotations
+
 import os
 import time
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 """What the piezo patches weigh and how much they stiffen the plate: the table [patches] of board.toml."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Annotated, Literal, NamedTuple, Self
 

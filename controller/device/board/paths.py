@@ -4,6 +4,8 @@ The bank of a board in /etc is in the state folder of the service, whichever use
 cache.
 """
 
+from __future__ import annotations
+
 import os
 import pwd
 import shlex

@@ -1,5 +1,7 @@
 """Tables of a TOML file as frozen, checked records: an unknown key or an impossible value names file, key and value."""
 
+from __future__ import annotations
+
 import math
 import re
 import tomllib

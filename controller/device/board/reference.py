@@ -4,6 +4,8 @@ Kinds, ranges and defaults come from the records' types, units from the keys' en
 section Attributes of the records' docstrings.
 """
 
+from __future__ import annotations
+
 import inspect
 import re
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,5 +1,7 @@
 """All keys of a table that are missing or unknown, at once: msgspec stops at the first."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from typing import Any
 

@@ -7,6 +7,8 @@ Name devices by what does not change from one boot or kernel to the next: paths 
 GPIO chips by label, lines by name or, where they have none, by number.
 """
 
+from __future__ import annotations
+
 import pkgutil
 from importlib import import_module
 from typing import Annotated, ClassVar, Final

@@ -3,6 +3,8 @@
 Used for board.toml, scene.toml and the messages of the application socket.
 """
 
+from __future__ import annotations
+
 import difflib
 import re
 from collections.abc import Iterable

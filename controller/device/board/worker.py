@@ -1,5 +1,7 @@
 """A helper process for reads that may block, such as on an I2C bus that hangs; the event loop never waits for it."""
 
+from __future__ import annotations
+
 import contextlib
 import socket
 import subprocess

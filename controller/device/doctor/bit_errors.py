@@ -1,5 +1,7 @@
 """Bit errors of the link to an FPGA: random bits in TEST frames, compared with their echo."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -3,6 +3,8 @@
 Each test is a function of an open session, so that it runs the same on the model, the compiled Verilog and a real board.
 """
 
+from __future__ import annotations
+
 import selectors
 import zlib
 from collections.abc import Callable, Iterator, Sequence

@@ -1,5 +1,7 @@
 """Checks of a panel for `haptic-panel doctor`: each device, file and permission that the board needs, and what to do."""
 
+from __future__ import annotations
+
 import os
 import pwd
 import stat

@@ -1,5 +1,7 @@
 """Result of one check of `haptic-panel doctor`."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 

@@ -1,5 +1,7 @@
 """Quality of the link to an FPGA: bit errors at several SCK rates, a bound of the error rate, and a recommended SCK."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

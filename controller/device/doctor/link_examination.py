@@ -1,5 +1,7 @@
 """`doctor --link`: identity, bit errors and SCK of the link to an FPGA, its memory and its channels."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass

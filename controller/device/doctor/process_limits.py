@@ -1,5 +1,7 @@
 """Whether the service may have the real-time priority and the locked memory that its board asks for."""
 
+from __future__ import annotations
+
 import math
 import os
 import resource

@@ -1,5 +1,7 @@
 """`doctor` on a Raspberry Pi: settings of firmware and kernel on which SCK and the loop's latency depend."""
 
+from __future__ import annotations
+
 import os
 import re
 from collections.abc import Callable, Iterator

@@ -1,5 +1,7 @@
 """`doctor --link` of several FPGAs: what they share, then the link of each by itself, the others off."""
 
+from __future__ import annotations
+
 import selectors
 from collections.abc import Callable, Sequence
 from dataclasses import replace

@@ -1,5 +1,7 @@
 """Checks of releases and updates for `haptic-panel doctor`: what runs, what is asked for, and whether the next update can work."""
 
+from __future__ import annotations
+
 import shutil
 from collections.abc import Callable
 from pathlib import Path

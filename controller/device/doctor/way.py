@@ -1,5 +1,7 @@
 """The way from a new board to a panel that is felt, and which of its steps are done, as far as the device shows it."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterable
 from pathlib import Path

@@ -4,6 +4,8 @@ The rules are those of `play_queue.v` and `waveform_player.v` for a plate that i
 to: then both say the same. Where they differ, a frame, an answer or an edge was lost, or another drives the same lines.
 """
 
+from __future__ import annotations
+
 from typing import Final
 
 from controller.device.fpga.frames import Play

@@ -4,6 +4,8 @@ Both FPGA families begin a bitstream with comments between FF 00 and FF, each en
 a SHA-256 of all others and of what follows: a file that was cut off or damaged on its way is found before it is loaded.
 """
 
+from __future__ import annotations
+
 import hashlib
 import json
 import os

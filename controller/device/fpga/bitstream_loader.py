@@ -4,6 +4,8 @@ A loader that fails has not condemned the FPGA: it may have loaded it before, or
 is after each attempt, and its answer alone counts.
 """
 
+from __future__ import annotations
+
 import os
 import shlex
 import subprocess

@@ -1,5 +1,7 @@
 """Hash of the Verilog from which a bitstream is built; the host refuses to arm any other gateware."""
 
+from __future__ import annotations
+
 import zlib
 from pathlib import Path
 

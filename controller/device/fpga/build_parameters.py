@@ -1,5 +1,7 @@
 """Parameters built into the gateware, from the limits and the link of a board."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import asdict, dataclass
 from typing import Self

@@ -1,5 +1,7 @@
 """A capture of the FPGA's output pins, or of those of several: all that a plate, real or simulated, is driven by."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 

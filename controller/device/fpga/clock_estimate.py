@@ -4,6 +4,8 @@ Pulse trains are scheduled in FPGA time, which keeps their spacing exact to one 
 early enough when a pulse is due, so tens of µs suffice here.
 """
 
+from __future__ import annotations
+
 from typing import Final
 
 from controller.clocks import ClockOffset, FpgaTime

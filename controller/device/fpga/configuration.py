@@ -1,5 +1,7 @@
 """Identity and limits that an FPGA must have, and the settings it is given, before it may be armed."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Final
 

@@ -3,6 +3,8 @@
 Bits are numbered in the order on the wire, most significant bit of each byte first.
 """
 
+from __future__ import annotations
+
 import zlib
 
 from controller.device.fpga.frames import FRAME_BYTES as STATUS_BYTES

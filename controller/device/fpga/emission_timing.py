@@ -1,5 +1,7 @@
 """Bit period in use and the lengths that follow from it, in FPGA clocks."""
 
+from __future__ import annotations
+
 from controller.device.board.board import Board
 
 

@@ -3,6 +3,8 @@
 The result of a frame is in the answer to the next one, so each message ends with a NOP that fetches the last result.
 """
 
+from __future__ import annotations
+
 import contextlib
 from collections.abc import Callable, Sequence
 from typing import TypeVar

@@ -5,6 +5,8 @@ Fields are little-endian and lie back to back. From this table come the packings
 in `fpga_rtl/registers.vh` and the table of frames in `fpga_rtl/README.md`.
 """
 
+from __future__ import annotations
+
 import struct
 from collections.abc import Iterable
 from itertools import takewhile

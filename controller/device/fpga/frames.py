@@ -10,6 +10,8 @@ All `pack_*` functions take the writable buffer, the byte offset at which the fr
 modulo 256), and return the offset of its end.
 """
 
+from __future__ import annotations
+
 import struct
 from collections.abc import Callable, Sequence
 from functools import partial

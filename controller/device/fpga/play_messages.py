@@ -4,6 +4,8 @@ The short frames of a message are the same each time but for a few fields: they 
 all of them numbered and sealed by one call.
 """
 
+from __future__ import annotations
+
 from typing import Final
 
 from controller.device.board.board import Board

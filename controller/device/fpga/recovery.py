@@ -12,6 +12,8 @@ A retry checks identity, writes the settings and arms. Outputs stay off until th
 does not receive it switches off by its heartbeat timeout.
 """
 
+from __future__ import annotations
+
 import math
 from enum import Enum
 from typing import Final

@@ -4,6 +4,8 @@ This is the source: `python -m controller.generate` writes from it `fpga_rtl/reg
 `register_file.v` and `haptic_core.v` and the table in `fpga_rtl/README.md`; the gateware model takes its defaults from it.
 """
 
+from __future__ import annotations
+
 from enum import Enum, IntEnum, IntFlag, auto, unique
 from typing import Final, Self
 

@@ -5,6 +5,8 @@ is sent again. What waits in its queue is compared with what this host had accep
 (`Belief`): a trigger that it did not see leaves a play behind, which the next trigger would start in place of its own.
 """
 
+from __future__ import annotations
+
 import zlib
 from collections.abc import Callable
 from typing import Final, Protocol

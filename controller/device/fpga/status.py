@@ -4,6 +4,8 @@ It reports the result of the frame before, and the FPGA's state when chip select
 CRC-32 last, 36 bytes; its fields are those of `frame_table`.
 """
 
+from __future__ import annotations
+
 import struct
 import zlib
 from typing import Final, NamedTuple

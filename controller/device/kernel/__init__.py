@@ -4,6 +4,8 @@ They are compiled where the package was built with a C compiler, else `twin` and
 `HAPTIC_PANEL_KERNEL=numpy` or `=compiled` in the environment chooses one; a compiled one that is missing is then an error.
 """
 
+from __future__ import annotations
+
 import importlib
 import os
 from pathlib import Path

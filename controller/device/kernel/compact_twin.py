@@ -8,6 +8,8 @@ lie between four of these. What the band leaves out has cells, weights and pulse
 All that reaches a sample is whole numbers; shifts round down.
 """
 
+from __future__ import annotations
+
 import math
 import struct
 from typing import Any, Final, NamedTuple

@@ -1,5 +1,7 @@
 """Messages that end with their own CRC-32 (zlib), little-endian: frames, statuses, headers and records of files."""
 
+from __future__ import annotations
+
 import zlib
 
 from controller.device.kernel.twin import CRC, CRC_OF_INTACT, Readable, Writable

@@ -19,6 +19,8 @@ from every second block, and to depend on the distance of two times only, with t
 roughly. Three sweeps over all sums, each measured again.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any, Final
 

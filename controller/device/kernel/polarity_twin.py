@@ -4,6 +4,8 @@ Polarities are found from a sketch of the responses, a sample of each 6 us, and 
 waves of up to 83 kHz: polarities of less than 1 % more energy than others are still found.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any, Final
 

@@ -8,6 +8,8 @@ them. CRC-32 is linear: for messages of one length `crc(a ^ b) = crc(a) ^ crc(b)
 changes from s to t changes its CRC by a constant of its length and of `s ^ t`, and its payload is not read for that.
 """
 
+from __future__ import annotations
+
 import struct
 import zlib
 from functools import cache

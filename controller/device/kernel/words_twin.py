@@ -24,6 +24,8 @@ the largest that all can have.
 How amplitudes below the full one are met: `amplitude_twin`.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from typing import Any, Final

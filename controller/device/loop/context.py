@@ -1,5 +1,7 @@
 """What the parts of a loop share, and who watches it."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 

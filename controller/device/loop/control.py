@@ -1,5 +1,7 @@
 """What commands may ask of the loop, such as those that come through the application socket."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from controller.device.loop.context import LoopContext

@@ -5,6 +5,8 @@ a train. FixedEmitters of one common period are handed to the FPGA as one endles
 that a moving finger will ask for next is sent ahead.
 """
 
+from __future__ import annotations
+
 from typing import Final
 
 from controller.clocks import FPGA_NEVER, NEVER, FpgaTime

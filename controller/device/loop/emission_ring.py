@@ -1,5 +1,7 @@
 """The last starts of emissions, for those who want to see them: noted in the loop, read at leisure."""
 
+from __future__ import annotations
+
 from typing import Final
 
 from controller.device.bank.expectation import Expectation

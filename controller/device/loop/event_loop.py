@@ -5,6 +5,8 @@ the dispatcher hand it to the FPGA. The longest blocking call without a fault is
 (`HostTiming.upload`).
 """
 
+from __future__ import annotations
+
 import selectors
 import signal
 import time

@@ -1,5 +1,7 @@
 """The pulse of a scene's fixed emitters: emissions that repeat at a place without any finger."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from typing import Final

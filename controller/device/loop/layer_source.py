@@ -1,5 +1,7 @@
 """Interface between the event loop and what prepares clients' layers of regions for it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 

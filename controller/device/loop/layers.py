@@ -1,5 +1,7 @@
 """Clients' layers of regions over the scene: which are in force, which are being prepared, and where each lies."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from controller.device.loop.commands import CommandSource

@@ -7,6 +7,8 @@ A host that missed heartbeats arms again at once. If it stalls again and again w
 nothing but ramps: it arms later each time, and never gives up.
 """
 
+from __future__ import annotations
+
 from controller.clocks import NEVER
 from controller.device.board.panel_state import PanelState
 from controller.device.fpga.exchange import HostSilent

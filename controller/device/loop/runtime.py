@@ -1,5 +1,7 @@
 """No garbage collection while the event loop runs."""
 
+from __future__ import annotations
+
 import contextlib
 import gc
 from collections.abc import Iterator

@@ -1,5 +1,7 @@
 """Interface between the event loop and what prepares another scene for it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Protocol
 

@@ -4,6 +4,8 @@ The scene decides what is felt; here it is kept until it is played. Every comman
 outcome.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Sequence
 from typing import Final

@@ -3,6 +3,8 @@
 A device leaves everything out. The simulation switches single ones off to measure what each saves (`benchmark.skipping`).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 

@@ -4,6 +4,8 @@ Writing a record is one call of `struct`, which allocates nothing that stays. Wh
 called once something is asked to be explained.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from struct import Struct
 from typing import Final, NamedTuple, Protocol

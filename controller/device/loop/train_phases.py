@@ -6,6 +6,8 @@ for an upload of their own or, where this host has no such room left, to another
 waveform.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Final
 

@@ -1,5 +1,7 @@
 """Files that wake the selector; a source may close its file and open another one at any time."""
 
+from __future__ import annotations
+
 import contextlib
 import selectors
 

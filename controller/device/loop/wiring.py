@@ -1,5 +1,7 @@
 """Construction of the event loop from its parts, the same for a simulated run and for the device."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Hosts and origins as browsers send them, in one form: lower case, addresses in their shortest form, no default ports."""
 
+from __future__ import annotations
+
 import ipaddress
 import re
 from typing import Final, NamedTuple

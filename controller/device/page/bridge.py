@@ -1,5 +1,7 @@
 """The bridge: files and one WebSocket per page on the same origin, behind the tables of `permissions`."""
 
+from __future__ import annotations
+
 import asyncio
 import contextlib
 import hmac

@@ -1,5 +1,7 @@
 """What the bridge shows and asks for beyond this machine: its certificate, and the token of whoever may connect."""
 
+from __future__ import annotations
+
 import ssl
 from pathlib import Path
 from typing import Final

@@ -1,5 +1,7 @@
 """The files that the bridge serves: its own, and those of one folder."""
 
+from __future__ import annotations
+
 import os
 from http import HTTPStatus
 from pathlib import Path

@@ -1,5 +1,7 @@
 """What the library of WebSockets reports."""
 
+from __future__ import annotations
+
 import logging
 
 from controller.log import Priority, log

@@ -1,5 +1,7 @@
 """Steps of a page's mouse, on their way to what measures the touch panel's lag."""
 
+from __future__ import annotations
+
 from typing import Annotated, Final
 
 import msgspec

@@ -1,5 +1,7 @@
 """names.toml: names of haptics elsewhere; each page is greeted with them."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated, Final
 

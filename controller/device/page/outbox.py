@@ -1,5 +1,7 @@
 """What waits to be sent to one page: the newest touch of each finger, the last emissions and state; all else is bounded."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import msgspec

@@ -1,5 +1,7 @@
 """Who may open a page's socket, and what its messages may ask for: decided from tables, before anything is passed on."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from http import HTTPStatus
 from pathlib import Path

@@ -1,5 +1,7 @@
 """One page and its own connection to the panel: each frame is a line, each line a frame, until either side ends."""
 
+from __future__ import annotations
+
 import asyncio
 import contextlib
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Frames of a page: evaluated, and encoded again for the panel, so that what it reads is what was evaluated."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 

@@ -1,5 +1,7 @@
 """How the screen's pixels lie on the plate: as the settings say, else as a page with four taps has found, kept over restarts."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Settings of the bridge: page.toml as a checked record."""
 
+from __future__ import annotations
+
 import ipaddress
 from pathlib import Path
 from typing import Annotated, Any, Final

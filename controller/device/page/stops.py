@@ -1,5 +1,7 @@
 """Stops of pages, by connections that carry nothing else: one of each page, and one of the bridge to the panel."""
 
+from __future__ import annotations
+
 import asyncio
 import contextlib
 from typing import Any, Final

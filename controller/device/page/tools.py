@@ -1,5 +1,7 @@
 """Commands of this program that the bridge runs for a page, as processes that end with it: what takes NumPy or minutes."""
 
+from __future__ import annotations
+
 import asyncio
 import contextlib
 import ipaddress

@@ -1,5 +1,7 @@
 """Traces of the loop that lie beside the panel's socket, where the service writes them: which there are, and a part of one."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
 from typing import Annotated, Any, Final

@@ -1,5 +1,7 @@
 """An effect that a client sends as data: checked as those of a scene are, and bounded, since that is done between two turns."""
 
+from __future__ import annotations
+
 from typing import Final, NamedTuple
 
 import msgspec

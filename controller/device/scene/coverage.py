@@ -1,5 +1,7 @@
 """Which cells of a bank a scene needs."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from controller.arrays import Bools, Floats

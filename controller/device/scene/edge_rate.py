@@ -1,5 +1,7 @@
 """How many edges a second a scene can ask for, against the limits at which the FPGA switches off."""
 
+from __future__ import annotations
+
 from controller.device.board.board import Board
 from controller.device.scene.scene import Scene
 

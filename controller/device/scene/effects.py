@@ -3,6 +3,8 @@
 Which keys go together is in `primitives`; what stands behind a name is in `library`.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Annotated, Literal, Self
 

@@ -1,5 +1,7 @@
 """One focus to be played: where and when it is due, for whom, and how strong."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 from typing import Final, NamedTuple

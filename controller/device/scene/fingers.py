@@ -14,6 +14,8 @@ began on `leave` or by a command, when the finger leaves the region. What one fi
 the largest amplitude.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Final
 

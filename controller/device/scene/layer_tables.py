@@ -1,5 +1,7 @@
 """Regions of a client's layer, as JSON: checked one by one with a scene's rules, so that a bad one takes no other along."""
 
+from __future__ import annotations
+
 import re
 from typing import Any, Final, NamedTuple
 

@@ -1,5 +1,7 @@
 """Effects by name: those that ship with the package, those of a scene, and effects that build on another."""
 
+from __future__ import annotations
+
 import math
 from functools import cache
 from itertools import pairwise

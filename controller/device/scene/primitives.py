@@ -3,6 +3,8 @@
 A new key or kind of effect is a field of `effects.EffectTable` and a row or an entry here (README.md, "A new primitive").
 """
 
+from __future__ import annotations
+
 import math
 from itertools import pairwise
 from typing import Any, NamedTuple, get_args

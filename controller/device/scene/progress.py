@@ -4,6 +4,8 @@ A finger at rest trembles by the noise of its reports, which must not count as m
 or more from the last counted place, and a grid line is felt again only after the finger was a part of a spacing away from it.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Final
 

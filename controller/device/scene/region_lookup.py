@@ -1,5 +1,7 @@
 """Which region contains a point: asked for every touch sample, and compiled with the loop."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from math import floor
 from typing import Final

@@ -1,5 +1,7 @@
 """Pulses of any rhythm: those that an effect lists, and those of a train whose rate changes (`rate_envelope`)."""
 
+from __future__ import annotations
+
 import math
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence

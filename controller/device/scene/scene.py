@@ -3,6 +3,8 @@
 The types also say what may be in a scene that comes from another process (`device/service/scenes/scene_message.py`).
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import InitVar, dataclass, field

@@ -1,5 +1,7 @@
 """Finds a scene.toml, reads it and checks it against a board."""
 
+from __future__ import annotations
+
 import math
 import os
 from pathlib import Path

@@ -1,5 +1,7 @@
 """scene.toml as typed tables: regions with their shapes, and effects by name."""
 
+from __future__ import annotations
+
 from typing import Annotated, Literal
 
 import msgspec

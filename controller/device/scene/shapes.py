@@ -3,6 +3,8 @@
 The types of their fields also say what is accepted in a shape that comes from another process.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import Annotated

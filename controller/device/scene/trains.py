@@ -1,5 +1,7 @@
 """Pulse trains: rate, phase, length and envelope of an effect, or pulses of any rhythm, and the position of each active train."""
 
+from __future__ import annotations
+
 import math
 from itertools import pairwise
 from typing import Annotated, Final, NamedTuple

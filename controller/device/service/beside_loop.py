@@ -4,6 +4,8 @@ The service starts them (`worker`); their standard input is a socket to it. They
 that a service manager sends to all processes of a service.
 """
 
+from __future__ import annotations
+
 import signal
 import socket
 import sys

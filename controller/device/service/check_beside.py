@@ -4,6 +4,8 @@ The loop maps responses and takes a page of them into its memory when it first u
 that was found good is not checked again. One that was not reached yet, or is damaged, the loop checks itself when it is needed.
 """
 
+from __future__ import annotations
+
 import contextlib
 import os
 from collections.abc import Iterable

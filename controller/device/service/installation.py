@@ -3,6 +3,8 @@
 The command never names the package alone: a registry may have another package of that name.
 """
 
+from __future__ import annotations
+
 import json
 import re
 import shlex

@@ -5,6 +5,8 @@ write or to read is cut off, and a request to another name than this server's, a
 this address, is refused.
 """
 
+from __future__ import annotations
+
 import asyncio
 import socket
 import time

@@ -4,6 +4,8 @@ Files are copied forward: what the older program reads stays as it is, for a ret
 rename, so that a power cut leaves a file or none, and the next start goes on.
 """
 
+from __future__ import annotations
+
 import os
 import re
 import shutil

@@ -1,5 +1,7 @@
 """What the event loop asks of the kernel: real-time priority, a core, memory that is not paged out; and of BLAS: one thread."""
 
+from __future__ import annotations
+
 import contextlib
 import ctypes
 import errno

@@ -4,6 +4,8 @@ The service writes it atomically to its runtime folder ($RUNTIME_DIRECTORY, syst
 `ExecReload=` waits for the next result.
 """
 
+from __future__ import annotations
+
 import os
 import select
 import signal

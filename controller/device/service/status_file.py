@@ -1,5 +1,7 @@
 """The status file: the panel's state, replaced about once a second between two turns of the loop that are apart enough."""
 
+from __future__ import annotations
+
 import os
 import time
 from collections.abc import Callable, Mapping

@@ -3,6 +3,8 @@
 The protocol is that of sd_notify(3): datagrams of VARIABLE=value lines to the socket that $NOTIFY_SOCKET names.
 """
 
+from __future__ import annotations
+
 import os
 import socket
 import time

@@ -5,6 +5,8 @@ clock. Glass follows the room within minutes, so it is enough to read the sensor
 minutes.
 """
 
+from __future__ import annotations
+
 import errno
 import math
 from typing import Final

@@ -3,6 +3,8 @@
 A bus may hang or be slow, so the service reads its sensor in a process of its own.
 """
 
+from __future__ import annotations
+
 import contextlib
 import ctypes
 import errno

@@ -1,5 +1,7 @@
 """What of a connected touch panel does not work as it should, logged once a kind: the service goes on, and somebody should look."""
 
+from __future__ import annotations
+
 import math
 from typing import Final
 

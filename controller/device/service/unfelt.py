@@ -1,5 +1,7 @@
 """Why a touch was not felt: what was left out on the way from the touch panel to the plate, a line a cause, with what to do."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Final
 

@@ -1,5 +1,7 @@
 """What the builder of a panel is asked: glass, how it is held, discs, touch panel and FPGA board."""
 
+from __future__ import annotations
+
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal

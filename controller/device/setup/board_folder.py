@@ -4,6 +4,8 @@ What follows from the FPGA board, [link], [gateware] and the FPGA's own files, i
 under another name, checked as a whole, and renamed.
 """
 
+from __future__ import annotations
+
 import math
 import re
 import shutil

@@ -4,6 +4,8 @@ Where they stand changes little of a focus, and nothing is lost near the edge (c
 mirrored pair some modes would be driven twice and others not at all.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any, Final
 

@@ -5,6 +5,8 @@ predicted position of each old contact and a new one. Assigning the nearest firs
 within a few mm.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

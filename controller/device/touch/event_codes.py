@@ -1,5 +1,7 @@
 """Event codes of touch panels (linux/input-event-codes.h), and which multi-touch protocol a device speaks."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from enum import Enum
 from typing import Final

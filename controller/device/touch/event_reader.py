@@ -4,6 +4,8 @@ A driver of a panel without kernel driver gives events of the kernel's protocols
 one replay serve all panels.
 """
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

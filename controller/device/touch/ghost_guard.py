@@ -13,6 +13,8 @@ finger put down during an emission waits at most that long, and a ghost is never
 G = 0: the panel makes no ghosts (resistive, acoustic, infrared).
 """
 
+from __future__ import annotations
+
 from math import inf
 
 MAX_QUIET_SHARE = 2 / 3  # of all time: even a storm of ghosts leaves emissions a third of it

@@ -1,5 +1,7 @@
 """How far a hand moves a finger from one report of its panel to the next."""
 
+from __future__ import annotations
+
 from math import hypot
 from typing import Final
 

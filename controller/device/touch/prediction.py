@@ -5,6 +5,8 @@ when they stop. Only the velocity is taken from the filter; the prediction start
 not lag behind a moving finger.
 """
 
+from __future__ import annotations
+
 from math import sqrt
 from typing import Final
 

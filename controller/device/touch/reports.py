@@ -1,5 +1,7 @@
 """Reports of a touch panel: kinds of anomalies, correction of report times, measured report rate."""
 
+from __future__ import annotations
+
 from array import array
 from collections import Counter
 from collections.abc import Mapping

@@ -5,6 +5,8 @@ are fingers, and predicts where each finger will be. The loop waits until `filen
 then calls `read`.
 """
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

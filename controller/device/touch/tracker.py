@@ -11,6 +11,8 @@ States of a contact:
   next, as late as it may be on a panel of `SLOW_PERIOD_S`; one that was released and is back sooner than any hand shows the period.
 """
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, dataclass

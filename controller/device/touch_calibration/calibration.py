@@ -4,6 +4,8 @@ The axes are normalised to 0..1 by the ranges that the panel declares; the least
 millimetres on the plate is `x_mm_from_axes`, `y_mm_from_axes` of board.toml. Implausible touches and maps are refused.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan, degrees, dist, hypot, inf

@@ -4,6 +4,8 @@ A voltage on one channel bulges the glass most at its own quadrant, less at the 
 than a fifth of that: a finger tells the disc, not the quadrant.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

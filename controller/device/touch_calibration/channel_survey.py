@@ -4,6 +4,8 @@ A channel alone toggles once an emission, 150 times a second at a duty of 0.3: w
 there can be. The outputs are armed only while a survey runs, and off at its end, whatever ends it.
 """
 
+from __future__ import annotations
+
 import math
 import selectors
 from collections.abc import Callable, Iterator, Sequence

@@ -1,5 +1,7 @@
 """Offset of another program's clock, bounded by messages there and back: no message arrives before it is sent."""
 
+from __future__ import annotations
+
 from math import inf
 
 

@@ -4,6 +4,8 @@ Other data of the measurement are stored as event types that evemu knows and the
 SND_CLICK with its length in us, the steps of a mouse as EV_REL.
 """
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path

@@ -4,6 +4,8 @@ Each contact is assigned to the last emission before its first report. A contact
 first emission, long after an emission, or staying) is a finger, water or another fault: then the measurement is refused.
 """
 
+from __future__ import annotations
+
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -3,6 +3,8 @@
 For the event loop it is a panel without touches, and a client that plays one click after another at random places.
 """
 
+from __future__ import annotations
+
 import os
 import random
 from collections import Counter

@@ -9,6 +9,8 @@ an offset b only where the speed changes: hence the strokes to and fro.
 The mouse itself is taken to be late by half of its report period, with an error of at most as much.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 

@@ -1,5 +1,7 @@
 """A mouse as reference for the lag of a touch panel: its steps and their times (python-evdev)."""
 
+from __future__ import annotations
+
 from controller.device.touch.drivers.evdev_library import evdev
 from controller.device.touch.drivers.input_device import use_monotonic_clock
 from controller.device.touch.event_reader import Event

@@ -1,5 +1,7 @@
 """Steps of a mouse as a web page has them, with times of its clock, which messages there and back compare with ours."""
 
+from __future__ import annotations
+
 import os
 from typing import Final
 

@@ -5,6 +5,8 @@ Ghosts: clicks on an untouched panel, and the contacts that it reports, before t
 the plate meanwhile, so that no ghost is played. Whatever a client has ends with its connection.
 """
 
+from __future__ import annotations
+
 import random
 import time
 from collections.abc import Callable, Sequence

@@ -1,5 +1,7 @@
 """Lag of a touch panel while its service plays: contacts from the application socket, the mouse beside them from a web page."""
 
+from __future__ import annotations
+
 import time
 from dataclasses import dataclass
 from typing import Final

@@ -1,5 +1,7 @@
 """Changes single lines of the [touch] table of a board.toml, and nothing else of the file."""
 
+from __future__ import annotations
+
 import os
 import re
 import shutil

@@ -4,6 +4,8 @@
 haptic-update, in an environment that has the wheels of this package, msgspec and platformdirs, and nothing else.
 """
 
+from __future__ import annotations
+
 import os
 import shutil
 import sys

@@ -3,6 +3,8 @@
 Its times are counted in looks of the timer: a device may have no clock.
 """
 
+from __future__ import annotations
+
 import hashlib
 from contextlib import suppress
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Who does the work of an update: the user `haptic-update`, and never root."""
 
+from __future__ import annotations
+
 import os
 
 from controller.device.update.layout import ROOT, Layout

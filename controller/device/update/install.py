@@ -1,5 +1,7 @@
 """A release from the store, built beside those that are there: at its final path, whole before it may be started."""
 
+from __future__ import annotations
+
 import os
 import shutil
 import sys

@@ -1,5 +1,7 @@
 """Which releases a device has, which of them is in use or on trial, and what is asked for: for people, doctor and figures."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

@@ -12,6 +12,8 @@ Trouble is: no status, or an old one; another state; the FPGA lost or switched o
 while the outputs are on; work for emissions that takes too long. What the release before suffered from is not held against it.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum

@@ -3,6 +3,8 @@
 Everything below one folder, on one file system, so that releases share their banks by hard links.
 """
 
+from __future__ import annotations
+
 import os
 import re
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """The manifest of a release: what it is for, what it needs, and every file of it."""
 
+from __future__ import annotations
+
 import hashlib
 import json
 import os

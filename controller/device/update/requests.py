@@ -1,5 +1,7 @@
 """What an update asks of the fall-back script, which runs as root: a file of one word for each wish."""
 
+from __future__ import annotations
+
 from typing import Literal
 
 from controller.device.update.layout import RELEASE_NAME, Layout

@@ -1,5 +1,7 @@
 """Settings of updates on a device: /etc/haptic-panel/update.toml."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated, Literal
 

@@ -1,5 +1,7 @@
 """The trial of a release: its service's status is read every second until it is evaluated, and the fall-back script is asked."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable
 from datetime import UTC, datetime

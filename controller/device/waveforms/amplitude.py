@@ -1,5 +1,7 @@
 """The steps to which amplitudes are rounded, so that equal waveforms have equal keys."""
 
+from __future__ import annotations
+
 import math
 
 from controller.device.board.devices import MIN_AMPLITUDE

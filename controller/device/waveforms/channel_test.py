@@ -1,5 +1,7 @@
 """The waveform that tests one channel: a chirp through the band, while all other channels stay at their idle levels."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np

@@ -3,6 +3,8 @@
 The arithmetic is the kernel's, on whole numbers: `controller.device.kernel.words_twin` says what is computed.
 """
 
+from __future__ import annotations
+
 from array import array
 from collections.abc import Sequence
 

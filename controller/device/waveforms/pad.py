@@ -1,5 +1,7 @@
 """A fingertip's pad: what of it touches the plate, and the places that stand for it where it shall feel nothing."""
 
+from __future__ import annotations
+
 import math
 from typing import Final
 

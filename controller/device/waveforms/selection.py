@@ -5,6 +5,8 @@ amplitude, and for several points at once, responses are interpolated, summed an
 and amplitudes to steps, so that a finger at rest asks for the same waveform again and finds it resident in the FPGA.
 """
 
+from __future__ import annotations
+
 import contextlib
 import math
 from collections.abc import Sequence

@@ -5,6 +5,8 @@ are, or composed from the responses of its own patches for the same share of wha
 or down is the same for all: as suits the first one best.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from controller.device.bank.reader import Bank

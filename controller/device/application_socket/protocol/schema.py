@@ -3,6 +3,8 @@
 `$defs/Request` is any line of a client, `$defs/Message` any line of the panel.
 """
 
+from __future__ import annotations
+
 import json
 from inspect import cleandoc
 from typing import Any

@@ -1,5 +1,7 @@
 """A relation between keys of a board.toml: what must hold of several of them together, and what is said where it does not."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple

@@ -4,6 +4,8 @@ The resistor, the inductance and the piezo's capacitance are a low-pass of secon
 C V^2 / 2; one that comes while the piezo still rings against it burns more.
 """
 
+from __future__ import annotations
+
 import math
 
 from controller.device.board.panel import Driver

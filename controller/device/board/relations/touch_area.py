@@ -1,5 +1,7 @@
 """The part of the plate that a touch panel's axes reach: both run from 0 to 1, and an affine map makes mm of them."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -4,6 +4,8 @@ libgpiod requests the lines and drives the permit. The trigger, once for every e
 include/uapi/linux/gpio.h) with arguments made once: a third of the instructions.
 """
 
+from __future__ import annotations
+
 import contextlib
 import fcntl
 import struct

@@ -1,5 +1,7 @@
 """Links whose device may be absent when the service starts: the first message that finds the device opens it."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from functools import partial
 

@@ -1,5 +1,7 @@
 """The interface of every link to an FPGA: SPI, UART, or simulated gateware."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Protocol
 

@@ -1,5 +1,7 @@
 """The links of several FPGAs on one clock and one trigger line, each with a chip select of its own."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 from controller.device.fpga.links.link import Link

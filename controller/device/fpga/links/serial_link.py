@@ -4,6 +4,8 @@ The FPGA answers a frame while it receives it, so a message is written at once a
 trigger pin there is a TRIGGER command.
 """
 
+from __future__ import annotations
+
 import contextlib
 import errno
 import time

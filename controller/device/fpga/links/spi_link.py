@@ -4,6 +4,8 @@ Between the frames of a message chip select is high for 10 µs: the kernel's def
 change.
 """
 
+from __future__ import annotations
+
 import contextlib
 import errno
 import fcntl

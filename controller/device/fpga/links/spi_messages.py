@@ -4,6 +4,8 @@ Linux, include/uapi/linux/spi/spidev.h and drivers/spi/spidev.c. The kernel copi
 in which each transfer begins at a multiple of ARCH_DMA_MINALIGN, and refuses a message that does not fit (errno 90).
 """
 
+from __future__ import annotations
+
 import ctypes
 import struct
 from collections.abc import Sequence

@@ -13,6 +13,8 @@ than 3.5 mm that ask for unlike amplitudes, since they move together; and crowds
 it, and are not counted. On a plate with longer or shorter waves these distances are as much of a wave.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Final
 

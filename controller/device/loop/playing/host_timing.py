@@ -6,6 +6,8 @@ packing, the kernel, the bits, and the pauses between frames. What exceeds the b
 mean. Constant memory, nothing is allocated, and a host that changes is followed within some hundred emissions.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any, Final
 

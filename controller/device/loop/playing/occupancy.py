@@ -4,6 +4,8 @@ Pure arithmetic. The plate plays one emission at a time; each is followed by as 
 endless repetition is kept in the FPGA's time, in which its period stays exact for hours.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Final, NamedTuple
 

@@ -1,5 +1,7 @@
 """Where and when a batch of emissions can be played, and by which waveform."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 from controller.clocks import FpgaTime

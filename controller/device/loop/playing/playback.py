@@ -4,6 +4,8 @@ A play command is prepared (its waveform uploaded, or found resident) while the 
 started by the trigger pin as soon as the plate is free, or by the FPGA itself at a time of its clock.
 """
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable
 

@@ -1,5 +1,7 @@
 """Which waveforms are worth sending ahead of a moving finger: those of predictions that keep coming true."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Final
 

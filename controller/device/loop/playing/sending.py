@@ -2,6 +2,8 @@
 next is sent ahead.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Final
 

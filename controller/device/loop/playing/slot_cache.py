@@ -1,5 +1,7 @@
 """Which waveform each slot of the FPGA holds; the least recently used one is replaced, unless it is pinned."""
 
+from __future__ import annotations
+
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from typing import Final

@@ -4,6 +4,8 @@ It is started before the loop gets real-time priority: starting a program waits 
 long for one of ordinary priority.
 """
 
+from __future__ import annotations
+
 import ctypes
 import os
 import resource

@@ -4,6 +4,8 @@ It has the board and its bank open from the first message on, and has imported a
 process one of memory; each request gets exactly one answer. The process ends when the loop closes the socket.
 """
 
+from __future__ import annotations
+
 import os
 import signal
 import socket

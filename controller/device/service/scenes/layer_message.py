@@ -4,6 +4,8 @@ What many regions have in common is sent once, as a style: 200 regions with thei
 in less than half a millisecond.
 """
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated
 

@@ -1,5 +1,7 @@
 """Clients' layers for the event loop: a helper process checks them, one after the other; nothing here blocks."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 
 import msgspec

@@ -4,6 +4,8 @@ A message is a header (magic, version, length, CRC-32; little-endian) and that m
 refused as a whole.
 """
 
+from __future__ import annotations
+
 import struct
 import zlib
 from itertools import chain

@@ -3,6 +3,8 @@
 Reads and checks the file, and the waveforms that the scene can need.
 """
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from controller.device.bank.reader import Bank

@@ -1,5 +1,7 @@
 """Real time below the loop's, for a share of one core: who checks a page's regions does not wait behind the page's browser."""
 
+from __future__ import annotations
+
 import contextlib
 import os
 import signal

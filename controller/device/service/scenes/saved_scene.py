@@ -1,5 +1,7 @@
 """A scene that an operator saves under a name, for `load_scene`: checked as a scene, beside the loop, before it is kept."""
 
+from __future__ import annotations
+
 import tomllib
 from typing import Final
 

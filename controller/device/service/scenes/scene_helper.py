@@ -5,6 +5,8 @@ holds nothing of the loop, and ends with its answer. Each request gets exactly o
 its limits or dies. The process ends when the loop closes the socket.
 """
 
+from __future__ import annotations
+
 import contextlib
 import ctypes
 import math

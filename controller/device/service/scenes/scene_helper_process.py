@@ -3,6 +3,8 @@
 Until then, which for scenes may be for ever, it holds 10 MB and has cost 20 ms of processor time.
 """
 
+from __future__ import annotations
+
 import contextlib
 import os
 import signal

@@ -4,6 +4,8 @@ The scene in them is what `scene`, `trains`, `spacings` and `shapes` declare, wi
 `board.Board`.
 """
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated
 

@@ -3,6 +3,8 @@
 Nothing here blocks.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from pathlib import Path
 

@@ -4,6 +4,8 @@ The format is Chrome's JSON trace event format: complete events (`ph` X) with ti
 part of each emission, its part on the wire, its wait for the plate, and the plate.
 """
 
+from __future__ import annotations
+
 import json
 import os
 from collections.abc import Iterator, Mapping

@@ -1,5 +1,7 @@
 """A trace of the loop in plain words: what it holds, and for each pulse that was late, whose part it was."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from pathlib import Path
 from statistics import median

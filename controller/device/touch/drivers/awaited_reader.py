@@ -1,5 +1,7 @@
 """A touch panel that may be absent when the service starts: the driver is opened as soon as that is possible."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Final

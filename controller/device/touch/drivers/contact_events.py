@@ -1,5 +1,7 @@
 """Kernel events (protocol B) for the contacts that a panel without kernel driver lists in each report."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 

@@ -1,5 +1,7 @@
 """Reports of chips on I2C that begin with the number of their contacts: a first read has two of them, a longer one the others."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

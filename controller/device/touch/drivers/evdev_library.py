@@ -3,6 +3,8 @@
 The library falls back to its plain reader (`evdev.eventio`) where the one for asyncio (`evdev.eventio_async`) cannot be imported.
 """
 
+from __future__ import annotations
+
 import contextlib
 import sys
 

@@ -1,5 +1,7 @@
 """Register access to a device on an I2C bus by combined messages (smbus2 `i2c_rdwr`): a report exceeds an SMBus block."""
 
+from __future__ import annotations
+
 import contextlib
 import ctypes
 import errno

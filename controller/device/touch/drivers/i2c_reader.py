@@ -5,6 +5,8 @@ every `TOUCHED_POLL_S`, and an idle one every `IDLE_POLL_S`, which detects that 
 announces reports, and where it does not or is not there, the chip is polled at the rate of its scans (`interrupt_watch.py`).
 """
 
+from __future__ import annotations
+
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence

@@ -4,6 +4,8 @@ A wire may be broken, a line held, of the other polarity or open to noise, and a
 once it has announced some reports in a row; without that the chip is polled, at the rate of its scans.
 """
 
+from __future__ import annotations
+
 from collections import Counter
 from enum import Enum
 from typing import Final

@@ -1,5 +1,7 @@
 """Interrupt and reset lines of a touch panel (gpiod 2), by the chip's label and the lines' names or numbers."""
 
+from __future__ import annotations
+
 import contextlib
 import errno
 from typing import Final

@@ -3,6 +3,8 @@
 It is gone when its file is closed, also by the end of the process, whatever ends it; the kernel then lifts what was down.
 """
 
+from __future__ import annotations
+
 import os
 from collections.abc import Sequence
 from pathlib import Path

@@ -5,6 +5,8 @@ stage believes, on the plate: palms, rectangles without fingers and outliers are
 can know, are, as they are by a kernel driver.
 """
 
+from __future__ import annotations
+
 import dataclasses
 from collections import Counter
 from collections.abc import Callable, Sequence

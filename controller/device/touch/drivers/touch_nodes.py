@@ -3,6 +3,8 @@
 As systemd's input_id tells them apart, but that panels whose drivers declare little, as older ones do, are taken.
 """
 
+from __future__ import annotations
+
 from controller.device.touch import event_codes as ev
 from controller.device.touch.event_codes import Protocol, protocol_of_device
 from controller.device.touch.event_reader import DeviceDescription

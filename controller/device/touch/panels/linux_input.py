@@ -1,5 +1,7 @@
 """Touch panels with a kernel driver (evdev)."""
 
+from __future__ import annotations
+
 from controller.device.board.touch_panels import Name, TouchPanel
 from controller.device.touch.event_reader import EventReader
 

@@ -1,5 +1,7 @@
 """A board without a touch panel, whose recording is replayed."""
 
+from __future__ import annotations
+
 from typing import Annotated, ClassVar
 
 from msgspec import Meta

@@ -5,6 +5,8 @@ controller sends one when a finger is put down (status bit 0), a stream of them 
 lifted (bit 2).
 """
 
+from __future__ import annotations
+
 import contextlib
 import errno
 import os

@@ -1,5 +1,7 @@
 """Recordings in evemu's text format, versions 1.0 to 1.3: evemu-record, evemu-convert and `haptic-panel record` write it."""
 
+from __future__ import annotations
+
 import re
 from collections import Counter
 

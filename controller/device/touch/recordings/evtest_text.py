@@ -1,5 +1,7 @@
 """What evtest prints, stored: the device's codes and axes, then one line an event."""
 
+from __future__ import annotations
+
 import re
 from collections import Counter
 

@@ -1,5 +1,7 @@
 """What Android's getevent prints with times: `getevent -lt` (names) and `getevent -t` (numbers), of one device or of all."""
 
+from __future__ import annotations
+
 import re
 from collections import Counter
 from typing import Final

@@ -6,6 +6,8 @@ and it refuses the whole of a file that ends in the middle of a line, as one doe
 compared with PyYAML by the tests.
 """
 
+from __future__ import annotations
+
 import re
 from collections import Counter
 

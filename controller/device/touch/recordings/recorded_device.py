@@ -1,5 +1,7 @@
 """One device of a recording, whichever program has made it: what the head says, and its events."""
 
+from __future__ import annotations
+
 from collections import Counter
 from dataclasses import dataclass, field
 from typing import Final

@@ -4,6 +4,8 @@ The description of the device comes first, then events as they are read. A file 
 recording too, so nothing has to be written at the end.
 """
 
+from __future__ import annotations
+
 import contextlib
 import selectors
 import signal

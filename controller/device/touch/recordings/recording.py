@@ -5,6 +5,8 @@ Recordings come from other people and tools: lines and values that are not valid
 where fingers are, is an error.
 """
 
+from __future__ import annotations
+
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence

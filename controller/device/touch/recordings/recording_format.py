@@ -1,5 +1,7 @@
 """Which program has made a recording, and which of its devices is the touch panel."""
 
+from __future__ import annotations
+
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence

@@ -1,5 +1,7 @@
 """A recording as a source of touch samples, one report at a time, in its own time."""
 
+from __future__ import annotations
+
 from collections import Counter
 
 from controller.device.touch import event_codes as ev

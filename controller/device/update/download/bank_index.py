@@ -13,6 +13,8 @@ An index need not be trusted, nor what is rebuilt by it: the SHA-256 of the whol
 Little-endian; pieces follow each other without a gap.
 """
 
+from __future__ import annotations
+
 import hashlib
 import struct
 from collections.abc import Container, Iterable, Iterator

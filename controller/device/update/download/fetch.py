@@ -1,5 +1,7 @@
 """From a repository into the store: what of a release is not there yet, each file checked and synced before it gets its name."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable
 from dataclasses import dataclass

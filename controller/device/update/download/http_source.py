@@ -1,5 +1,7 @@
 """A repository at an http(s) address: limits of time and bandwidth, ranges, and a line for each way to fail."""
 
+from __future__ import annotations
+
 import re
 import time
 from collections.abc import Callable, Iterator

@@ -1,5 +1,7 @@
 """Banks that a device has, of which a new one takes what it shares with them."""
 
+from __future__ import annotations
+
 from contextlib import suppress
 from pathlib import Path
 from typing import Final

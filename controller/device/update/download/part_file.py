@@ -1,5 +1,7 @@
 """A file on its way: what came of it outlives the process and a power cut, and is gone on with."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable
 from contextlib import suppress

@@ -1,5 +1,7 @@
 """A new bank from old ones: what they share is copied, the rest is fetched; whether it is right, its SHA-256 decides."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack

@@ -3,6 +3,8 @@
 A source gives bytes of a file from any offset, and raises python-tuf's `DownloadError` with one line that says what happened.
 """
 
+from __future__ import annotations
+
 import errno
 import os
 import stat

@@ -10,6 +10,8 @@ where root or targets end. A newer root, which two people sign, makes the device
 has stolen the key has no say after it was changed.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path

@@ -1,5 +1,7 @@
 """What a repository offers this device, and why it is not taken."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Final
 

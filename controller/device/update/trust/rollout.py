@@ -6,6 +6,8 @@ until the publisher's timestamp opens it (`x-opened`), so that nothing grows unl
 versions that were stopped too (`x-stopped`). Its key alone can withhold a release, and can never hand it out sooner.
 """
 
+from __future__ import annotations
+
 import hashlib
 from datetime import UTC, datetime
 from itertools import pairwise

@@ -4,6 +4,8 @@ What the client alone leaves open is closed here: a device without a clock (`clo
 at once. That an old repository is offered after all metadata was lost is refused by `offer`, which counts releases.
 """
 
+from __future__ import annotations
+
 import errno
 import os
 from collections.abc import Iterator

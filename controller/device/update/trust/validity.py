@@ -1,5 +1,7 @@
 """What of updates ends or begins on a date: the trusted root, and the device's clock, for people and doctor."""
 
+from __future__ import annotations
+
 import json
 from datetime import UTC, datetime
 from typing import Final
