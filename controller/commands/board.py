@@ -72,7 +72,7 @@ def board_check(options: argparse.Namespace) -> int:
 
         if (folder / FILE).is_file():
             top, part = find_part(folder, None)
-            check_top(board, top, part.constraints)
+            check_top(board, top, part.clocks)
     scene_file = find_scene(board, options.scene)
     scene = read_scene(scene_file, board)
     recording = None

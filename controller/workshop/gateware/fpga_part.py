@@ -1,5 +1,6 @@
 """The FPGA behind a board's top.v: fpga.toml, from which `haptic-panel gateware build` knows how its bitstream is made."""
 
+import math
 import re
 from pathlib import Path
 from typing import Annotated, Literal, NamedTuple
@@ -23,15 +24,19 @@ class Family(NamedTuple):
     devices: str  # devices, example: pattern of its sizes, and one
     example: str
     pins: str  # ending of the files of pins
-    speeds: bool  # whether it has speed grades beside its sizes
+    clocks: str  # of the file of clocks beside it; empty where they are among the pins
 
 
 FAMILIES = {
-    "ecp5": Family(r"(um5?g?-)?(12k|25k|45k|85k)", "25k", ".lpf", speeds=True),
-    "ice40": Family(r"(lp|hx|up|u)\d+k?", "hx8k", ".pcf", speeds=False),
+    "ecp5": Family(r"(um5?g?-)?(12k|25k|45k|85k)", "25k", ".lpf", ""),
+    "gowin": Family(r"GW[\w-]+", "GW2A-18", ".cst", ".sdc"),
 }
 PLL = re.compile(r"\bPLL_HZ(?: *= *|\()32'd([\d_]+)")
-SCK_MHZ = re.compile(r'^FREQUENCY (?:PORT "spi_sck"|NET "core\.spi_link\.spi_sck_i") ([\d.]+) MHZ;', re.MULTILINE)
+SCK = re.compile(  # MHz in an .lpf, or ns of a period in an .sdc
+    r'^FREQUENCY (?:PORT "spi_sck"|NET "core\.spi_link\.spi_sck_i") (?P<mhz>[\d.]+) MHZ;'
+    r"|^create_clock -name spi_sck -period (?P<ns>[\d.]+) ",
+    re.MULTILINE,
+)
 BAUD = re.compile(r"\.BAUD\(([\d_]+)\)")
 
 
@@ -41,17 +46,17 @@ class FpgaPart(Record, frozen=True, kw_only=True):
     Attributes:
     family: Which of nextpnr's programs places it.
     devices: Sizes that fit the board with the same pins, as nextpnr calls them; the first is built unless another is asked for.
-    package: Its package, as nextpnr calls it.
-    speed: Speed grade; left out where the family has none.
-    constraints: File with its pins, beside this one.
+    package: Its package, as nextpnr calls it; for a Gowin the whole part number, with package and speed.
+    speed: Speed grade, of an ECP5.
+    constraints: File with its pins, beside this one; clocks of a Gowin are in one of the same name that ends in .sdc.
     seed: Of nextpnr's placement: one that is known to meet the clock.
     """
 
-    family: Literal["ecp5", "ice40"]
+    family: Literal["ecp5", "gowin"]
     devices: Annotated[tuple[Name, ...], Meta(min_length=1)]
-    package: Name
+    package: Annotated[str, Meta(pattern=r"^[A-Za-z0-9/-]+\Z")]
     speed: Annotated[int, Meta(ge=1, le=9)] | None = None
-    constraints: Annotated[str, Meta(pattern=r"^[\w-]+\.(lpf|pcf)\Z")]
+    constraints: Annotated[str, Meta(pattern=r"^[\w-]+\.(lpf|cst)\Z")]
     seed: Annotated[int, Meta(ge=1)] = 1
 
     def __post_init__(self) -> None:
@@ -61,10 +66,19 @@ class FpgaPart(Record, frozen=True, kw_only=True):
                 raise ValueError(f"devices: {device!r} is no size of family {self.family!r}, such as {family.example!r}")
         if not self.constraints.endswith(family.pins):
             raise ValueError(f"constraints = {self.constraints!r}: pins of family {self.family!r} are in a file {family.pins}")
-        if self.speed is not None and not family.speeds:
-            raise ValueError(
-                f"speed = {self.speed}: the sizes of family {self.family!r} have their speed in the name; leave it out"
-            )
+        if self.speed is not None and self.family == "gowin":
+            raise ValueError(f"speed = {self.speed}: a Gowin has its speed in `package`; leave it out")
+
+    @property
+    def clocks(self) -> str:
+        """File with its clocks."""
+        ending = FAMILIES[self.family].clocks
+        return self.constraints.rpartition(".")[0] + ending if ending else self.constraints
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Files beside fpga.toml that a bitstream is made of."""
+        return tuple(dict.fromkeys((TOP, self.constraints, self.clocks)))
 
 
 def load_part(folder: Path) -> FpgaPart:
@@ -87,14 +101,14 @@ def find_part(board: Path, top: str | None) -> tuple[Path, FpgaPart]:
     """
     folder = find_board(top) if top else board
     part = load_part(folder)
-    for name in (TOP, part.constraints):
+    for name in part.files:
         if not (folder / name).is_file():
             raise ConfigError(f"{folder / FILE}: there is no {name} beside it")
     return folder, part
 
 
-def check_top(board: Board, top: Path, constraints: str) -> None:
-    """Refuse a board whose clock, baud rate or SCK are not those of top.v and pins, before minutes of work; raises ConfigError."""
+def check_top(board: Board, top: Path, clocks: str) -> None:
+    """Refuse a board whose clock, baud rate or SCK is not that of top.v and clocks, before minutes of work; raises ConfigError."""
     text = (top / TOP).read_text(encoding="utf-8", errors="replace")
     link = board.link
     wanted = [("clock_hz", link.clock_hz, PLL)] + ([("baud", link.baud, BAUD)] if link.kind == "serial" else [])
@@ -104,7 +118,8 @@ def check_top(board: Board, top: Path, constraints: str) -> None:
             raise ConfigError(
                 f"{board.folder / 'board.toml'}: link.{key} = {value}, but {top / TOP} makes {found[1]}: set the same"
             )
-    sck = SCK_MHZ.search((top / constraints).read_text(encoding="utf-8", errors="replace"))
-    if link.kind == "spi" and sck and float(sck[1]) * 1e6 < link.sck_hz:
-        says = f"link.sck_hz = {link.sck_hz}, but {top / constraints} constrains SCK to {sck[1]} MHz"
+    sck = SCK.search((top / clocks).read_text(encoding="utf-8", errors="replace"))
+    sck_mhz = (float(sck["mhz"]) if sck["mhz"] else 1e3 / float(sck["ns"])) if sck else math.inf
+    if link.kind == "spi" and sck_mhz * 1e6 < link.sck_hz:
+        says = f"link.sck_hz = {link.sck_hz}, but {top / clocks} constrains SCK to {sck_mhz:g} MHz"
         raise ConfigError(f"{board.folder / 'board.toml'}: {says}: set the same")

@@ -254,7 +254,7 @@ def test_a_bitstream_that_the_bring_up_would_refuse_is_not_released(place, capsy
     most = top_parameters(board, 0)["TOTAL_EDGES_MAX"]
     refused(released("out", TOTAL_EDGES_MAX=most + 1), f"its TOTAL_EDGES_MAX is {most + 1}, not {most} (limits.")
     file.write_bytes(b"gateware")
-    refused(make(place, "out", "--board", "ulx3s", "--gateware", file), "is no bitstream of an ECP5 or iCE40")
+    refused(make(place, "out", "--board", "ulx3s", "--gateware", file), "is no bitstream of an ECP5 or Gowin")
     file.unlink()
     refused(make(place, "out", "--board", "ulx3s", "--gateware", file), "No such file")
     assert released("good") == 0
