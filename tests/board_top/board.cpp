@@ -45,7 +45,7 @@ public:
         edge_ = now_ + half_ps_;
     }
 
-    // A fault of the PLL, from now on (EHXPLLL.v)
+    // A fault of the PLL, from now on (pll_model.v)
     void pll(const char *fault) { context_.commandArgsAdd(1, &fault); }
 
     void run(uint64_t until) {
@@ -53,7 +53,7 @@ public:
             now_ = std::min({until, oscillates_ ? edge_ : NEVER, top_.eventsPending() ? top_.nextTimeSlot() : NEVER});
             context_.time(now_);
             if (oscillates_ && now_ == edge_) {
-                top_.clk_25mhz = !top_.clk_25mhz;
+                oscillator(top_) = !oscillator(top_);
                 edge_ += half_ps_;
             }
             eval();
@@ -98,6 +98,11 @@ private:
             times.push_back(now_);
             words.push_back(word_ = outputs());
         }
+    }
+
+    template <class Top> static CData &oscillator(Top &top) {
+        if constexpr (requires { top.clk_25mhz; }) return top.clk_25mhz;
+        else return top.clk_27mhz;
     }
 
     template <class Top> static uint32_t leds_of(const Top &top) {

@@ -1,17 +1,18 @@
 """The top.v of a board as it is, with its bitstream's parameters, compiled, by its pins; and what its files say of them.
 
 The library (board.cpp) keeps time, SPI and recording to itself. Times are picoseconds since configuration. A pin is a bit, by the
-port of the top that it is: where on a header it is say pins.lpf and, for the wires, the board's README.md.
+port of the top that it is: where on a header it is say the board's file of pins and, for the wires, its README.md.
 """
 
 import ctypes
 import re
 import weakref
+from fractions import Fraction
 from functools import cache, cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
+from fpga_pins import oscillator_ps, read_pins
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
@@ -51,30 +52,20 @@ def signal_pins():
 MISO = signal_pins()["MISO"]
 
 
-class Pin(NamedTuple):
-    """Where a port's pin is."""
-
-    port: str
-    site: str  # of the FPGA
-    pull: str
-    contact: str  # of a header, P3_5 or J1_5+; empty where it is on none
-    name: str  # that the READMEs have for it: the board's own, GP0, or the contact
-
-
 class BoardFiles:
     """What a board's files say of its pins."""
 
     def __init__(self, name):
         self.folder = data_folder("boards") / name
         self.board = load_board(self.folder / "board.toml")
-        self.lpf = (self.folder / "pins.lpf").read_text()
+        self.pins = read_pins(self.folder)
+        self.oscillator_ps = oscillator_ps(self.folder)
 
-    @cached_property
-    def pins(self):
-        """{port: pin} of pins.lpf."""
-        located = re.findall(r'^LOCATE COMP "(\S+)" SITE "(\w+)";(?: # (\S+)(?: (\S+))?)?$', self.lpf, re.MULTILINE)
-        pulls = dict(re.findall(r'^IOBUF PORT "(\S+)" PULLMODE=(\w+)', self.lpf, re.MULTILINE))
-        return {port: Pin(port, site, pulls[port], contact, name or contact) for port, site, contact, name in located}
+    @property
+    def clock_ps(self):
+        """Period that the PLL's model makes: whole picoseconds between edges."""
+        ratio = Fraction(self.board.link.clock_hz * self.oscillator_ps / PS).limit_denominator(64)
+        return 2 * int(self.oscillator_ps // 2 / ratio)
 
     @cached_property
     def named(self):
@@ -88,12 +79,6 @@ class BoardFiles:
         up = sum(1 << PORTS.index(port) for port in PORTS if self.pins[port].pull == "UP")
         return up | (UART if self.pins["uart_rx"].pull == "UP" else 0)
 
-    @property
-    def oscillator_ps(self):
-        """Period of the oscillator on the board."""
-        (mhz,) = re.findall(r'^FREQUENCY PORT "clk_\w+" ([\d.]+) MHZ;', self.lpf, re.MULTILINE)
-        return round(1e6 / float(mhz))
-
     def section(self, title):
         """Rows of the table of README.md whose head begins with this."""
         (table,) = re.findall(rf"^\| {title} \|.*\n((?:\|.*\n)+)", (self.folder / "README.md").read_text(), re.MULTILINE)
@@ -101,7 +86,7 @@ class BoardFiles:
 
     @cached_property
     def wires(self):
-        """Pin at the other end of each GPIO of the Raspberry Pi: README.md says which, pins.lpf what is there."""
+        """Pin at the other end of each GPIO of the Raspberry Pi: README.md says which, the file of pins what is there."""
         pins = {}
         for ours, _, theirs in self.section("Pi"):
             numbers = re.findall(r"\d+", ours.split("(")[0])
@@ -119,7 +104,7 @@ class BoardFiles:
         between = sorted((data_folder("fpga_rtl") / "board").glob("*.v"))
         return Design(
             "top",
-            (self.folder / "top.v", *between, HERE / "EHXPLLL.v", HERE / "OSCG.v"),
+            (self.folder / "top.v", *between, *sorted(HERE.glob("*.v"))),
             HERE / "board.cpp",
             ("-DSYNTHESIS", "--timing", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
         )
@@ -134,7 +119,7 @@ def names_in(cell):
     if pairs := re.search(r"GP(\d+), GN\d+, GP\d+ … GN(\d+)", cell):
         return [f"G{row}{number}" for number in range(int(pairs[1]), int(pairs[2]) + 1) for row in "PN"]
     names = []
-    for name, last in re.findall(r"\b(G[PN]\d+|P\d_\d+)(?:–(\d+))?", cell):
+    for name, last in re.findall(r"\b(G[PN]\d+|[PJ]\d_\d+)(?:–(\d+))?", cell):
         row, first = re.fullmatch(r"(.*?)(\d+)", name).groups()
         names += [f"{row}{number}" for number in range(int(first), int(last or first) + 1)]
     return names

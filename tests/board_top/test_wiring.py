@@ -1,4 +1,4 @@
-"""The wiring.svg of each board: what pins.lpf, board.toml and the netlists say; `test_board_top` compares these with the README."""
+"""The wiring.svg of each board: what its pins, board.toml and the netlists say; `test_board_top` compares them with the README."""
 
 import re
 

@@ -1,11 +1,12 @@
 """What is wired to each header pin of an FPGA board, and its drawing: `python tests/board_top/wiring.py` writes every wiring.svg.
 
-Pins are those of pins.lpf, lines of the host those of board.toml, resistors those of the stages' netlists.
+Pins are those of pins.lpf or pins.cst, lines of the host those of board.toml, resistors those of the stages' netlists.
 """
 
 from typing import NamedTuple
 
-from compiled_top import BOARDS, CHANNELS, SIGNALS, Pin, files
+from compiled_top import BOARDS, CHANNELS, SIGNALS, files
+from fpga_pins import Pin
 
 from controller.workshop.benchmark.stage.stage_circuit import parameters
 
@@ -24,7 +25,8 @@ PI_PINS = {
 SPI_LINES = {"SCK": "GPIO11", "CS": "GPIO8", "MOSI": "GPIO10", "MISO": "GPIO9"}  # spidev0.0
 SUPPLY = {"hv_enable": "switch of the 60 V supply", "hv_alive": "charge pump of the 60 V supply"}
 COLOURS = {"host": "#1f4e79", "stage": "#7a1f1f", "safety": "#b45309", "plain": "#555"}
-TITLES = {"ulx3s": "ULX3S", "colorlight_i5": "Colorlight i5 or i9"}
+TITLES = {"ulx3s": "ULX3S", "colorlight_i5": "Colorlight i5 or i9", "tang_primer_20k": "Tang Primer 20K, Lite"}
+SITES = ("tang_primer_20k",)  # boards that have the site of the FPGA printed beside each contact
 NOTES = (
     "A resistor to ground at the input of each stage (boards/stage), while the FPGA is not configured. All grounds are joined.",
     "The switch is the emergency stop: with the wire of the run permit open, its resistor takes the permit away.",
@@ -47,7 +49,7 @@ class Wire(NamedTuple):
 
 
 def wires_of(name):
-    """What is connected to each pin of the headers, in the order of pins.lpf."""
+    """What is connected to each pin of the headers, in the order of its file of pins."""
     board, part = files(name), parameters()
     link, signals = board.board.link, {port: signal for signal, port in SIGNALS.items()}
     lines = SPI_LINES | {"trigger": link.trigger_line, "configured": link.configured_line, "run permit": link.permit_line}
@@ -79,7 +81,7 @@ def drawing(name):
         body.append(f'<rect x="{LEFT}" y="{y}" {size} fill="#e0ecfb" stroke="#444"/>')
         body.append(_text((LEFT + RIGHT) // 2, y + ROW, f"{TITLES[name]}, {header}", "middle", "#222", bold=True))
         for number, wire in enumerate(own):
-            body += _drawn(wire, y + ROW * (number + 2))
+            body += _drawn(wire, y + ROW * (number + 2), wire.pin.site if name in SITES else wire.pin.name)
         y += ROW * (len(own) + 3)
     heads = [_text(20, 28, f"{TITLES[name]}: host on the left, stages and supply on the right", "start", "#222", bold=True)]
     heads += [_text(20, 28 + ROW * (1 + number), note, "start", "#222") for number, note in enumerate(NOTES)]
@@ -88,12 +90,12 @@ def drawing(name):
     return "\n".join([frame, f'<rect width="{WIDTH}" height="{y}" fill="#fff"/>', *heads, *body, "</svg>", ""])
 
 
-def _drawn(wire, y):
+def _drawn(wire, y, printed):
     """One row: contact, name and signal in the box, the wire with its resistor or switch, and its other end."""
     colour, contact = COLOURS[wire.kind], wire.pin.contact.partition("_")[2]
     yield _text(LEFT + 8, y + 4, contact, "start", "#777")
-    if wire.pin.name != wire.pin.contact:
-        yield _text(LEFT + 44, y + 4, wire.pin.name, "start", "#222")
+    if printed != wire.pin.contact:
+        yield _text(LEFT + 44, y + 4, printed, "start", "#222")
     yield _text(LEFT + 100, y + 4, wire.signal, "start", "#222")
     near, far, way = (LEFT, LEFT - 120, -1) if wire.kind == "host" else (RIGHT, RIGHT + 120, 1)
     middle = near + (20 if way > 0 else -70)

@@ -38,7 +38,7 @@ from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.reports import FAULTS, describe_warnings
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 
-WATCHED = "ecp5"  # families whose top.v has a second clock
+WATCHED = ("ecp5", "gowin")  # families whose top.v has a second clock
 OpenPanel = Callable[[Board], EventReader]
 NOT_SHARED = "no other program on this machine gets its touches; [touch] share = true hands them on"
 

@@ -42,8 +42,8 @@ class SetupAnswers(Record, frozen=True, kw_only=True):
     rim_mm: From the edge of the glass to the rim of a disc.
     resistor_w: Power rating of a stage's resistor, of which half may be used.
     waveform: Drive words that a finger feels most, or the paper's own: felt or paper.
-    fpga: FPGA board, and the computer that it is wired to: a Raspberry Pi 4 (ulx3s, colorlight_i5) or 5 (ulx3s_pi5,
-        colorlight_i5_pi5); or a panel to rehearse with (simulated).
+    fpga: FPGA board, and the computer that it is wired to: a Raspberry Pi 4 (ulx3s, colorlight_i5, tang_primer_20k) or 5 (the
+        same with _pi5 behind); or a panel to rehearse with (simulated).
     touch: Kind of touch panel.
     """
 
@@ -59,7 +59,9 @@ class SetupAnswers(Record, frozen=True, kw_only=True):
     rim_mm: Annotated[float, Meta(ge=0, le=500)] = 3.0
     resistor_w: Annotated[float, Meta(ge=0.05, le=10)] = 0.5
     waveform: Literal["felt", "paper"] = "felt"
-    fpga: Literal["ulx3s", "ulx3s_pi5", "colorlight_i5", "colorlight_i5_pi5", "simulated"] = "ulx3s"
+    fpga: Literal[
+        "ulx3s", "ulx3s_pi5", "colorlight_i5", "colorlight_i5_pi5", "tang_primer_20k", "tang_primer_20k_pi5", "simulated"
+    ] = "ulx3s"
     touch: Literal["ft5x06", "gt911", "linux_input", "serial_panel"] = "linux_input"
 
     def __post_init__(self) -> None:

@@ -29,7 +29,6 @@ from controller.errors import ConfigError
 
 SIMULATED: Final = "simulated"
 ON_A_PI_5: Final = "_pi5"  # behind the name of an FPGA board
-FPGA_FILES: Final = ("top.v", "pins.lpf", "fpga.toml")
 ACTUAL: Final = "actual.toml"  # what is really there of a simulated panel
 EMPTY: Final = """# What is there of this simulated panel, where it is not as board.toml says (workshop/gateware/actual_panel.py)
 [fpga]
@@ -61,8 +60,8 @@ def write_board(folder: Path, answers: SetupAnswers, touch: Mapping[str, Any]) -
             shutil.copy(data_folder("boards") / "simulated" / "plate.toml", board / "scene.toml")
             if answers.fpga == SIMULATED:
                 (board / ACTUAL).write_text(EMPTY, encoding="utf-8")
-            for name in FPGA_FILES:
-                shutil.copy(_fpga_folder(answers) / name, board)
+            for file in _fpga_files(_fpga_folder(answers)):
+                shutil.copy(file, board)
             read = load_board(board)
             read_scene(find_scene(read), read)
             board.rename(folder)
@@ -77,12 +76,20 @@ def _fpga_folder(answers: SetupAnswers) -> Path:
     return data_folder("boards") / name
 
 
+def _fpga_files(folder: Path) -> list[Path]:
+    """What a bitstream is made of, besides the Verilog of all."""
+    return [file for file in sorted(folder.iterdir()) if file.name in ("top.v", "fpga.toml") or file.stem == "pins"]
+
+
 def board_text(name: str, answers: SetupAnswers, touch: Mapping[str, Any]) -> str:
     """Text of board.toml; raises ConfigError if keys of [touch] are invalid, or the discs do not fit on the glass."""
     fpga = _fpga_folder(answers)
     shipped = (fpga.with_name("ulx3s_pi5") if answers.fpga.endswith(ON_A_PI_5) else fpga) / "board.toml"
     tables, sections = read_tables(shipped), _sections(shipped.read_text(encoding="utf-8"))
-    sections["gateware"] = _sections((fpga / "board.toml").read_text(encoding="utf-8"))["gateware"]
+    own = _sections((fpga / "board.toml").read_text(encoding="utf-8"))
+    sections["gateware"] = own["gateware"]
+    clock = re.compile(r"^clock_hz = .*$", re.MULTILINE)
+    sections["link"] = clock.sub(clock.findall(own["link"])[0], sections["link"])
     if answers.fpga == SIMULATED:
         link = {key: tables["link"][key] for key in ("clock_hz", "sck_hz", "slots")}
         sections["link"] = _table("link", {"kind": SIMULATED, "device": ACTUAL, **link})

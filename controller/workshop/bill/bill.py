@@ -15,7 +15,10 @@ from controller.workshop.bill.circuit import Component, circuit
 SHIFTER_A: Final = 1e-3  # of a channel that idles high: Q1's
 CHIP_A: Final = 10e-3  # of a 74AHCT541 and what its outputs drive
 MARGIN: Final = 1.5
-FPGA_BOARDS: Final = "an ULX3S (boards/ulx3s), or a Colorlight i5 or i9 in its extension board (boards/colorlight_i5)"
+FPGA_BOARDS: Final = (
+    "an ULX3S (boards/ulx3s), a Colorlight i5 or i9 in its extension board (boards/colorlight_i5),"
+    " or a Tang Primer 20K in its Lite extension board (boards/tang_primer_20k)"
+)
 NAMES: Final = {
     "R": "resistor",
     "C": "capacitor",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from fpga_pins import oscillator_ps, read_pins
 from tables import each_row
 
 from controller.device.board.board import load_board
@@ -25,15 +26,6 @@ RTL = data_folder("fpga_rtl")
 ALL = sorted(file.parent.name for file in BOARDS.glob("*/board.toml"))
 HARDWARE = sorted(file.parent.name for file in BOARDS.glob("*/top.v"))
 CELLS = sorted((Path(__file__).parent.parent.parent / "board_top").glob("*.v"))  # models of the FPGA's own
-PAD = re.compile(r'^LOCATE COMP "(\S+)" SITE "(\w+)";.*\nIOBUF PORT "(\S+)" PULLMODE=(\w+) IO_TYPE=LVCMOS33(.*);$', re.MULTILINE)
-
-
-def pads_of(board):
-    """{port bit: (site, pull, drive)} of the board's constraints."""
-    found = PAD.findall((BOARDS / board / "pins.lpf").read_text())
-    assert all(located == port for located, _, port, *_ in found)
-    assert len({port for port, *_ in found}) == len(found)
-    return {port: (site, pull, drive.strip()) for port, site, _, pull, drive in found}
 
 
 def ports_of(board):
@@ -62,11 +54,18 @@ def made_of(name, *, of="board.toml"):
     return {parameter: int(value) for parameter, value in re.findall(r"-chparam (\w+) 32'd(\d+)", script)}
 
 
-def test_a_colorlight_is_the_same_board_but_for_its_loader():
-    ulx3s, other = (load_board(find_board(name)) for name in ("ulx3s", "colorlight_i5"))
-    loads = [argument.replace("colorlight-i5", "ulx3s") for argument in other.gateware.load]
-    assert loads == list(ulx3s.gateware.load)
-    assert msgspec.structs.replace(other, name="ulx3s", folder=ulx3s.folder, gateware=ulx3s.gateware) == ulx3s
+@each_row(
+    ("name", "loader", "clock_hz"),
+    [("colorlight_i5", "colorlight-i5", 62_500_000), ("tang_primer_20k", "tangprimer20k", 63_000_000)],
+)
+def test_another_fpga_board_is_the_same_board_but_for_its_clock_and_loader(name, loader, clock_hz):
+    ulx3s, other = (load_board(find_board(of)) for of in ("ulx3s", name))
+    assert [word for word in other.gateware.load if word not in ("--file-type", "fs")] == [
+        word.replace("ulx3s", loader) for word in ulx3s.gateware.load
+    ]
+    link = msgspec.structs.replace(ulx3s.link, clock_hz=clock_hz)
+    expected = msgspec.structs.replace(ulx3s, name=name, folder=other.folder, gateware=other.gateware, link=link)
+    assert other == expected
 
 
 def test_the_board_of_a_pi_5_is_that_of_a_pi_4_but_for_the_pis_devices():
@@ -103,23 +102,28 @@ def test_another_panel_with_the_same_fpga_has_a_bitstream_of_its_own(tmp_path):
 
 def test_the_pll_makes_that_clock():
     number = lambda text, name: int(re.search(rf"\.{name}\((?:\d'd)?(\d+)\)", text)[1])  # noqa: E731
-    ecp5 = (RTL / "board" / "ecp5_clock.v").read_text()
-    pfd_mhz = 25 / number(ecp5, "CLKI_DIV")
-    out_mhz = pfd_mhz * number(ecp5, "CLKFB_DIV")  # feedback from the output
-    assert 400 <= out_mhz * number(ecp5, "CLKOP_DIV") <= 800  # VCO; data sheet FPGA-DS-02012
     for name in HARDWARE:
-        assert "ecp5_clock clock (.clk_25mhz_i(clk_25mhz)" in (BOARDS / name / "top.v").read_text()
-        assert out_mhz * 1e6 == load_board(find_board(name)).link.clock_hz
+        top, in_mhz = (BOARDS / name / "top.v").read_text(), 1e6 / oscillator_ps(BOARDS / name)
+        (family,) = re.findall(r"^    (\w+)_clock clock \(\.clk_\d+mhz_i\(", top, re.MULTILINE)
+        pll = (RTL / "board" / f"{family}_clock.v").read_text()
+        if family == "ecp5":
+            ratio, vco = number(pll, "CLKFB_DIV") / number(pll, "CLKI_DIV"), number(pll, "CLKOP_DIV")
+            low, high = 400, 800  # of the VCO; data sheet FPGA-DS-02012
+        else:
+            ratio, vco = (number(pll, "FBDIV_SEL") + 1) / (number(pll, "IDIV_SEL") + 1), number(pll, "ODIV_SEL")
+            low, high = 500, 1250  # apycula's gowin_pll
+        assert low <= in_mhz * ratio * vco <= high
+        assert in_mhz * ratio * 1e6 == pytest.approx(load_board(find_board(name)).link.clock_hz, rel=1e-5)
 
 
 @each_row("name", HARDWARE)
 def test_every_port_has_one_pin_of_its_own_and_inputs_are_pulled_to_what_is_safe(name):
     """Down is what must be driven to run; chip select and the UART rest high."""
-    pads, ports = pads_of(name), ports_of(name)
+    pads, ports = read_pins(BOARDS / name), ports_of(name)
     assert set(pads) == set(ports)
-    assert len({site for site, *_ in pads.values()}) == len(pads)
-    inputs = {port: pads[port][1] for port, direction in ports.items() if direction == "input"}
-    assert inputs.pop("clk_25mhz") == "NONE"
+    assert len({pin.site for pin in pads.values()}) == len(pads)
+    inputs = {port: pads[port].pull for port, direction in ports.items() if direction == "input"}
+    assert inputs.pop(next(port for port in inputs if port.startswith("clk_"))) == "NONE"
     assert {port for port, pull in inputs.items() if pull == "UP"} == {"spi_cs_n", "uart_rx"}
     assert {port for port, pull in inputs.items() if pull == "DOWN"} == {
         "spi_sck",
@@ -130,7 +134,7 @@ def test_every_port_has_one_pin_of_its_own_and_inputs_are_pulled_to_what_is_safe
     }
     for port, direction in ports.items():
         if port.startswith(("channel", "hv_")):
-            assert (direction, *pads[port][1:]) == ("output", "DOWN", "DRIVE=4 SLEWRATE=SLOW"), port
+            assert (direction, pads[port].pull, pads[port].drive) == ("output", "DOWN", "DRIVE=4 SLEWRATE=SLOW"), port
 
 
 def test_a_top_is_not_built_without_one_of_its_parameters():

@@ -20,8 +20,9 @@ from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.device.doctor.finding import Finding
 from controller.device.doctor.way import in_lines, way
 from controller.device.setup.answers import HELD, SetupAnswers, glasses
-from controller.device.setup.board_folder import FPGA_FILES, write_board
+from controller.device.setup.board_folder import write_board
 from controller.errors import ConfigError
+from controller.workshop.gateware.fpga_part import load_part
 
 SIZE = {"length_mm": 217.0, "width_mm": 136.0, "thickness_mm": 1.1}
 TOUCH = {
@@ -63,20 +64,20 @@ def test_a_simulated_board_is_delivered_without_a_bitstream(tmp_path):
 
 def test_every_glass_disc_edge_touch_panel_and_computer_makes_a_board(tmp_path):
     kinds = itertools.cycle(TOUCH)
-    fpgas = ("ulx3s", "ulx3s_pi5", "colorlight_i5", "colorlight_i5_pi5")
+    fpgas = [f"{name}{computer}" for name in ("ulx3s", "colorlight_i5", "tang_primer_20k") for computer in ("", "_pi5")]
     numbered = enumerate(itertools.product(glasses(), HELD, fpgas, catalogue()))
     for index, (glass, held, fpga, disc) in list(numbered)[::9]:
         kind = next(kinds)
         given = answers(glass=glass, held=held, fpga=fpga, disc=disc, discs=1 + index % 8, touch=kind, resistor_w=1.0)
         board = write_board(tmp_path / f"panel{index}", given, TOUCH[kind])
         assert board.plate.density_kg_m3 == glasses()[glass]["density_kg_m3"]
-        host, own = (
-            data_folder("boards") / fpga.replace("colorlight_i5", "ulx3s"),
-            data_folder("boards") / fpga.removesuffix("_pi5"),
-        )
-        assert board.link == load_board(host).link
+        own = data_folder("boards") / fpga.removesuffix("_pi5")
+        host = load_board(data_folder("boards") / ("ulx3s_pi5" if fpga.endswith("_pi5") else "ulx3s"))
+        assert board.link == msgspec.structs.replace(host.link, clock_hz=load_board(own).link.clock_hz)
         assert board.gateware == load_board(own).gateware
-        assert {(board.folder / name).read_bytes() == (own / name).read_bytes() for name in FPGA_FILES} == {True}
+        part = load_part(board.folder)
+        assert part == load_part(own)
+        assert {(board.folder / name).read_bytes() == (own / name).read_bytes() for name in part.files} == {True}
         assert not [odd for odd in judge(board).odd if not odd.startswith("actuators: a patch")]
 
 

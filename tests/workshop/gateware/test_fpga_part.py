@@ -3,6 +3,7 @@
 import re
 import shutil
 
+import msgspec
 import pytest
 from tables import each_row
 
@@ -10,9 +11,10 @@ from controller.cli import main
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder, find_board
 from controller.errors import ConfigError
-from controller.workshop.gateware.fpga_part import BAUD, PLL, find_part, load_part
+from controller.workshop.gateware.fpga_part import BAUD, PLL, check_top, find_part, load_part
 
 BOARDS = data_folder("boards")
+SHIPPED = sorted(file.parent.name for file in BOARDS.glob("*/top.v"))
 
 
 @pytest.fixture
@@ -33,9 +35,9 @@ def rewrite(file, was, becomes):
 @each_row(
     ("was", "becomes", "said"),
     [
-        ('family = "ecp5"', 'family = "ice40"', "devices: '25k' is no size of family 'ice40', such as 'hx8k'"),
-        ('"25k"', '"hx8k"', "devices: 'hx8k' is no size of family 'ecp5', such as '25k'"),
-        ('"pins.lpf"', '"pins.pcf"', "constraints = 'pins.pcf': pins of family 'ecp5' are in a file .lpf"),
+        ('family = "ecp5"', 'family = "gowin"', "devices: '25k' is no size of family 'gowin', such as 'GW2A-18'"),
+        ('"25k"', '"GW2A-18"', "devices: 'GW2A-18' is no size of family 'ecp5', such as '25k'"),
+        ('"pins.lpf"', '"pins.cst"', "constraints = 'pins.cst': pins of family 'ecp5' are in a file .lpf"),
     ],
     afresh=[copied],
 )
@@ -46,20 +48,34 @@ def test_keys_that_do_not_go_together_are_refused(copied, was, becomes, said):
     assert said in str(caught.value)
 
 
-def test_an_ice40_has_its_speed_in_its_name(tmp_path):
-    text = 'family = "ice40"\ndevices = ["hx8k"]\npackage = "ct256"\nconstraints = "pins.pcf"\n'
+def test_a_gowin_has_its_speed_in_its_package(tmp_path):
+    text = (BOARDS / "tang_primer_20k" / "fpga.toml").read_text()
     (tmp_path / "fpga.toml").write_text(text)
     assert load_part(tmp_path).speed is None
     (tmp_path / "fpga.toml").write_text(text + "speed = 6\n")
-    with pytest.raises(ConfigError, match="speed = 6: the sizes of family 'ice40' have their speed in the name"):
+    with pytest.raises(ConfigError, match="speed = 6: a Gowin has its speed in `package`; leave it out"):
         load_part(tmp_path)
 
 
-@pytest.mark.parametrize("name", ["top.v", "pins.lpf"])
-def test_a_file_that_it_needs_and_has_not_is_named(copied, name):
-    (copied / name).unlink()
+@each_row(
+    ("board", "name"), [("ulx3s", "top.v"), ("ulx3s", "pins.lpf"), ("tang_primer_20k", "pins.cst"), ("tang_primer_20k", "pins.sdc")]
+)
+def test_a_file_that_it_needs_and_has_not_is_named(board, name, tmp_path):
+    folder = tmp_path / f"{board}_{name}"
+    shutil.copytree(find_board(board), folder)
+    (folder / name).unlink()
     with pytest.raises(ConfigError, match=re.escape(f"there is no {name} beside it")):
-        find_part(copied, None)
+        find_part(folder, None)
+
+
+@each_row("name", SHIPPED)
+def test_an_sck_that_its_clocks_do_not_allow_is_refused(name, tmp_path):
+    board = load_board(BOARDS / name)
+    clocks = load_part(BOARDS / name).clocks
+    check_top(board, BOARDS / name, clocks)
+    fast = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, sck_hz=26_000_000))
+    with pytest.raises(ConfigError, match=rf"link\.sck_hz = 26000000, but .*{re.escape(clocks)} constrains SCK to 25 MHz"):
+        check_top(fast, BOARDS / name, clocks)
 
 
 @pytest.mark.parametrize(
@@ -89,7 +105,7 @@ def test_a_clock_or_baud_rate_that_top_v_does_not_make_is_refused_before_minutes
         assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize("name", sorted(file.parent.name for file in BOARDS.glob("*/top.v")))
+@pytest.mark.parametrize("name", SHIPPED)
 def test_what_a_shipped_top_v_makes_is_found_in_it(name):
     text = (BOARDS / name / "top.v").read_text()
     assert int(PLL.search(text)[1].replace("_", "")) == load_board(BOARDS / name).link.clock_hz
