@@ -55,7 +55,8 @@ def affordable(tests, path, took):
 def traced(chosen, reached):
     """Write what reaches the mutants into a file, whole."""
     part = reached.with_suffix(".part")
-    part.unlink(missing_ok=True)
+    for old in part.parent.glob(f"{part.name}*"):  # of a run that was killed
+        old.unlink()
     with copy_of_root() as checkout:
         run_whole(checkout, chosen, part.absolute())
     part.replace(reached)
