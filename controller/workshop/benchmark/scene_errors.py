@@ -42,7 +42,7 @@ class SceneErrors:
 
     def __call__(self, items: Sequence[int]) -> list[bytes]:
         """Errors of each method that takes part in a scene, by its index, of scenes by their numbers."""
-        return [json.dumps(bench_of(self).judged(number)).encode() for number in items]
+        return [json.dumps(bench_of(self).errors_in(number)).encode() for number in items]
 
     def name(self) -> str:
         """Hash of all that determines the results, which is all code of this package: the product's own methods are compared."""
@@ -53,7 +53,7 @@ class SceneErrors:
         return digest.hexdigest()[:16]
 
 
-class Bench:
+class SceneEvaluation:
     """The scenes of a benchmark, its methods, and who finds their errors."""
 
     def __init__(self, given: SceneErrors) -> None:
@@ -69,7 +69,7 @@ class Bench:
             if seen[scene.family] <= effort.tabled_scenes:
                 self._tabled.add(number)
 
-    def judged(self, number: int) -> dict[int, Errors]:
+    def errors_in(self, number: int) -> dict[int, Errors]:
         """Errors of those methods, by their index, that take part in a scene."""
         scene, tabled = self.scenes[number], number in self._tabled
         able = {
@@ -85,9 +85,9 @@ class Bench:
 
 
 @lru_cache(maxsize=1)
-def bench_of(given: SceneErrors) -> Bench:
+def bench_of(given: SceneErrors) -> SceneEvaluation:
     """That of a process: it takes ten seconds."""
-    return Bench(given)
+    return SceneEvaluation(given)
 
 
 def full(scene: FingerScene) -> list[Point]:

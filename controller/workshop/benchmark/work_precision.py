@@ -26,7 +26,7 @@ from controller.workshop.benchmark.methods.candidate import Candidate
 from controller.workshop.benchmark.methods.laboratory import Laboratory
 from controller.workshop.benchmark.methods.registry import all_candidates
 from controller.workshop.benchmark.pareto import AXES, front
-from controller.workshop.benchmark.scene_errors import Bench, Effort, SceneErrors, bench_of, full
+from controller.workshop.benchmark.scene_errors import Effort, SceneErrors, SceneEvaluation, bench_of, full
 from controller.workshop.workers.map_kept import map_kept
 from controller.workshop.workers.workers import ALONE, Workers
 
@@ -92,7 +92,7 @@ def work_precision(
 
 
 def _timings(
-    bench: Bench,
+    bench: SceneEvaluation,
     folder: Path,
     off_grid: dict[int, list[FingerScene]],
     effort: Effort,
@@ -126,7 +126,7 @@ def _fronts(settings: Sequence[Figures], families: Iterable[str]) -> dict[str, l
 
 
 def _times(
-    bench: Bench,
+    bench: SceneEvaluation,
     machine: Baselines,
     fingers: int,
     timed: Sequence[FingerScene],

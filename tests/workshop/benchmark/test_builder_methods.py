@@ -15,7 +15,7 @@ from controller.workshop.physics.word_capture import capture_of_words
 
 
 @pytest.mark.slow
-def test_methods_are_judged_beside_the_boards_own_words():
+def test_methods_are_evaluated_beside_the_boards_own_words():
     board = small_board()
     sloped = msgspec.structs.replace(board, waveform=msgspec.structs.replace(board.waveform, slope=-1.0))
     some = [OWN, "the paper's", "slope = -1", "[finger]", "--optimise cool"]
