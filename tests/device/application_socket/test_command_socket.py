@@ -1,7 +1,6 @@
 """The application socket as its clients see it: every line answered exactly once, and nobody can hold up the loop."""
 
 import gc
-import gc
 import json
 import resource
 import socket
