@@ -89,7 +89,8 @@ class Served:
 
     def board_open(self):
         """The ULX3S, a moment after its configuration; `board_*` is what is done with it."""
-        sys.path.insert(0, str(Path(__file__).parent.parent / "board_top"))
+        tests = Path(__file__).parent.parent
+        sys.path[:0] = [str(tests / "board_top"), str(tests)]
         from compiled_top import CompiledTop
 
         self._board = CompiledTop()
