@@ -69,3 +69,30 @@ def test_no_page_is_asked_of_the_kernel_once_the_loop_is_warm(bank_file, tmp_pat
     begin, end = (next(i for i, line in enumerate(lines) if f"/steady/{mark}" in line) for mark in ("begin", "end"))
     assert any("mmap" in line for line in lines[:begin]), "strace sees it where there is one"
     assert lines[begin + 1 : end] == []
+
+
+def test_there_is_room_for_small_objects_where_all_arenas_are_full():
+    code = """
+import os, re, sys, tempfile
+from controller.device.loop.runtime import no_garbage_collection
+def unused():
+    with tempfile.TemporaryFile("w+") as said:
+        os.dup2(said.fileno(), 2)
+        sys._debugmallocstats()
+        said.seek(0)
+        return int(re.search(r"(\\d+) unused pools", said.read())[1])
+full = []
+with no_garbage_collection():
+    pass
+while unused() != 1:
+    full.append([bytes(448) for _ in range(16)])
+before = unused()
+with no_garbage_collection():
+    print(before, unused())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=True
+    )
+    before, within = map(int, done.stdout.split())
+    assert before <= 1
+    assert within > 30, "half an arena, in pools of 16 KiB"
