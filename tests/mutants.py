@@ -27,7 +27,7 @@ from controller.commands.common.worker_options import add_worker_options, worker
 from controller.console import program
 from controller.workshop.workers.map_kept import map_kept
 from tests.asked import ROOT, Asked, source
-from tests.mutants_judged import Mutant, copy_of_root, places
+from tests.mutants_decided import Mutant, copy_of_root, places
 from tests.mutants_reached import read_reached, run_whole
 
 PURE = ["physics", "bank_builder", "calibration", "clips"]
@@ -94,7 +94,7 @@ def main():
             forms = [affordable(some, path, took) for some in (near & quick, near - quick)]
             items[number] = Mutant(str(path), index, *forms)
     kept = given.kept / f"mutants-{digest.hexdigest()[:16]}.kept"
-    found = map_kept(Asked(("tests.mutants_judged",)), items, kept, workers, what="mutants", unit="mutant").results
+    found = map_kept(Asked(("tests.mutants_decided",)), items, kept, workers, what="mutants", unit="mutant").results
     by_room = {}
     for number in items:
         path, line, _ = chosen[number]

@@ -58,7 +58,7 @@ CPU_SECONDS = 600  # of one mutant's scripts: what takes longer hangs
 QUICK_MUTANTS = 20  # compiled without optimisation: their scripts cost less than a compiler's effort
 PROOF_CPU_SECONDS = 60  # of a proof that it is equivalent
 SHORT, BENCHES, SCRIPTS, PROOFS, CONFORMANCE = KILLERS = "short conformance", "bench", "all scripts", "proof", "conformance"
-COMPILES, KILLED = "compiled", "judged"  # steps, of which the first says what the library of the second can have
+COMPILES, KILLED = "compiled", "killed"  # steps, of which the first says what the library of the second can have
 NOT_BUILT = "not built"
 LIVES_SO_FAR = "lives so far"  # where the last of them were not asked
 LIVING = ("survived", LIVES_SO_FAR)
