@@ -197,7 +197,7 @@ class GowinNetlist(Netlist):
         kinds = {f"LUT{inputs}": self.lut for inputs in range(1, 5)} | {f"MUX2_LUT{inputs}": self.mux for inputs in range(5, 9)}
         kinds |= {"".join(("DFF", *of)): self.flip_flop for of in itertools.product(("", "N"), ("", *"SRPC"), ("", "E"))}
         kinds |= {"ALU": self.alu, "RAM16SDP4": self.small_ram, "IBUF": self.pad, "OBUF": self.pad}
-        kinds |= dict.fromkeys(("DPB", "DPX9B", "SDPB", "SDPX9B"), self.block_ram)
+        kinds |= dict.fromkeys(("DP", "SDP"), self.block_ram)
         return (
             kinds
             | {"rPLL": self.pll, "OSC": self.oscillator, "GOWIN_GND": self.constant, "GOWIN_VCC": self.constant}
@@ -268,8 +268,8 @@ class GowinNetlist(Netlist):
 
     def block_ram(self, cell):
         """Written by port A, read by port B, both as wide, without a register at its output."""
-        two, nine = cell.kind.startswith("D"), cell.kind.endswith("X9B")
         width = int(cell.text("BIT_WIDTH_0"), 2)
+        two, nine = cell.kind == "DP", width % 9 == 0
         assert width == int(cell.text("BIT_WIDTH_1"), 2)
         assert {cell.text(name) for name in cell.names("READ_MODE")} == {"0"}
         assert {cell.text(name) for name in cell.names("BLK_SEL")} == {"000"}
