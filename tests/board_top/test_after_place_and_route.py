@@ -121,7 +121,7 @@ def test_a_gowin_s_netlist_becomes_verilog_too():
 
 
 NOT_YET = pytest.mark.xfail(
-    strict=True, reason="`configured` stays low: a fault of GowinNetlist or of what nextpnr has routed, not known"
+    strict=True, reason="IDLE_WORD does not keep what is written: a fault of GowinNetlist or of what nextpnr has routed, not known"
 )
 
 
