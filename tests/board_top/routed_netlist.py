@@ -257,6 +257,7 @@ class GowinNetlist(Netlist):
         """Sixteen words, read by its look-up tables."""
         memory = cell.own("memory")
         assert not any(int(cell.text(name) or "0", 2) for name in cell.names("INIT"))
+        assert cell.net("CE") is None or self.high(cell.net("CE"))
         yield f"reg [3:0] {memory} [0:15];"
         yield f"integer {cell.own('row')}; initial for ({cell.own('row')} = 0; {cell.own('row')} < 16;"
         yield f"    {cell.own('row')} = {cell.own('row')} + 1) {memory}[{cell.own('row')}] = 4'd0;"
@@ -351,7 +352,12 @@ class Cell:
 
     def __init__(self, name, cell):
         self.name, self.kind = name, cell["type"]
-        self.parameters, self.connections = cell["parameters"], cell["connections"]
+        self.parameters = cell["parameters"]
+        self.connections = {  # pins of a bus are numbered, as those of most cells are anyway
+            f"{pin}{place}" if len(bits) > 1 else pin: [bit]
+            for pin, bits in cell["connections"].items()
+            for place, bit in enumerate(bits)
+        }
         self._number = next(self.numbers)
 
     def text(self, name):

