@@ -33,12 +33,18 @@ class Fatal:
             except FileExistsError:
                 return cubes(items)
             if self.kept:
-                while not self.kept.stat().st_size:
-                    os.sched_yield()
-                for process in processes_of_session():
-                    os.kill(process, signal.SIGKILL)
+                kill_session(self.kept)
             os.kill(os.getpid(), signal.SIGKILL)
         return cubes(items)
+
+
+def kill_session(kept):
+    """Kill all processes of the caller's session, as a power cut would, as soon as there is something in the file `kept`."""
+    while not kept.stat().st_size:
+        os.sched_yield()
+    for process in processes_of_session():
+        os.kill(process, signal.SIGKILL)
+    os.kill(os.getpid(), signal.SIGKILL)
 
 
 def processes_of_session():

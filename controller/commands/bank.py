@@ -11,7 +11,7 @@ from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.expected import expected_of
 from controller.commands.common.named_board import named_board
 from controller.commands.common.output import progress_bar, show
-from controller.commands.common.worker_options import add_worker_options, asked_for, workers_of
+from controller.commands.common.worker_options import UNLESS_OPTIMISED, add_worker_options, workers_of_bank
 from controller.console import tell
 from controller.device.bank.expectation import in_words
 from controller.device.bank.inspection import bank_info, header_of, measured_at, verify_bank
@@ -24,7 +24,7 @@ from controller.device.board.lookup import find_board, fpga_files
 from controller.device.board.paths import bank_path, build_line, is_there
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
-from controller.errors import BankError, UsageError
+from controller.errors import BankError
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
@@ -57,7 +57,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         action="store_true",
         help="a twentieth of the size: responses in four bits, all waveforms composed (default: as compose.method says)",
     )
-    add_worker_options(build)
+    add_worker_options(build, UNLESS_OPTIMISED)
     build.set_defaults(command=bank_build)
     choices = actions.add_parser("choices", parents=[common], help="what pitch and memory cost a scene, and what auto would choose")
     choices.add_argument("--scene", metavar="S", help="the scene (default: the board's own)")
@@ -89,23 +89,20 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def bank_build(options: argparse.Namespace) -> int:
     """Build a bank for a board: for the whole plate, or for the cells that a scene can reach."""
     board = named_board(options.board)
-    if options.optimise is None and asked_for(options):
-        raise UsageError("--workers, --dask and --scheduler-file are of use with --optimise: a plain bank takes seconds")
     with _builder_installed(bank_path(board)):
         from controller.workshop.bank_builder.methods.descent import AIMS
         from controller.workshop.bank_builder.own_bank import order, warn_of_pitch
-        from controller.workshop.workers.workers import ALONE
     wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm, compact=options.compact)
     path = Path(options.out) if options.out else wanted.own_path
     if measured_at(path):
         again = f"{MEASURE_AGAIN} --optimise {options.optimise}" if options.optimise else MEASURE_AGAIN
         tell(f"{path}: its responses were measured, and become modelled; by what was measured: {again}")
-    workers = workers_of(options) if options.optimise else ALONE
+    workers = workers_of_bank(options)
     try:
         report = wanted.build(path, aim=AIMS.get(options.optimise), workers=workers, memory_mb=options.memory_mb)
     except KeyboardInterrupt:
-        if options.optimise:
-            tell("what is optimised is kept: the same command goes on from there")
+        if options.optimise or not workers.is_this_process:
+            tell("what was done is kept: the same command goes on from there")
         raise
     warn_of_pitch(path, report)
     show(options, asdict(report), _build_table)

@@ -6,12 +6,11 @@ from typing import Any
 
 from controller.commands.calibrate.check import declare_accept
 from controller.commands.common.output import picture_path, progress_bar, show
-from controller.commands.common.worker_options import add_worker_options, asked_for, workers_of
+from controller.commands.common.worker_options import UNLESS_OPTIMISED, add_worker_options, workers_of_bank
 from controller.console import tell
 from controller.device.bank.lookup import find_bank
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.errors import UsageError
 
 OF_RECORDS = {"measuring frame": "frame", "mass of the sensor": "sensor_mass"}
 
@@ -23,6 +22,7 @@ def add(step: argparse.ArgumentParser) -> None:
         "--out", metavar="FILE", help="file to write (default: where run looks for the board's bank, which is printed)"
     )
     declare_bank(step)
+    add_worker_options(step, UNLESS_OPTIMISED)
     step.add_argument("--also", metavar="FOLDER", help="the same plate at another temperature: determines coefficient_per_k")
     step.add_argument("--plot", metavar="FILE", help="draw what points left out keep, and the fits (.png, .svg, .pdf)")
     step.set_defaults(command=calibrate_bank)
@@ -46,7 +46,6 @@ def declare_bank(step: argparse.ArgumentParser) -> None:
         help="optimise every entry by the field that the measurements foresee: more contrast, less sound, both, a fifth more"
         " amplitude, or less heat in the stages; about half a second of a core a cell (default: none)",
     )
-    add_worker_options(step)
     declare_accept(step)
 
 
@@ -57,14 +56,12 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from controller.workshop.bank_builder.own_bank import pitch_of
     from controller.workshop.calibration.banks.plate_bank import PlateBank, build, fit
     from controller.workshop.calibration.duration import foreseen
-    from controller.workshop.workers.workers import ALONE
 
-    if options.optimise is None and asked_for(options):
-        raise UsageError("--workers, --dask and --scheduler-file are of use with --optimise: a plain bank uses all cores itself")
     picture = picture_path(options)
     board, folder = load_board(find_board(options.board)), Path(options.folder)
     out, also = (Path(name) if name else None for name in (options.out, options.also))
     wanted = PlateBank(board, folder, out, also=also, **bank_options(options))
+    workers = workers_of_bank(options)
     bars: dict[str, Any] = {}
 
     def progress(what: str, done: int, total: int) -> None:
@@ -78,7 +75,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
         from controller.workshop.calibration.checking.plot_leave_out import plot_leave_out
 
         plot_leave_out(picture, board, fitted.source, fitted.waves, fitted.decays)
-    built = build(wanted, fitted, workers_of(options) if options.optimise else ALONE)
+    built = build(wanted, fitted, workers)
     for note in built.notes:
         tell(note)
     report = {
@@ -86,6 +83,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
         "cells": built.report.cells,
         "bytes": built.report.bytes,
         "optimised": built.report.optimised,
+        "workers": built.report.workers,
     }
     show(options, report | fitted.figures | {"notes": built.notes}, _table)
     if built.path != (played := find_bank(board)).path:

@@ -6,7 +6,7 @@ from typing import Any
 
 from controller.commands.calibrate.bank import bank_options, declare_bank
 from controller.commands.common.output import show
-from controller.commands.common.worker_options import workers_of
+from controller.commands.common.worker_options import add_worker_options, workers_of
 from controller.console import tell
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
@@ -19,6 +19,7 @@ def add(step: argparse.ArgumentParser) -> None:
         "--out", type=Path, required=True, metavar="BANKS", help="folder for NAME.bank of each panel, and report.json"
     )
     declare_bank(step)
+    add_worker_options(step)
     step.set_defaults(command=calibrate_fleet)
 
 

@@ -13,12 +13,13 @@ from controller.errors import UsageError
 if TYPE_CHECKING:
     from controller.workshop.workers.workers import Workers
 
+UNLESS_OPTIMISED = "; without --optimise this process"
 RANGES = {"workers": (1, 256), "worker_memory_mb": (200, 1e6)}  # Python, NumPy and this package alone take 100 MB
 
 
-def add_worker_options(command: argparse.ArgumentParser) -> None:
-    """Declare them."""
-    group = command.add_argument_group("who computes (default: a process for each core)")
+def add_worker_options(command: argparse.ArgumentParser, but: str = "") -> None:
+    """Declare them; `but` says where the default is another."""
+    group = command.add_argument_group(f"who computes (default: a process for each core{but})")
     group.add_argument("--workers", type=int, metavar="N", help="processes of this computer; 1: this process itself")
     group.add_argument("--dask", metavar="ADDRESS", help="workers of this dask scheduler, tcp://HOST:PORT or tls://HOST:PORT")
     group.add_argument(
@@ -32,9 +33,12 @@ def add_worker_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-def asked_for(options: argparse.Namespace) -> bool:
-    """Whether any of them is given."""
-    return any(value is not None for value in (options.workers, options.dask, options.scheduler_file, options.worker_memory_mb))
+def workers_of_bank(options: argparse.Namespace) -> Workers:
+    """As `workers_of`; where none is asked for and nothing is optimised, this process (`UNLESS_OPTIMISED`)."""
+    from controller.workshop.workers.workers import ALONE
+
+    given = (options.optimise, options.workers, options.dask, options.scheduler_file, options.worker_memory_mb)
+    return ALONE if given == (None,) * len(given) else workers_of(options)
 
 
 def workers_of(options: argparse.Namespace) -> Workers:

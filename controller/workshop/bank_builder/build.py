@@ -2,6 +2,7 @@
 
 import resource
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from tqdm import tqdm
 from controller.arrays import Indices, Reals, Words
 from controller.device.bank.packing import CHANNELS, WORD, drive_words
 from controller.device.board.paths import make_folder
+from controller.workshop.bank_builder.cells import CellEntries, cells_by_workers
 from controller.workshop.bank_builder.compact.design import CompactDesign
 from controller.workshop.bank_builder.compact.trial import Trial
 from controller.workshop.bank_builder.entries import Entries
@@ -45,6 +47,7 @@ class BuildReport:
     worst_edge_rate_hz: float  # edges per second of the busiest channel of all entries
     interpolation_error: dict[str, Any]  # `InterpolationError.summary`: what fingers between cells lose
     optimised: dict[str, Any] | None  # what entries were optimised for, and what became of their amplitude; None: they are plain
+    workers: dict[str, Any] | None  # `Mapped.figures`: who optimised, or who computed the cells; None: this process
 
 
 def build_bank(request: BankRequest) -> BuildReport:
@@ -64,10 +67,12 @@ def build_bank(request: BankRequest) -> BuildReport:
     ):
         entries = Entries(plan.board, plan.header, writer)
         optimised, mapped = _optimised(request, plan) if aim else (None, None)
+        if not (in_process := bool(aim) or request.workers.is_this_process):
+            mapped = cells_by_workers(request, plan)
         if plan.design:
             error = _write_compact(plan, plan.design, entries)
         else:
-            _write_cells(plan, entries, optimised, path.name, progress=request.progress)
+            _write_cells(request, plan, entries, optimised, {} if in_process or mapped is None else mapped.results)
             error = interpolation_error(plan.board, source, plan.header.grid, plan.wanted).summary()
         for key, words in plan.composed:
             entries.add_composition(key, words)
@@ -91,10 +96,10 @@ def build_bank(request: BankRequest) -> BuildReport:
         optimised={
             "aim": aim.name,
             **{name: results[name] for name in ("amplitude_of_plain", "contrast_of_plain") if name in results},
-            "workers": mapped.figures(),
         }
-        if aim and mapped
+        if aim
         else None,
+        workers=None if mapped is None else mapped.figures(),
     )
 
 
@@ -136,16 +141,20 @@ def _compared(plan: BankPlan) -> Indices:
     return np.unique(np.linspace(0, len(plan.points_m) - 1, CELLS_COMPARED).round().astype(np.intp))
 
 
-def _write_cells(plan: BankPlan, entries: Entries, optimised: Words | None, name: str, *, progress: bool) -> None:
-    """Compute and write the entries of all cells."""
-    header = plan.header
-    room = np.empty((max(map(len, plan.blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
-    with tqdm(total=len(plan.numbers), unit="cell", desc=f"bank {name}", disable=None if progress else True) as bar:
+def _write_cells(
+    request: BankRequest, plan: BankPlan, entries: Entries, optimised: Words | None, done: Mapping[int, bytes]
+) -> None:
+    """Write the entries of all cells; those of blocks that are not `done` are computed."""
+    cells = CellEntries.of(plan)
+    room = None if done else np.empty((max(map(len, plan.blocks)), cells.rows, CHANNELS), np.float32)
+    hidden = None if request.progress else True
+    with tqdm(total=len(plan.numbers), unit="cell", desc=f"bank {request.path.name}", disable=hidden) as bar:
         for block in plan.blocks:
-            responses = plan.source.entry_responses(plan.points_m[block.start : block.stop], out=room[: len(block)])
-            for index, response in zip(block, responses, strict=True):
-                plain = drive_words(response[: header.samples], plan.board.idle_word)
-                entries.add_cell(int(plan.numbers[index]), plain if optimised is None else optimised[index], response)
+            points_m = plan.points_m[block.start : block.stop]
+            found = cells.read(done[block.start], len(block)) if done else cells.entries(points_m, room)
+            for index, (plain, levels, scale_m_per_v) in zip(block, found, strict=True):
+                words = plain if optimised is None else optimised[index]
+                entries.add_cell(int(plan.numbers[index]), words, levels, scale_m_per_v)
             bar.update(len(block))
     entries.require_motion(len(plan.numbers))
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from controller.arrays import Words
 from controller.device.bank.file_format import Header
-from controller.device.bank.packing import channel_bits, edges, quantise
+from controller.device.bank.packing import channel_bits, edges
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.writer import BankWriter
@@ -23,10 +23,9 @@ class Entries:
         self.worst_edge_rate_hz = 0.0
         self._moves = False  # whether any channel moves any cell
 
-    def add_cell(self, cell: int, words: Words, response: NDArray[np.float32]) -> None:
-        """Write the waveform and the response of a cell."""
+    def add_cell(self, cell: int, words: Words, levels: NDArray[np.int8], scale_m_per_v: float) -> None:
+        """Write the waveform and the response of a cell, in steps of `scale_m_per_v`."""
         self.count_edges(words, f"cell {cell}")
-        levels, scale_m_per_v = quantise(response)
         self._writer.add(cell, words, levels, scale_m_per_v)
         self._moves = self._moves or scale_m_per_v > 0
         for part in (words, levels, np.float32(scale_m_per_v)):

@@ -31,7 +31,7 @@ Cell = tuple[Any, ...]  # x_m, y_m; where the plate was measured, its plain driv
 # tests/workshop/bank_builder/test_optimised.py has the words of this version.
 METHOD_VERSION = 2
 CELLS_OF_A_STRANGER = 8  # some seconds of work
-OF_BUILD = ("words", "plate")  # ends of the names of files that are there while a bank is built
+OF_BUILD = ("words", "plate", "cells")  # ends of the names of files that are there while a bank is built
 
 
 @dataclass(frozen=True)
@@ -76,9 +76,9 @@ def _method(board: Board, highest_hz: float, aim: DescentAim, file: Path | None)
         ) from error
 
 
-def kept_path(bank: Path, inputs_sha256: str) -> Path:
-    """File that keeps what is done of the bank at `bank`, by the hash of all that determines it."""
-    return bank.with_name(f".{bank.name}.{inputs_sha256[:16]}.words")
+def kept_path(bank: Path, inputs_sha256: str, end: str = "words") -> Path:
+    """File that keeps what is done of the bank at `bank`, by the hash of all that determines it; `end`: one of `OF_BUILD`."""
+    return bank.with_name(f".{bank.name}.{inputs_sha256[:16]}.{end}")
 
 
 def remove_kept(bank: Path) -> None:

@@ -45,7 +45,7 @@ class BankRequest:
     # beside `path`
     aim: DescentAim | None = None
     plate: MeasuredPlate | None = None  # by which entries of a `source` are optimised
-    workers: Workers = ALONE  # who optimises
+    workers: Workers = ALONE  # who optimises, or else computes the cells
     # Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is
     memory_mb: float | None = None
     progress: bool = False  # show a bar on stderr if that is a terminal

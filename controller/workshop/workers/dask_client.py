@@ -16,6 +16,10 @@ from controller.workshop.workers.workers import Workers
 
 FOUND_WITHIN_S = 30.0  # a scheduler on another machine
 LOST_WORKERS = 10  # that one task may have had; more, and it is taken to be the cause
+OWN_CLIENT = {
+    "distributed.scheduler.allowed-failures": LOST_WORKERS,
+    "distributed.admin.large-graph-warning-threshold": "1TB",  # what is large is sent once
+}
 OWN_HTTP = "127.0.0.1:0"  # without an address dask's pages are open to the network, at a port that another may have
 SAME = "install the same version on all"
 OWN_CLUSTER = {
@@ -67,7 +71,7 @@ def open_client(workers: Workers) -> Iterator[Any]:
     for name in ("distributed", "distributed.client"):  # the failure is reported once, by this program
         logging.getLogger(name).setLevel(logging.CRITICAL)
     with contextlib.ExitStack() as stack:
-        stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": LOST_WORKERS}))
+        stack.enter_context(dask.config.set(OWN_CLIENT))
         if not workers.strangers:
             stack.enter_context(dask.config.set(OWN_CLUSTER))
             resource_tracker.ensure_running()  # which would take back what follows

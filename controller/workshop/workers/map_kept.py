@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
@@ -25,6 +25,7 @@ from controller.workshop.workers.kept_file import KeptFile, record_of, result_in
 from controller.workshop.workers.workers import ALONE, Workers
 
 Item = TypeVar("Item")
+Function: TypeAlias = Callable[[Sequence[Item]], Sequence[bytes]]
 
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
 # In a process: a model may have one workspace, and a dask worker several threads; an item may map others itself
@@ -65,13 +66,12 @@ class Computed:
 
 @dataclass(frozen=True)
 class Group(Generic[Item]):
-    """A task: some items by number, the function for them, and who asks."""
+    """A task: some items by number, and who asks."""
 
-    function: Callable[[Sequence[Item]], Sequence[bytes]]
     items: dict[int, Item]
     maker: str  # `creator()` of who asks: a worker of another version would compute something else
 
-    def compute(self) -> Computed:
+    def compute(self, function: Function[Item]) -> Computed:
         """Compute all; raises WorkersError if this worker is of another version."""
         if self.maker != creator():
             raise WorkersError(
@@ -79,7 +79,7 @@ class Group(Generic[Item]):
             )
         before_s = time.process_time()
         with ONE_AT_A_TIME, threadpool_limits(1, "blas"):
-            results = self.function(tuple(self.items.values()))
+            results = function(tuple(self.items.values()))
         peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024e-6
         share = Share(len(self.items), time.process_time() - before_s, peak_mb)
         records = [record_of(number, result) for number, result in zip(self.items, results, strict=True)]
@@ -92,7 +92,7 @@ class Group(Generic[Item]):
 
 
 def map_kept(
-    function: Callable[[Sequence[Item]], Sequence[bytes]],
+    function: Function[Item],
     items: Mapping[int, Item],
     kept: Path,
     workers: Workers = ALONE,
@@ -117,9 +117,9 @@ def map_kept(
         mapped = Mapped(results, len(results))
         size = at_once if workers.strangers else max(1, min(at_once, -(-len(missing) // (TASKS_PER_WORKER * workers.processes))))
         groups = [missing[first : first + size] for first in range(0, len(missing), size)]
-        tasks = [Group(function, {number: items[number] for number in group}, creator()) for group in groups]
+        tasks = [Group({number: items[number] for number in group}, creator()) for group in groups]
         bar = tqdm(total=len(items), initial=len(results), unit=unit, desc=what, disable=None if what else True)
-        with bar, contextlib.closing(_computed(tasks, workers)) as computed:
+        with bar, contextlib.closing(_computed(function, tasks, workers)) as computed:
             for answer in computed:
                 for record in answer.records:
                     done.add(record)
@@ -133,18 +133,19 @@ def map_kept(
     return mapped
 
 
-def _computed(tasks: Sequence[Group[Any]], workers: Workers) -> Generator[Computed]:
+def _computed(function: Function[Item], tasks: Sequence[Group[Item]], workers: Workers) -> Generator[Computed]:
     """What becomes of each task, as they come."""
     if not tasks:
         return
-    if not workers.strangers and workers.processes == 1:
+    if workers.is_this_process:
         for task in tasks:
-            yield task.compute()
+            yield task.compute(function)
         return
     with contextlib.ExitStack() as stack:
         with dask_errors(workers.option):
             client = stack.enter_context(open_client(workers))
-            task_of = dict(zip(client.map(Group.compute, tasks, pure=False), tasks, strict=True))
+            sent = client.submit(_itself, function, pure=False)  # once to each worker, not with each task
+            task_of = dict(zip(client.map(Group.compute, tasks, function=sent, pure=False), tasks, strict=True))
             answers = answers_of(client, workers.option, task_of)
         while True:
             with dask_errors(workers.option):  # of dask, not of who takes the results
@@ -152,3 +153,8 @@ def _computed(tasks: Sequence[Group[Any]], workers: Workers) -> Generator[Comput
             if answer is None:
                 return
             yield answer
+
+
+def _itself(function: Function[Item]) -> Function[Item]:
+    """What a worker keeps of a function."""
+    return function

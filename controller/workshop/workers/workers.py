@@ -19,6 +19,11 @@ class Workers:
         return self.address is not None or self.scheduler_file is not None
 
     @property
+    def is_this_process(self) -> bool:
+        """Whether they are the calling process itself, without dask."""
+        return not self.strangers and self.processes == 1
+
+    @property
     def option(self) -> str:
         """What asked for them on the command line."""
         if self.scheduler_file is not None:

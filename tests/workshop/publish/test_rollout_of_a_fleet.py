@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 import pytest
 from repository_fixture import NOW
-from scipy.stats import binom, poisson
+from scipy.stats import binom, hypergeom, poisson
 from test_fall_back import Device as FallBack
 from test_fall_back import cutting
 from test_fleet import report
@@ -45,7 +45,7 @@ def drawn(seed):
 
 
 def outcome(seed):
-    """How many devices ever have the release, and how many of them are bad, where each step is opened by the product's rule."""
+    """How many devices ever have the release by the product's rule, how many of them are bad, and the first bad one's place in line."""
     identities, bad = drawn(seed)
     places = sorted(place_ppm(name, "1.1.0") for name in identities)
     of_bad = sorted(place_ppm(name, "1.1.0") for name in bad)
@@ -58,7 +58,7 @@ def outcome(seed):
         if proposal("1.1.0", ROLLOUT, opened_ppm, fleet, now)[0] != "open":
             break
         opened_ppm = next(step.share_ppm for step in ROLLOUT.steps[1:] if step.share_ppm > opened_ppm)
-    return having, faulted
+    return having, faulted, 1 + bisect_left(places, of_bad[0])
 
 
 def harmed_more(shares, bad, most=HARMED_MAX):
@@ -83,13 +83,21 @@ def test_chance_is_that_of_poisson_also_in_a_large_fleet():
 
 
 def test_the_rule_does_what_the_formula_says():
-    """1,000 fleets of which 5 % are bad: harmed, in the mean and at most, and how many have it, as chance gives."""
-    having, harmed = np.array([outcome(seed) for seed in range(1000)]).T
+    """1,000 fleets of which 5 % are bad: harmed, in the mean and at most, and how many have it, as chance gives.
+
+    No rule that is shown a fault by bad boards alone ends before the first of them has the release.
+    """
+    having, harmed, first = np.array([outcome(seed) for seed in range(1000)]).T
+    ends, few = np.mean(having <= HARMED_MAX), np.mean(first <= HARMED_MAX)
     print(f"harmed: {harmed.mean():.2f} in the mean, at most {harmed.max()}")
     print(f"have it: {having.mean():.0f} in the mean, in 95 % of fleets at most {np.quantile(having, 0.95):.0f}")
+    print(f"at most {HARMED_MAX} have it in {ends:.0%} of fleets; the first bad board is among so many in {few:.0%}")
     assert harmed.max() <= HARMED_MAX
     assert harmed.mean() == pytest.approx(1.51, abs=0.1)
     assert having.mean() == pytest.approx(0.058 * DEVICES, abs=3)
+    assert np.all(having[harmed > 0] >= first[harmed > 0])
+    assert few == pytest.approx(hypergeom.sf(0, DEVICES, BAD, HARMED_MAX), abs=0.05)
+    assert ends == pytest.approx(0.33, abs=0.05)
     assert np.mean(harmed == 0) == pytest.approx(0.99**DEVICES, abs=0.01)  # no device is among the first 1 %
 
 

@@ -92,7 +92,7 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path):
 
 def test_a_worker_of_another_version_is_refused():
     with pytest.raises(WorkersError, match="another version"):
-        Group(cubes, {7: 1}, creator() + "x").compute()
+        Group({7: 1}, creator() + "x").compute(cubes)
 
 
 def changed(answer, **other):
@@ -109,12 +109,12 @@ def changed(answer, **other):
     lambda answer: changed(answer, records=[*answer.records[:1], b""]),
     lambda answer: changed(answer, records=[*answer.records[:1], answer.records[1][:-1] + b"x"]),
     lambda answer: changed(answer, records=[*answer.records[:1], sealed(bytes(12) + b"x")]),
-    lambda answer: changed(answer, records=Group(cubes, {7: 1, 9: 2}, creator()).compute().records),
+    lambda answer: changed(answer, records=Group({7: 1, 9: 2}, creator()).compute(cubes).records),
 ])  # fmt: skip
 def test_garbage_is_no_answer(garbage):
-    group = Group(cubes, {7: 1, 8: 2}, creator())
-    assert group.is_answered(group.compute())
-    assert not group.is_answered(garbage(group.compute()))
+    group = Group({7: 1, 8: 2}, creator())
+    assert group.is_answered(group.compute(cubes))
+    assert not group.is_answered(garbage(group.compute(cubes)))
 
 
 @each_row("error", [TypeError("identity() got an unexpected\nkeyword"), RuntimeError(""), OSError("closed")])
@@ -210,7 +210,7 @@ def test_workers_without_the_package_are_reported(cluster, tmp_path):
 @pytest.mark.slow
 def test_a_worker_that_answers_garbage_is_named_and_nothing_of_it_is_kept(cluster, tmp_path):
     address = cluster(
-        "from controller.workshop.workers.map_kept import Group\nGroup.compute = lambda _: 'garbage'",
+        "from controller.workshop.workers.map_kept import Group\nGroup.compute = lambda *_, **__: 'garbage'",
         ("n_workers=2", 'n_workers=1, processes=False, protocol="tcp://"'),
     )
     with pytest.raises(WorkersError, match=rf"--dask {address}: the worker tcp://[\d.:]+ answered what is no result: end it; what"):
@@ -315,7 +315,7 @@ def test_ctrl_c_at_a_terminal_which_all_processes_of_it_get_is_not_answered_by_w
 
 @pytest.mark.slow
 def test_a_worker_that_takes_too_much_memory_is_ended_and_said_so(tmp_path, monkeypatch):
-    monkeypatch.setattr(module, "LOST_WORKERS", 0)
+    monkeypatch.setitem(module.OWN_CLIENT, "distributed.scheduler.allowed-failures", 0)
     with pytest.raises(WorkersError, match=r"--workers 2: a task has lost its worker 1 times, .*more memory"):
         map_kept(greedy, {1: 1}, tmp_path / "kept", Workers(2, memory_mb=400))
 

@@ -80,7 +80,7 @@ def _calibrated(panel: Panel) -> dict[str, Any]:
         return {"broken": said}
     report = {"path": str(built.path), "cells": built.report.cells, "bytes": state.st_size, "written_ns": state.st_mtime_ns}
     if optimised := built.report.optimised:
-        report["optimised"] = {name: value for name, value in optimised.items() if name != "workers"}
+        report["optimised"] = optimised
     return report | fitted.figures | {"notes": built.notes}
 
 

@@ -105,7 +105,7 @@ def fit(wanted: PlateBank, progress: Progress = _silent) -> FittedPlate:
 
 
 def build(wanted: PlateBank, fitted: FittedPlate, workers: Workers = ALONE, *, progress: bool = True) -> BuiltBank:
-    """Build and write the bank of a plate; `workers` optimise it.
+    """Build and write the bank of a plate; `workers` compute it.
 
     Raises CalibrationError if no cell is near enough to measured points, or they do not foresee the field by which entries would be
     optimised; WorkersError.
@@ -127,8 +127,9 @@ def build(wanted: PlateBank, fitted: FittedPlate, workers: Workers = ALONE, *, p
         raise CalibrationError(f"{wanted.folder}: no cell of the bank lies near the measured points")
     path = wanted.out or order.own_path
     with threadpool_limits(1, "blas"):
-        how = {"aim": wanted.aim, "plate": whole_field(board, source), "workers": workers} if wanted.aim else {}
-        report = order.build(path, cells, memory_mb=wanted.memory_mb, source=source, progress=progress, **how)
+        how = {"aim": wanted.aim, "plate": whole_field(board, source)} if wanted.aim else {}
+        how |= {"workers": workers, "memory_mb": wanted.memory_mb, "progress": progress}
+        report = order.build(path, cells, source=source, **how)
     return BuiltBank(path, report, [*fitted.notes, *notes, *_notes(wanted, fitted, cells, report)])
 
 

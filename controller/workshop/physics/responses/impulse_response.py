@@ -48,6 +48,11 @@ class ResponseModel:
         self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
         self._workspaces: dict[tuple[str, int], tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
 
+    def __getstate__(self) -> dict[str, Any]:
+        """For another process: without what is kept, which is found again there."""
+        kept: dict[str, Any] = {name: {} for name in ("_kernels", "_rows", "_workspaces")}
+        return {name: value for name, value in self.__dict__.items() if name not in ("modal", "modal_band")} | kept
+
     @cached_property
     def modal(self) -> Floats:
         """Response of each mode to a pulse of one bit period, in m per N: (mode, sample)."""
