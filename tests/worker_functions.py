@@ -1,8 +1,10 @@
 """Functions of groups of items that other processes import: what `map_kept` is tested with."""
 
+import contextlib
 import dataclasses
 import os
 import signal
+import subprocess
 from itertools import islice
 from pathlib import Path
 
@@ -35,6 +37,49 @@ class Fatal:
             if self.kept:
                 kill_session(self.kept)
             os.kill(os.getpid(), signal.SIGKILL)
+        return cubes(items)
+
+
+@dataclasses.dataclass
+class Dying:
+    """Ends the first worker that `gets` it, `begins` or `ends` a task, as the kernel does for want of memory."""
+
+    mark: str
+    step: str
+    asks: int = dataclasses.field(default_factory=os.getpid)
+
+    def __setstate__(self, state):
+        self.__dict__ = state
+        self._reached("gets")
+
+    def _reached(self, step):
+        if step == self.step and self.asks not in (os.getpid(), os.getppid()):  # nor the scheduler, which unpickles too
+            with contextlib.suppress(FileExistsError):
+                os.close(os.open(self.mark, os.O_CREAT | os.O_EXCL))
+                os.kill(os.getpid(), signal.SIGKILL)
+
+    def __call__(self, items):
+        """As `cubes`."""
+        self._reached("begins")
+        found = cubes(items)
+        self._reached("ends")
+        return found
+
+
+@dataclasses.dataclass
+class OutOfTime:
+    """Has SLURM end the job that computes the item `at` first, as at its time limit."""
+
+    mark: str
+    at: int
+
+    def __call__(self, items):
+        """As `cubes`."""
+        if self.at in items:
+            with contextlib.suppress(FileExistsError):
+                os.close(os.open(self.mark, os.O_CREAT | os.O_EXCL))
+                subprocess.run(["scancel", os.environ["SLURM_JOB_ID"]], check=True)
+                signal.pause()
         return cubes(items)
 
 

@@ -45,7 +45,7 @@ def drawn(seed):
 
 
 def outcome(seed):
-    """How many devices ever have the release by the product's rule, how many of them are bad, and the first bad one's place in line."""
+    """How many devices have a release by the product's rule, how many of them are bad, and the first bad one's place in line."""
     identities, bad = drawn(seed)
     places = sorted(place_ppm(name, "1.1.0") for name in identities)
     of_bad = sorted(place_ppm(name, "1.1.0") for name in bad)

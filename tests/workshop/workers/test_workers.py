@@ -1,8 +1,10 @@
 import contextlib
 import dataclasses
+import getpass
 import importlib.metadata
 import json
 import os
+import platform
 import re
 import signal
 import socket
@@ -13,7 +15,7 @@ from pathlib import Path
 import pytest
 from patience import wait_for
 from tables import each_row
-from worker_functions import Fatal, cubes, greedy
+from worker_functions import Dying, Fatal, OutOfTime, cubes, greedy
 
 from controller.cli import main
 from controller.device.bank.file_format import creator
@@ -157,7 +159,7 @@ def test_options_that_contradict_each_other_are_refused(arguments, said, capsys)
 
 TESTS = Path(__file__).parents[2]
 PAGE = Path(module.__file__).with_name("README.md").read_text()
-LOCAL, SSH, *_ = re.findall(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+LOCAL, SSH, SLURM, _ = re.findall(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture
@@ -173,7 +175,7 @@ def cluster(tmp_path):
             process = subprocess.Popen(
                 [sys.executable, str(tmp_path / "cluster.py")],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                env=os.environ | {"PYTHONPATH": str(TESTS)} | dict(environment), start_new_session=True,
+                env=os.environ | {"PYTHONPATH": str(TESTS)} | dict(environment), start_new_session=True, cwd=tmp_path,
             )  # fmt: skip
             stack.enter_context(process)  # its standard input is closed, and it ends
             return process.stdout.readline().strip()
@@ -186,6 +188,15 @@ def test_the_cluster_of_the_page_gives_the_same_results_when_a_worker_is_killed(
     found = map_kept(Fatal(str(tmp_path / "killed"), 4), ITEMS, tmp_path / "kept", Workers(address=cluster()))
     assert (tmp_path / "killed").exists()
     assert found.results == RESULTS
+
+
+@pytest.mark.slow
+def test_a_worker_may_die_at_each_step(cluster, tmp_path):
+    workers = Workers(address=cluster())
+    for step in ("gets", "begins", "ends"):
+        mark = tmp_path / step
+        assert map_kept(Dying(str(mark), step), ITEMS, tmp_path / f"kept {step}", workers).results == RESULTS
+        assert mark.exists()
 
 
 @pytest.mark.slow
@@ -402,3 +413,57 @@ def test_the_cluster_over_ssh_gives_the_same_results_with_tls_when_a_worker_is_k
     assert (tmp_path / "killed").exists()
     assert found.results == RESULTS
     assert sum(share.items for share in found.shares.values()) == len(ITEMS)
+
+
+@pytest.fixture
+def slurm(tmp_path, monkeypatch):
+    """SLURM of this computer alone, without authentication: its settings are in the environment."""
+    subprocess.run([TESTS / "kernel" / "install_packages.sh", "slurmctld", "slurmd", "slurm-client"], check=True)
+    with socket.create_server(("127.0.0.1", 0)) as one, socket.create_server(("127.0.0.1", 0)) as other:
+        ports = [server.getsockname()[1] for server in (one, other)]
+    node, user = platform.node(), getpass.getuser()
+    settings = f"""
+        ClusterName=one
+        SlurmctldHost={node}(127.0.0.1)
+        SlurmctldPort={ports[0]}
+        SlurmdPort={ports[1]}
+        SlurmUser={user}
+        SlurmdUser={user}
+        AuthType=auth/none
+        CredType=cred/none
+        ProctrackType=proctrack/linuxproc
+        TaskPlugin=task/none
+        MpiDefault=none
+        StateSaveLocation={tmp_path}
+        SlurmdSpoolDir={tmp_path}
+        SlurmctldPidFile={tmp_path}/slurmctld.pid
+        SlurmdPidFile={tmp_path}/slurmd.pid
+        SlurmdParameters=config_overrides
+        NodeName={node} NodeAddr=127.0.0.1 CPUs=2 RealMemory=4000
+        PartitionName=normal Nodes={node} MaxTime=INFINITE
+    """
+    file = tmp_path / "slurm.conf"
+    file.write_text(settings.replace("        ", ""))
+    monkeypatch.setenv("SLURM_CONF", str(file))
+    with contextlib.ExitStack() as stack:
+        for program in ("slurmctld", "slurmd"):
+            daemon = stack.enter_context(subprocess.Popen([f"/usr/sbin/{program}", "-D"], stderr=subprocess.DEVNULL))
+            stack.callback(daemon.terminate)
+        state = ["sinfo", "--noheader", "--format=%t"]
+        assert wait_for("SLURM", lambda: subprocess.run(state, capture_output=True, check=False).stdout == b"idle\n", seconds=60)
+        yield
+
+
+@pytest.mark.slow
+def test_a_job_of_slurm_that_ends_at_its_time_is_replaced_and_the_next_one_goes_on(slurm, cluster, tmp_path):
+    address = cluster(
+        "",
+        ('cores=8, processes=8, memory="8GB"', 'cores=1, processes=1, memory="1GB"'),
+        ("minimum_jobs=10, maximum_jobs=10", "minimum_jobs=1, maximum_jobs=1"),
+        environment={"DASK_CONFIG": str(tmp_path / "dask")}.items(),
+        script=SLURM,
+    )
+    found = map_kept(OutOfTime(str(tmp_path / "ended"), 4), ITEMS, tmp_path / "kept", Workers(address=address))
+    assert (tmp_path / "ended").exists()
+    assert found.results == RESULTS
+    assert len(found.shares) == 2
