@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from host_gateware import HostGateware
 from restarting_gateware import RestartingGateware
 
 from controller.device.board.lookup import data_folder
@@ -113,13 +114,20 @@ class _Pins:
         self._recent = ticks[begun], levels[begun]
 
 
+def _gateware_of(factory, parameters):
+    """The gateware that can be restarted, and all of it as its lines reach it; the compiled pair is wired on the host."""
+    if factory is HostGateware and len(parameters) > 1:
+        return [], factory.wired(parameters)
+    restarting = [RestartingGateware(factory, one) for one in parameters]
+    return restarting, WiredFpgas(restarting).members if len(parameters) > 1 else restarting
+
+
 class _Gateware:
     """The gateware of each FPGA, its pins driven as time goes on."""
 
     def __init__(self, boards, factory, roles, slowness):
         parameters = [BuildParameters.of(board, build_hash(data_folder("fpga_rtl"))) for board in boards]
-        self._restarting = [RestartingGateware(factory, one) for one in parameters]
-        self._fpgas = WiredFpgas(self._restarting).members if len(boards) > 1 else self._restarting
+        self._restarting, self._fpgas = _gateware_of(factory, parameters)
         self._pins = [_Pins(fpga, boards[0].waveform.samples, boards[0].bit_ticks) for fpga in self._fpgas]
         self._bits_hz = parameters[0].clock_hz
         self._clock_hz = self._bits_hz / slowness
@@ -184,6 +192,10 @@ class _Gateware:
         self._fpgas[0].advance(tick)
         self._restarting[number].restart(tick, round(dark_s * self._bits_hz))
         self._fpgas[0].advance(tick + 1)  # of several, the others' permit follows from here on
+
+    def temperature(self, number, level):
+        """The temperature pin of an FPGA is given a level now."""
+        self._fpgas[number].permit(self._now(), level=level, which=Permit.TEMPERATURE)
 
     def cut_trigger(self, number):
         """The trigger line leads to this FPGA no more."""

@@ -1,6 +1,7 @@
 """Runs in the guest: two FPGAs of one panel on the kernel's own spidev, a chip select each, and on shared GPIO lines.
 
 The gateware's model is at both far ends, on the wires of boards/simulated_64: one trigger line, one line of run permit and faults.
+In one test it is the compiled Verilog, whose clock is 1 MHz as in guest_gateware.py.
 """
 
 import contextlib
@@ -19,9 +20,12 @@ from evdev import AbsInfo, UInput
 from evdev import ecodes as e
 from far_end_spi import FarEnd
 from gpio_lines import GpioLines
+from guest_gateware import at_1_mhz
 from guest_link import BIND, CLOCK, SLOWNESS, TIMEOUT_MS, refusal
+from host_gateware import HostGateware
 from panel_board import table
 
+from controller.clocks import MonotonicClock
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import LinkedFpga, LinkSettings
@@ -29,7 +33,7 @@ from controller.device.board.lookup import find_board, fpga_files
 from controller.device.doctor.doctor import look
 from controller.device.fpga.exchange import FpgaReset, OutOfStep
 from controller.device.fpga.frames import Play, joined
-from controller.device.fpga.registers import Start
+from controller.device.fpga.registers import Fault, Start
 from controller.device.loop.context import LoopContext
 from controller.device.loop.outputs import Outputs
 from controller.device.service.drivers import await_session, open_link
@@ -91,19 +95,20 @@ def with_fpga(number, **changes):
 class Panel:
     """Far ends, links and session as the service has them."""
 
-    def __init__(self):
-        self.far_end = FarEnd(BOARD, NAMES, slowness=SLOWNESS)
-        self.link, self.session = await_session(BOARD, CLOCK.now_s)
-        self.outputs = Outputs(LoopContext(BOARD, CLOCK, self.session, None))
+    def __init__(self, far_end, board=BOARD, clock=CLOCK):
+        self.far_end, self.board, self.clock = far_end, board, clock
+        self.parts = [part[: 4 * board.waveform.samples] for part in PARTS]
+        self.link, self.session = await_session(board, clock.now_s)
+        self.outputs = Outputs(LoopContext(board, clock, self.session, None))
 
     def come_on(self):
         """As the loop does it, without waiting in between; what is said while it does not."""
         said = []
         while not self.outputs.on:
             try:
-                self.outputs.advance(CLOCK.now_s())
+                self.outputs.advance(self.clock.now_s())
             except (LinkError, FaultError) as error:
-                self.outputs.failed(error, CLOCK.now_s())
+                self.outputs.failed(error, self.clock.now_s())
             if self.outputs.cause and self.outputs.cause not in said:
                 said.append(self.outputs.cause)
         return said
@@ -117,7 +122,7 @@ class Panel:
                 return error
 
     def recover(self, error):
-        self.outputs.failed(error, CLOCK.now_s())
+        self.outputs.failed(error, self.clock.now_s())
         return self.come_on()
 
     def hv(self):
@@ -129,18 +134,18 @@ class Panel:
             self.far_end.emissions(number)
         begun = len(self.far_end.pins()["starts"])
         before = self.session.heartbeat().emissions
-        self.session.upload_and_play(Play(1), WORDS, stop=False)
+        self.session.upload_and_play(Play(1), joined([memoryview(part) for part in self.parts]), stop=False)
         self.session.trigger()
         while self.session.heartbeat().emissions < before + 1:
             pass
-        when = self.session.heartbeat().timestamp_ticks + LINK.clock_hz // 20
+        when = self.session.heartbeat().timestamp_ticks + self.board.link.clock_hz // 20
         self.session.play(Play(1, start=Start.TIME, when_ticks=when), stop=False)
         while self.session.heartbeat().emissions < before + 2:
             pass
         starts = [self.far_end.pins(number)["starts"][-2:] for number in range(2)]
         assert starts[0] == starts[1], starts
         assert len(self.far_end.pins()["starts"]) == begun + 2
-        for number, part in enumerate(PARTS):
+        for number, part in enumerate(self.parts):
             assert self.far_end.emissions(number) == [part, part]
 
     def close(self):
@@ -150,7 +155,7 @@ class Panel:
 
 @contextlib.contextmanager
 def panel():
-    opened = Panel()
+    opened = Panel(FarEnd(BOARD, NAMES, slowness=SLOWNESS))
     try:
         yield opened
     finally:
@@ -257,6 +262,24 @@ def test_one_that_misses_the_trigger_is_out_of_step_and_nothing_is_armed_until_i
             there.outputs.advance(CLOCK.now_s())
         assert not there.outputs.on
         assert there.hv() == [0, 0]
+
+
+def test_the_verilog_at_both_chip_selects_plays_in_the_same_ticks_and_heat_at_one_shuts_both():
+    board = at_1_mhz(BOARD)
+    there = Panel(FarEnd(board, NAMES, HostGateware), board, MonotonicClock())
+    there.come_on()
+    assert there.hv() == [1, 1]
+    there.plays()
+    there.far_end.ask("temperature", 1, False)
+    assert there.hv() == [0, 0]
+    error = there.lost()
+    assert isinstance(error, FaultError), error
+    assert (error.faults, str(error)[:7]) == (Fault.OVER_TEMPERATURE, "FPGA 1:")
+    there.far_end.ask("temperature", 1, True)
+    there.recover(error)
+    assert there.hv() == [1, 1]
+    there.plays()
+    there.close()
 
 
 def test_the_doctor_looks_at_each_chip_select_and_at_all_lines():

@@ -8,6 +8,7 @@ usage: host_gateware.py SOCKET MONITOR     serves whoever is at the far end of Q
 """
 
 import contextlib
+import copy
 import json
 import multiprocessing.connection
 import os
@@ -16,6 +17,8 @@ import sys
 import time
 from functools import cache
 from pathlib import Path
+
+from controller.workshop.gateware.pin_timing import TRIGGER_HIGH_TICKS
 
 NAME = "gateware"  # of the port
 PANIC_PORT, PANICKED = 0x505, b"\1"  # of QEMU's device `pvpanic`, which pauses the machine (-action panic=pause)
@@ -45,47 +48,64 @@ def ask(what, *arguments):
 
 
 class HostGateware:
-    """A `Gateware` just out of reset: `RtlGateware` on the host. Each that is made takes the place of the one before."""
+    """A `Gateware` just out of reset: `RtlGateware` on the host. Each that is made takes the place of those before."""
 
-    def __init__(self, parameters):
-        self.now = ask("open", parameters)
+    def __init__(self, *parameters):
+        self.now, self._number = ask("open", *parameters), 0
+
+    @classmethod
+    def wired(cls, parameters):
+        """Members of a `WiredFpgas` on the host."""
+        members = [cls(*parameters)]
+        for number in range(1, len(parameters)):
+            members.append(copy.copy(members[0]))
+            members[-1]._number = number
+        return members
 
     def advance(self, tick):
-        self.now = ask("advance", tick)
+        self.now = ask("advance", self._number, tick)
 
     def permit(self, tick, *, level, which):
-        ask("permit", tick, level, which)
+        ask("permit", self._number, tick, level, which)
 
-    def trigger(self, tick, high_ticks):
-        ask("trigger", tick, high_ticks)
+    def trigger(self, tick, high_ticks=TRIGGER_HIGH_TICKS):
+        ask("trigger", self._number, tick, high_ticks)
 
     def exchange(self, select_tick, release_tick, mosi, miso):
-        self.now, miso[:] = ask("exchange", select_tick, release_tick, bytes(mosi))
+        self.now, miso[:] = ask("exchange", self._number, select_tick, release_tick, bytes(mosi))
 
     def take_capture(self):
-        return ask("take_capture")
+        return ask("take_capture", self._number)
 
 
 class Served:
     """What the host does of it."""
 
-    def open(self, parameters):
+    def open(self, *parameters):
         from controller.workshop.gateware.rtl_gateware import RtlGateware
+        from controller.workshop.gateware.wired_fpgas import WiredFpgas
 
-        self._gateware = RtlGateware(parameters)
-        return self._gateware.now
+        gatewares = [RtlGateware(each) for each in parameters]
+        self._fpgas = WiredFpgas(gatewares).members if len(gatewares) > 1 else gatewares
+        return self._fpgas[0].now
 
-    def advance(self, tick):
-        self._gateware.advance(tick)
-        return self._gateware.now
+    def advance(self, number, tick):
+        self._fpgas[number].advance(tick)
+        return self._fpgas[number].now
 
-    def permit(self, tick, level, which):
-        self._gateware.permit(tick, level=level, which=which)
+    def permit(self, number, tick, level, which):
+        self._fpgas[number].permit(tick, level=level, which=which)
 
-    def exchange(self, select_tick, release_tick, mosi):
+    def trigger(self, number, tick, high_ticks):
+        self._fpgas[number].trigger(tick, high_ticks)
+
+    def exchange(self, number, select_tick, release_tick, mosi):
         miso = bytearray(len(mosi))
-        self._gateware.exchange(select_tick, release_tick, mosi, memoryview(miso))
-        return self._gateware.now, bytes(miso)
+        self._fpgas[number].exchange(select_tick, release_tick, mosi, memoryview(miso))
+        return self._fpgas[number].now, bytes(miso)
+
+    def take_capture(self, number):
+        return self._fpgas[number].take_capture()
 
     def board_open(self):
         """The ULX3S, a moment after its configuration; `board_*` is what is done with it."""
@@ -104,9 +124,7 @@ class Served:
         return self._board.now_s
 
     def __getattr__(self, name):
-        if name.startswith("board_"):
-            return getattr(self._board, name.removeprefix("board_"))
-        return getattr(self._gateware, name)
+        return getattr(self._board, name.removeprefix("board_"))
 
 
 class Monitor:
