@@ -55,15 +55,16 @@ def made_of(name, *, of="board.toml"):
 
 
 @each_row(
-    ("name", "loader", "clock_hz"),
-    [("colorlight_i5", "colorlight-i5", 62_500_000), ("tang_primer_20k", "tangprimer20k", 63_000_000)],
+    ("name", "loader", "clock_hz", "sck_hz"),
+    [("colorlight_i5", "colorlight-i5", 62_500_000, 27_777_778), ("tang_primer_20k", "tangprimer20k", 63_000_000, 25_000_000)],
 )
-def test_another_fpga_board_is_the_same_board_but_for_its_clock_and_loader(name, loader, clock_hz):
+def test_another_fpga_board_is_the_same_board_but_for_its_clocks_and_loader(name, loader, clock_hz, sck_hz):
     ulx3s, other = (load_board(find_board(of)) for of in ("ulx3s", name))
     assert [word for word in other.gateware.load if word not in ("--file-type", "fs")] == [
         word.replace("ulx3s", loader) for word in ulx3s.gateware.load
     ]
-    link = msgspec.structs.replace(ulx3s.link, clock_hz=clock_hz)
+    link = msgspec.structs.replace(ulx3s.link, clock_hz=clock_hz, sck_hz=sck_hz)
+    assert divided_hz(link.spi_source_hz, sck_hz) == pytest.approx(sck_hz)
     expected = msgspec.structs.replace(ulx3s, name=name, folder=other.folder, gateware=other.gateware, link=link)
     assert other == expected
 
