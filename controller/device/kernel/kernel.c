@@ -154,18 +154,32 @@ INLINE ushorts at_odd(ushorts levels) { return (ushorts)((shorts)levels >> 8); }
 
 INLINE ushorts at_even(ushorts levels) { return (ushorts)((shorts)(levels << 8) >> 8); }
 
+INLINE ushorts positive(ushorts value) { return (ushorts)((shorts)value > 0); }
+
+#ifndef __SSE2__
 /* Halves of 16 bits, all ones or zero, to the bits of 16 channels. */
 INLINE uint32_t bits_of(ushorts even, ushorts odd) {
     ushorts lower = (ushorts){0} + 0xff, bytes = (even & lower) | (odd & ~lower);
-#ifdef __SSE2__
-    return (uint32_t)_mm_movemask_epi8((__m128i)bytes);
-#else
     union {
         ushorts vector;
         uint64_t eight[2];
     } bits = {.vector = bytes & 0x0101};
     uint64_t packing = 0x0102040810204080u; /* moves the lowest bits of eight bytes to the highest byte */
     return (uint32_t)(bits.eight[0] * packing >> 56 | bits.eight[1] * packing >> 56 << 8);
+}
+#endif
+
+/* Bits of the channels whose values are above zero; of values that are all ones or zero, or not above: of all that are ones. */
+INLINE uint32_t word_of(const ushorts *value, int above) {
+#ifdef __SSE2__
+    __m128i even = _mm_packs_epi16((__m128i)value[0], (__m128i)value[2]), odd = _mm_packs_epi16((__m128i)value[1], (__m128i)value[3]);
+    __m128i low = _mm_unpacklo_epi8(even, odd), high = _mm_unpackhi_epi8(even, odd), zero = _mm_setzero_si128();
+    if (above) low = _mm_cmpgt_epi8(low, zero), high = _mm_cmpgt_epi8(high, zero);
+    return (uint32_t)_mm_movemask_epi8(low) | (uint32_t)_mm_movemask_epi8(high) << 16;
+#else
+    ushorts four[4];
+    for (int part = 0; part < 4; part++) four[part] = above ? positive(value[part]) : value[part];
+    return bits_of(four[0], four[1]) | bits_of(four[2], four[3]) << 16;
 #endif
 }
 
@@ -188,20 +202,19 @@ INLINE void interpolate_16(const struct patch *patch, int cells, int64_t at, con
     }
 }
 
-INLINE ushorts positive(ushorts value) { return (ushorts)((shorts)value > 0); }
-
 /* Words of a single point at full amplitude. */
 INLINE void sign_of(struct work *work, const struct patch *patch, int cells) {
-    ushorts weight[4], even[2], odd[2], turn_even[2], turn_odd[2];
+    ushorts weight[4], value[4], turn_even[2], turn_odd[2];
     for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
     for (int half = 0; half < 2; half++) turned(work->idle_word, 16 * half, turn_even + half, turn_odd + half);
     for (int64_t at = 0; at < work->values; at += CHANNELS) {
-        uint32_t word = 0;
         for (int half = 0; half < 2; half++) {
-            interpolate_16(patch, cells, at + 16 * half, weight, even + half, odd + half);
-            word |= bits_of(positive(negated(even[half], turn_even[half])), positive(negated(odd[half], turn_odd[half]))) << 16 * half;
+            ushorts *even = value + 2 * half, *odd = even + 1;
+            interpolate_16(patch, cells, at + 16 * half, weight, even, odd);
+            *even = negated(*even, turn_even[half]);
+            *odd = negated(*odd, turn_odd[half]);
         }
-        work->words[at / CHANNELS] = word ^ work->idle_word;
+        work->words[at / CHANNELS] = word_of(value, 1) ^ work->idle_word;
     }
 }
 
@@ -253,10 +266,16 @@ INLINE ushorts high(ushorts value, int16_t tap) {
 #endif
 }
 
+#ifdef __SSE2__
+enum { DOUBLED = 1 }; /* taps are kept doubled, as the instruction drops 16 bits */
+#else
+enum { DOUBLED = 0 };
+#endif
+
 /* The same, with a tap for each lane. */
 INLINE ushorts high_each(ushorts value, ushorts taps) {
 #ifdef __SSE2__
-    return (ushorts)_mm_mulhi_epi16((__m128i)value, (__m128i)(taps + taps));
+    return (ushorts)_mm_mulhi_epi16((__m128i)value, (__m128i)taps);
 #elif defined __ARM_NEON
     return (ushorts)vqdmulhq_s16((int16x8_t)value, (int16x8_t)taps);
 #else
@@ -278,8 +297,9 @@ APART void scale_channels(int16_t *restrict scaled, int16_t *restrict driven, co
 
 /* Weights of a cell's numbers in a block, doubled, as numbers are half of the level above the lowest; their sums. */
 INLINE void block_weights(ushorts *weight, ushorts *sum, const uint8_t *parts, const ushorts *scaled) {
-    ushorts four = load(parts), mask = (ushorts){0} + (LOUDEST << 9), one = (ushorts){0} + (1 << 9);
-    ushorts taps[4] = {(four << 9 & mask) + one, (four << 5 & mask) + one, (four << 1 & mask) + one, (four >> 3 & mask) + one};
+    enum { UP = TAP_BITS - 6 + DOUBLED }; /* 6 bits of products are dropped */
+    ushorts four = load(parts), mask = (ushorts){0} + (LOUDEST << UP), one = (ushorts){0} + (1 << UP);
+    ushorts taps[4] = {(four << UP & mask) + one, (four << (UP - 4) & mask) + one, (four << (UP - 8) & mask) + one, (four >> (12 - UP) & mask) + one};
     for (int part = 0; part < 4; part++) {
         ushorts of_block = high_each(scaled[part], taps[part]);
         sum[part] += of_block;
@@ -335,12 +355,42 @@ static void sum_weights(uint32_t idle_word, const struct layer *layer, const uin
     }
 }
 
-INLINE const ushorts *first_weight(const struct layer *layer, const uint8_t *pulse, const ushorts *sum, int taps) {
-    int first = read_16(pulse, 0), last = layer->weights - taps;
+/* Sums of the weights of a place, and what shifts of its outputs drop. */
+struct weighed {
+    const struct layer *layer;
+    ushorts sum[4 * MAX_WEIGHTS], dropped[4];
+};
+
+INLINE const ushorts *first_weight(const ushorts *sum, const uint8_t *pulse, int last) {
+    int first = read_16(pulse, 0);
     return sum + 4 * (first < 0 ? 0 : first < last ? first : last);
 }
 
-INLINE void add_tap(ushorts *total, const ushorts *from, ushorts tap) {
+/* Eight taps, for `add_tap`. */
+INLINE void prepare_taps(const uint8_t *from, ushorts *prepared) {
+    ushorts taps = load(from) << DOUBLED;
+#ifdef __SSE2__
+    prepared[0] = (ushorts)_mm_unpacklo_epi16((__m128i)taps, (__m128i)taps);
+    prepared[1] = (ushorts)_mm_unpackhi_epi16((__m128i)taps, (__m128i)taps);
+#else
+    prepared[0] = taps;
+#endif
+}
+
+/* Adds products with one of the taps, whose number is a constant. */
+INLINE void add_tap(ushorts *total, const ushorts *from, const ushorts *prepared, int number) {
+#ifdef __SSE2__
+    __m128i four = (__m128i)prepared[number / 4];
+    ushorts tap;
+    switch (number % 4) {
+    case 0: tap = (ushorts)_mm_shuffle_epi32(four, 0x00); break;
+    case 1: tap = (ushorts)_mm_shuffle_epi32(four, 0x55); break;
+    case 2: tap = (ushorts)_mm_shuffle_epi32(four, 0xAA); break;
+    default: tap = (ushorts)_mm_shuffle_epi32(four, 0xFF);
+    }
+#else
+    ushorts tap = (ushorts){0} + prepared[0][number];
+#endif
     for (int part = 0; part < 4; part++) {
         total[part] += high_each(from[part], tap);
 #ifdef __SSE2__
@@ -349,62 +399,58 @@ INLINE void add_tap(ushorts *total, const ushorts *from, ushorts tap) {
     }
 }
 
-/* One of eight, in all lanes; `number` is a constant. */
-INLINE ushorts all_of(ushorts eight, int number) {
-#ifdef __SSE2__
-    __m128i from = (__m128i)eight;
-    switch (number) {
-    case 0: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0x00), 0x00);
-    case 1: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0x55), 0x00);
-    case 2: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0xAA), 0x00);
-    case 3: return (ushorts)_mm_shuffle_epi32(_mm_shufflelo_epi16(from, 0xFF), 0x00);
-    case 4: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0x00), 0xAA);
-    case 5: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0x55), 0xAA);
-    case 6: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0xAA), 0xAA);
-    default: return (ushorts)_mm_shuffle_epi32(_mm_shufflehi_epi16(from, 0xFF), 0xAA);
-    }
-#else
-    return (ushorts){0} + eight[number];
-#endif
-}
-
-APART void outputs_of(const struct layer *layer, const ushorts *sum, const ushorts *dropped, ushorts *out) {
-    for (int64_t output = 0; output < layer->outputs; output++, out += 4) {
-        const uint8_t *pulse = layer->pulses + 2 * output * (1 + layer->taps);
-        const ushorts *from = first_weight(layer, pulse, sum, layer->taps);
-        memcpy(out, dropped, 4 * sizeof *out);
-        for (int tap = 0; tap < layer->taps; tap++, from += 4) add_tap(out, from, (ushorts){0} + (uint16_t)read_16(pulse, 1 + tap));
+APART void outputs_of(const struct weighed *place, int64_t first, int64_t end, ushorts *out) {
+    int taps = place->layer->taps, last = place->layer->weights - taps;
+    const uint8_t *pulse = place->layer->pulses + 2 * first * (1 + taps);
+    for (; first < end; first++, out += 4, pulse += 2 * (1 + taps)) {
+        const ushorts *from = first_weight(place->sum, pulse, last);
+        memcpy(out, place->dropped, 4 * sizeof *out);
+        for (int tap = 0; tap < taps; tap++, from += 4)
+            for (int part = 0; part < 4; part++) out[part] += high(from[part], read_16(pulse, 1 + tap));
     }
 }
 
-/* The same of eight taps. */
-APART void outputs_of_eight(const struct layer *layer, const ushorts *sum, const ushorts *dropped, ushorts *out) {
-    for (int64_t output = 0; output < layer->outputs; output++, out += 4) {
-        const uint8_t *pulse = layer->pulses + 2 * output * 9;
-        const ushorts *from = first_weight(layer, pulse, sum, 8);
-        ushorts taps = load(pulse + 2), total[4] = {dropped[0], dropped[1], dropped[2], dropped[3]};
-        add_tap(total, from + 0, all_of(taps, 0));
-        add_tap(total, from + 4, all_of(taps, 1));
-        add_tap(total, from + 8, all_of(taps, 2));
-        add_tap(total, from + 12, all_of(taps, 3));
-        add_tap(total, from + 16, all_of(taps, 4));
-        add_tap(total, from + 20, all_of(taps, 5));
-        add_tap(total, from + 24, all_of(taps, 6));
-        add_tap(total, from + 28, all_of(taps, 7));
+/* The same of four or eight taps, a constant; eight are read, as behind pulses lie other parts of the tables. */
+INLINE void outputs_of_some(int taps, const struct weighed *place, int64_t first, int64_t end, ushorts *out) {
+    int last = place->layer->weights - taps;
+    const uint8_t *pulse = place->layer->pulses + 2 * first * (1 + taps);
+    for (; first < end; first++, out += 4, pulse += 2 * (1 + taps)) {
+        const ushorts *from = first_weight(place->sum, pulse, last);
+        ushorts prepared[2], total[4];
+        prepare_taps(pulse + 2, prepared);
+        memcpy(total, place->dropped, sizeof total);
+        add_tap(total, from + 0, prepared, 0);
+        add_tap(total, from + 4, prepared, 1);
+        add_tap(total, from + 8, prepared, 2);
+        add_tap(total, from + 12, prepared, 3);
+        if (taps == 8) {
+            add_tap(total, from + 16, prepared, 4);
+            add_tap(total, from + 20, prepared, 5);
+            add_tap(total, from + 24, prepared, 6);
+            add_tap(total, from + 28, prepared, 7);
+        }
         memcpy(out, total, sizeof total);
     }
 }
 
-static void outputs(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, ushorts *out) {
-    ushorts sum[4 * MAX_WEIGHTS], dropped[4];
+APART void outputs_of_four(const struct weighed *place, int64_t first, int64_t end, ushorts *out) { outputs_of_some(4, place, first, end, out); }
+
+APART void outputs_of_eight(const struct weighed *place, int64_t first, int64_t end, ushorts *out) { outputs_of_some(8, place, first, end, out); }
+
+static void weigh_place(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, struct weighed *place) {
     int16_t driven[CHANNELS] = {0};
-    sum_weights(idle_word, layer, levels, share, cells, sum, driven);
+    place->layer = layer;
+    sum_weights(idle_word, layer, levels, share, cells, place->sum, driven);
     for (int i = 0; i < CHANNELS; i++) driven[i] = driven[i] ? (int16_t)(layer->taps / 2) : 0; /* half of a bit for each tap */
-    for (int part = 0; part < 4; part++) dropped[part] = load(driven + 8 * part);
-    if (layer->taps == 8)
-        outputs_of_eight(layer, sum, dropped, out);
-    else
-        outputs_of(layer, sum, dropped, out);
+    for (int part = 0; part < 4; part++) place->dropped[part] = load(driven + 8 * part);
+}
+
+static void outputs(const struct weighed *place, int64_t first, int64_t end, ushorts *out) {
+    switch (place->layer->taps) {
+    case 4: outputs_of_four(place, first, end, out); break;
+    case 8: outputs_of_eight(place, first, end, out); break;
+    default: outputs_of(place, first, end, out);
+    }
 }
 
 /* A sample's part of 8 channels, between the even one that is given and the next; before the first one lie zeros. */
@@ -413,44 +459,67 @@ INLINE ushorts between(const ushorts *even, int16_t near, int16_t far) {
     return (ushorts)((shorts)inner >> 1) + high(inner, near) - high(outer, far);
 }
 
-/* Bits of a sample's channels. */
-INLINE uint32_t word_of(const ushorts *above) { return bits_of(above[0], above[1]) | bits_of(above[2], above[3]) << 16; }
+enum { AT_A_TIME = 32, BESIDE = 1 + EVEN_BEYOND }; /* even samples, and those around them that odd ones lie between */
 
-APART void compose_one_compact(struct work *work, const struct patch *patch) {
-    ushorts room[4 * (1 + MAX_EVEN)] = {{0}}, *even = room + 4, part[4];
-    int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
-    int64_t samples = work->values / CHANNELS;
-    outputs(work->idle_word, &patch->tables->in_band, patch->levels, patch->weight, patch->cells, even);
+APART void words_between(const ushorts *even, int16_t near, int16_t far, uint32_t idle_word, int64_t samples, uint32_t *words) {
+    ushorts part[4];
     for (int64_t sample = 0; sample < samples; sample += 2, even += 4) {
-        for (int i = 0; i < 4; i++) part[i] = positive(even[i]);
-        work->words[sample] = word_of(part) ^ work->idle_word;
+        words[sample] = word_of(even, 1) ^ idle_word;
         if (sample + 1 == samples) break;
-        for (int i = 0; i < 4; i++) part[i] = positive(between(even + i, near, far));
-        work->words[sample + 1] = word_of(part) ^ work->idle_word;
+        for (int i = 0; i < 4; i++) part[i] = between(even + i, near, far);
+        words[sample + 1] = word_of(part, 1) ^ idle_word;
     }
 }
 
-/* As `interpolate`: the samples of a point, or the rest behind them. */
-APART void from_compact(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
-    ushorts room[4 * (1 + MAX_EVEN)], *even = room + 4;
-    int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
-    int rest = from != 0;
-    const struct layer *layer = rest ? &patch->tables->rest : &patch->tables->in_band;
-    memset(room, 0, 4 * sizeof *room);
-    outputs(idle_word, layer, rest ? patch->rest : patch->levels, rest ? patch->rest_weight : patch->weight,
-            rest ? patch->rests : patch->cells, even);
-    for (int64_t row = 0; row < values / CHANNELS; row += 2 - rest, even += 4)
+/* Half of each value; returns the sums of absolute values. */
+APART uints halves_between(const ushorts *even, int16_t near, int16_t far, int64_t samples, int16_t *out) {
+    uints sum = {0};
+    for (int64_t sample = 0; sample < samples; sample += 2, even += 4)
         for (int i = 0; i < 4; i++) {
-            store(out + row * CHANNELS + 8 * i, even[i]);
-            if (!rest && row + 1 < values / CHANNELS) store(out + (row + 1) * CHANNELS + 8 * i, between(even + i, near, far));
+            ushorts half = (ushorts)((shorts)even[i] >> 1);
+            store(out + sample * CHANNELS + 8 * i, half);
+            sum = add_absolute(sum, half);
+            if (sample + 1 == samples) continue;
+            half = (ushorts)((shorts)between(even + i, near, far) >> 1);
+            store(out + (sample + 1) * CHANNELS + 8 * i, half);
+            sum = add_absolute(sum, half);
         }
+    return sum;
+}
+
+/* The samples of a point: words, or else half of the response; of that the sum of absolute values is returned. */
+static int64_t compact_samples(uint32_t idle_word, const struct patch *patch, int64_t samples, uint32_t *words, int16_t *out) {
+    const struct layer *layer = &patch->tables->in_band;
+    struct weighed place;
+    ushorts even[4 * (BESIDE + AT_A_TIME)] = {{0}};
+    int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
+    uints sum = {0};
+    weigh_place(idle_word, layer, patch->levels, patch->weight, patch->cells, &place);
+    outputs(&place, 0, EVEN_BEYOND, even + 4);
+    for (int64_t sample = 0; sample < samples; sample += 2 * AT_A_TIME) {
+        int64_t left = samples - sample, now = left < 2 * AT_A_TIME ? left : 2 * AT_A_TIME, first = sample / 2 + EVEN_BEYOND;
+        outputs(&place, first, first + now / 2, even + 4 * BESIDE);
+        if (words)
+            words_between(even + 4, near, far, idle_word, now, words + sample);
+        else
+            sum += halves_between(even + 4, near, far, now, out + sample * CHANNELS);
+        memcpy(even, even + 4 * AT_A_TIME, 4 * BESIDE * sizeof *even);
+    }
+    return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
+}
+
+static void compact_rests(uint32_t idle_word, const struct patch *patch, int64_t rows, int16_t *out) {
+    struct weighed place;
+    ushorts some[4 * AT_A_TIME];
+    weigh_place(idle_word, &patch->tables->rest, patch->rest, patch->rest_weight, patch->rests, &place);
+    for (int64_t row = 0; row < rows; row += AT_A_TIME) {
+        int64_t end = row + AT_A_TIME < rows ? row + AT_A_TIME : rows;
+        outputs(&place, row, end, some);
+        memcpy(out + row * CHANNELS, some, (size_t)((end - row) * CHANNELS) * sizeof *out);
+    }
 }
 
 APART void interpolate(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
-    if (patch->tables) {
-        from_compact(idle_word, patch, from, values, out);
-        return;
-    }
     switch (patch->cells) {
     case 1: interpolate_cells(idle_word, patch, 1, from, values, out); break;
     case 2: interpolate_cells(idle_word, patch, 2, from, values, out); break;
@@ -473,6 +542,7 @@ APART int64_t equalise(const int16_t *restrict met, int64_t apart, int16_t tap, 
 static int64_t respond(const struct work *work, const struct patch *patch, int16_t *response, int16_t *room) {
     int64_t apart = work->step * CHANNELS;
     int16_t *met = room + apart;
+    if (patch->tables) return compact_samples(work->idle_word, patch, work->values / CHANNELS, NULL, response);
     memset(room, 0, (size_t)apart * sizeof *room);
     interpolate(work->idle_word, patch, 0, work->values, met);
     memset(met + work->values, 0, (size_t)apart * sizeof *room);
@@ -507,13 +577,16 @@ APART void add_rests(const int16_t *response, const int16_t *rest, int64_t value
 
 /* All that bits do at a point, from its response in the band, with some room for the rest. */
 static void add_outside(const struct work *work, const struct patch *patch, const int16_t *response, int16_t *room, int shift, int16_t *whole) {
-    interpolate(work->idle_word, patch, work->values, work->rests, room);
+    if (patch->tables)
+        compact_rests(work->idle_word, patch, work->rests / CHANNELS, room);
+    else
+        interpolate(work->idle_word, patch, work->values, work->rests, room);
     add_rests(response, room, work->values, shift, whole);
 }
 
 APART void compose_one(struct work *work, const struct patch *patch) {
     if (patch->tables) {
-        compose_one_compact(work, patch);
+        compact_samples(work->idle_word, patch, work->values / CHANNELS, work->words, NULL);
         return;
     }
     switch (patch->cells) {
@@ -635,7 +708,7 @@ APART void add_strength(int32_t *restrict strength, const int32_t *restrict sum,
 
 INLINE uint32_t word_at(const int16_t *above) {
     ushorts four[4] = {load(above), load(above + 8), load(above + 16), load(above + 24)};
-    return word_of(four);
+    return word_of(four, 0);
 }
 
 INLINE void write_words(const struct work *work, int64_t at, int samples, const int16_t *above) {
