@@ -37,8 +37,8 @@ SNAPS_MM = (0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0)
 BEYOND = 3.0  # pitches: a cell is at most so far from any place of the plate
 # Host time in us with the compiled kernel (`python -m tests.workshop.benchmark.compose_speed`, workshop/benchmark/README.md): the
 # frames of a cell, the words of one finger, of ten at full and of ten at less than full amplitude
-CELL_US, ONE_US, TEN_US, TEN_LESS_US = 0.14, 6.0, 164.0, 388.0
-COMPACT_ONE, COMPACT_TEN, COMPACT_TEN_LESS = 2.1, 1.55, 1.4  # times as long from a compact bank
+CELL_US, ONE_US, TEN_US, TEN_LESS_US = 0.14, 6.3, 268.0, 373.0
+COMPACT_ONE, COMPACT_TEN, COMPACT_TEN_LESS = 1.95, 1.6, 1.4  # times as long from a compact bank
 
 
 @dataclass(frozen=True)

@@ -187,7 +187,7 @@ def device(board: Board, model: ResponseModel, seed: int, scenes: int) -> None:
         build_bank(BankRequest(board, path))
         with Bank.open(path, board) as bank:
             composer = Composer(bank, board.idle_word)
-            cases = [(*numbers, amplitude, 0.0) for numbers in ((1, 1), (1, 3), (2, 2), (4, 4)) for amplitude in (1.0, 0.5)]
+            cases = [(*numbers, amplitude, 0.0) for numbers in ((1, 1), (1, 2), (1, 3), (2, 2), (4, 4)) for amplitude in (1.0, 0.5)]
             for foci, quiet, amplitude, beside_mm in cases + [(1, 1, 1.0, beside_mm) for beside_mm in (0.5, 1.0, 2.0)]:
                 rng = np.random.default_rng(seed)
                 rows, times = [], []
