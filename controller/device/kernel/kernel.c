@@ -1527,7 +1527,7 @@ static const double FLOOR = 0.25, RIDGE = 0.3, PI = 3.141592653589793;
 static const double RING_M[PLACES][2] = {{2.8e-3, 0.0},   {1.4e-3, 2.42487113e-3},   {-1.4e-3, 2.42487113e-3},
                                          {-2.8e-3, 0.0}, {-1.4e-3, -2.42487113e-3}, {1.4e-3, -2.42487113e-3}};
 
-static const int SUMS_OF[MAX_NULLS] = {SUMS, 3, 1, 1}; /* of each of so many pads */
+static const int SUMS_OF[MAX_NULLS] = {SUMS, 1, 1, 1}; /* of each of so many pads */
 
 /* A sum of a pad that shall stay still: as a response between zeros, as it is met at other times; the factors of its equations. */
 struct still {

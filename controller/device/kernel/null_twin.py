@@ -62,7 +62,7 @@ SUMS: Final = (  # of what is met in the ring: orthogonal; eight at most, so tha
     (2, -1, -1, 2, -1, -1),
     (0, 1, -1, 0, 1, -1),
 )
-SUMS_OF: Final = (len(SUMS), 3, 1, 1)  # of each pad, by the number of pads: more of them would cost the points too much
+SUMS_OF: Final = (len(SUMS), 1, 1, 1)  # of each pad, by the number of pads: more cost the points and are felt no less
 SUM_SHIFT: Final = 3  # bits that responses lose before
 MARGIN_WEIGHT_SUM: Final = 4095  # of the points, and 15 times as much for all corrections: below 2^31 together
 CORRECTION_WEIGHT_SUM: Final = 61440
