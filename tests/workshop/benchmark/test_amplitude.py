@@ -107,10 +107,10 @@ def test_a_band_that_three_taps_cannot_follow_has_no_equaliser(board):
 
 def test_what_is_outside_the_band_is_weighed_as_the_band_between_cells(board, scenes, composer):
     """By the size of what is composed with, over the mean of the four cells', each of which has all of the band."""
-    known = bank_twin.Responses(composer._buffers)
     sloped = msgspec.structs.replace(board, waveform=msgspec.structs.replace(board.waveform, slope=-1.0))
     for (x_m, y_m, _), *_ in scenes[:4]:
         composer.compose([(x_m, y_m, 1.0)])
+        known = bank_twin.Responses(composer._buffers)  # which composing has mapped
         patch, (cells, shares) = known.patch(x_m, y_m)[0], composer._bank.grid.corners(x_m, y_m)
         sizes_m = [scale * np.linalg.norm(levels) for levels, scale in map(composer._bank.responses.response, cells)]
         a = patch.tap / (equaliser(board, PITCH_M) * 2**14)
