@@ -55,8 +55,7 @@ def affordable(tests, path, took):
 def traced(chosen, reached):
     """Write what reaches the mutants into a file, whole."""
     part = reached.with_suffix(".part")
-    for old in part.parent.glob(f"{part.name}*"):  # of a run that was killed
-        old.unlink()
+    part.unlink(missing_ok=True)  # of a run that was killed
     with copy_of_root() as checkout:
         run_whole(checkout, chosen, part.absolute())
     part.replace(reached)

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import threading
 from collections import Counter
 from pathlib import Path
 
@@ -43,14 +44,15 @@ def reach(number):
     test = os.environ.get("PYTEST_CURRENT_TEST")
     if (number, test) not in SEEN:
         SEEN.add((number, test))
-        with open({file!r} + f".{{os.getpid()}}", "a") as own:  # small: a service's helper may not write more
-            own.write(f"reached\\t{{number}}\\t{{test}}\\n")
+        pipe = os.open({pipe!r}, os.O_WRONLY)  # no file: a service's helpers may write none
+        os.write(pipe, f"reached\\t{{number}}\\t{{test}}\\n".encode())  # whole: shorter than PIPE_BUF
+        os.close(pipe)
 """
 
 
-def report_reached(checkout, chosen, file):
+def report_reached(checkout, chosen, pipe):
     """Have the statements of chosen mutants report what reaches them."""
-    (checkout / "controller" / "reached.py").write_text(REACH.format(file=str(file)))
+    (checkout / "controller" / "reached.py").write_text(REACH.format(pipe=str(pipe)))
     for path in {path for path, *_ in chosen}:
         tree = ast.parse((checkout / path).read_text())
         nodes, numbers = inside_functions(tree), {}
@@ -78,17 +80,31 @@ def pytest_runtest_logreport(report):
         file.write(f"took\t{report.duration:.3f}\t{report.nodeid} {'quick' if 'quick' in report.keywords else 'slower'}\n")
 
 
-def run_whole(checkout, chosen, file):
-    """One run of README's line over the instrumented copy, which writes what reaches what."""
-    report_reached(checkout, chosen, file)
+def run_whole(checkout, chosen, file, *tests):
+    """One run of README's line, or of some tests, over the instrumented copy, which writes what reaches what."""
+    pipe = checkout.parent / "reached"
+    os.mkfifo(pipe)
+    report_reached(checkout, chosen, pipe)
     environment = os.environ | {"PYTHONPATH": str(checkout), "HAPTIC_PANEL_REACHED": str(file)}
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "tests.mutants_reached"]
-    subprocess.run(command, cwd=checkout, env=environment, stdout=subprocess.DEVNULL, check=False)
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "tests.mutants_reached", *tests]
+    lines = os.open(pipe, os.O_RDWR)  # there is always a reader and a writer, so that no one waits for the other
+    with subprocess.Popen(command, cwd=checkout, env=environment, stdout=subprocess.DEVNULL) as run:
+        copying = threading.Thread(target=copy_until_empty_line, args=(lines, file))
+        copying.start()
+        run.wait()
+        os.write(lines, b"\n")
+        copying.join()
+    os.close(lines)
     (checkout / "controller" / "reached.py").unlink()
-    for own in file.parent.glob(f"{file.name}.*"):
-        with file.open("a") as whole:
-            whole.write(own.read_text())
-        own.unlink()
+
+
+def copy_until_empty_line(lines, file):
+    with open(lines, closefd=False) as reported:
+        for line in reported:
+            if line == "\n":
+                return
+            with file.open("a") as whole:
+                whole.write(line)
 
 
 def read_reached(file):
