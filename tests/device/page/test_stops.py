@@ -13,9 +13,10 @@ from websockets.frames import Frame, Opcode
 from websockets.sync.client import connect
 
 from controller.device.application_socket.messages import BY_CHARACTERS
-from controller.device.page import relay
+from controller.device.page import relay, stops
 from controller.device.page.bridge import Bridge
 from controller.device.page.settings import PageSettings
+from controller.device.page.stops import StopLine
 
 PATIENCE_S = 60.0
 FLOOD = 10_000
@@ -190,3 +191,32 @@ def test_where_the_panel_has_no_place_for_it_pages_use_their_own(bridged):
             assert stopped(stopper)["reason"].startswith("no panel at ")
 
     bridged(pages)
+
+
+def test_a_stop_amid_which_the_panel_ends_the_connection_is_sent_again_without_waiting_for_an_answer(tmp_path, monkeypatch):
+    monkeypatch.setattr(stops, "PANEL_S", 1e6)
+    heard = []
+
+    async def stopped():
+        ended = asyncio.Semaphore(0)
+
+        async def serve(reader, writer):
+            while line := await reader.readline():
+                asked = json.loads(line)
+                heard.append(asked["kind"])
+                if heard == ["subscribe", "stop"]:
+                    break
+                writer.write(json.dumps({"kind": "answer", "id": asked["id"], "outcome": "done"}).encode() + b"\n")
+            writer.close()
+            ended.release()
+
+        async with await asyncio.start_unix_server(serve, tmp_path / "panel.sock"), asyncio.timeout(PATIENCE_S):
+            line = StopLine(str(tmp_path / "panel.sock"))
+            said = await line.stop("somebody")
+            line.close()
+            for _ in range(2):
+                await ended.acquire()
+        return said
+
+    assert asyncio.run(stopped()) == ""
+    assert heard == ["subscribe", "stop"] * 2

@@ -64,6 +64,7 @@ class Panel:
     def counted(self, **expected):
         found = self.figures
         assert found == dict.fromkeys(found, 0) | expected
+        assert self.decoder.counts.refused == found["points"] - found["believed"] - found["confirmed"]
         return True
 
 
