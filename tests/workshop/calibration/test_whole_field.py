@@ -181,8 +181,8 @@ def test_a_grid_of_cells_foresees_the_field_of_all_of_them():
 @each_row(
     ("options", "code", "said"),
     [
-        (["bank", "{}", "--workers", "2"], 2, "of use with --optimise"),
-        (["bank", "{}", "--optimise", "quiet", "--workers", "0"], 78, "measurement.toml"),
+        (["bank", "{}", "--workers", "2"], 78, "measurement.toml"),
+        (["bank", "{}", "--optimise", "quiet", "--workers", "0"], 2, "--workers 0: not from 1 to 256"),
         (["bank", "{}", "--optimise", "quiet", "--compact"], 78, "a compact bank holds no waveforms"),
         (["fleet", "{}", "--out", "{}/banks", "--optimise", "quiet", "--compact"], 78, "a compact bank holds no waveforms"),
     ],
