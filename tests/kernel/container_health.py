@@ -171,6 +171,7 @@ def test_each_start_of_a_trial_has_a_judge_also_one_by_itself():
     bench().fpga.permit(False)
     wait_for("the judge", lambda: "on trial: no permit" in evaluated())
     run("systemctl", "stop", JUDGE)
+    assert (of_the_judge("Result"), of_the_judge("ExecMainStatus")) == ("success", str(signal.SIGTERM.value)), "it ends at once"
     pid = main_pid()
     os.kill(pid, signal.SIGKILL)
     wait_for("the restart", lambda: restarted(pid))

@@ -61,7 +61,9 @@ def said():
 
 
 # each look is a process or more, which a virtual machine has less time for than for what is waited for
-wait_for = partial(patience.wait_for, seconds=120.0, said=lambda: journal()[-4000:], every_s=0.2)
+wait_for = partial(
+    patience.wait_for, seconds=120.0, said=lambda: journal("-o", "short-precise", "-u", f"{UNIT}-*")[-4000:], every_s=0.2
+)
 
 
 def restarted(old_pid):

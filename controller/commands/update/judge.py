@@ -1,6 +1,7 @@
 """`haptic-panel update judge`: what haptic-panel-trial.service runs, from the release on trial."""
 
 import argparse
+import signal
 
 from controller.device.service.systemd import Notifier
 from controller.device.update.identity import refuse_root
@@ -23,6 +24,7 @@ def run(_: argparse.Namespace) -> int:
         log(f"nothing to judge: on trial is {trial or 'no release'}, and this is {running.name if running else 'none'}")
         return 0
     refuse_root(layout)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # at once: no verdict, and TimeoutStopSec= is a failure
     with Notifier.from_environment() as notifier:
 
         def reported(words: str) -> None:
@@ -30,8 +32,5 @@ def run(_: argparse.Namespace) -> int:
             notifier.alive()
 
         notifier.ready("looks at the service")
-        try:
-            judge_trial(layout, load_settings().healthy_s, reported)
-        except KeyboardInterrupt:  # the service is stopped or restarted, which is no verdict
-            return 0
+        judge_trial(layout, load_settings().healthy_s, reported)
     return 0

@@ -215,7 +215,7 @@ def test_a_failure_that_is_over_is_not_the_trials(device):
     device.run("failed")
     assert device.layout.word("trial") == "2.0"
     device.unit_state("failed")
-    device.run("failed")
+    assert "release 2.0 has failed (haptic-panel.service: " in device.run("failed").stderr
     assert (device.layout.word("trial"), device.failed) == ("", ["2.0"])
 
 
