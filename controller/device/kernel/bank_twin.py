@@ -40,7 +40,6 @@ STEPS_PER_BLOCK: Final = 12  # steps of 8 us: between the taps of an equaliser, 
 LARGEST_EQUALISER: Final = 0.5  # so that an equalised response is within 16 bits
 TAP_BITS: Final = 15  # behind the point of a product with a tap
 LARGEST: Final = (1 << 31) - 1
-WITHIN: Final = (-(1 << 15), (1 << 15) - 1)  # 16 bits
 WEIGHT_SUM: Final = 256  # of the cells around a point: four roundings may add 2, and 258 * 127 is still within 16 bits
 
 # What a composition needs to know of bank and board: samples, bytes from one response to the next, cells along x and y,
@@ -222,9 +221,9 @@ class Responses:
         return halved
 
     def whole(self, equalised: Numbers) -> Numbers:
-        """Of responses (place, row, 32) all that bits do, within 16 bits: in the band, and the rest of the same samples."""
+        """Of responses (place, row, 32) all that bits do: in the band, and the rest of the same samples."""
         beside = np.repeat(equalised[:, self.samples :], REST_SAMPLES, axis=1)[:, : self.samples]
-        together: Numbers = np.clip(equalised[:, : self.samples] + beside, *WITHIN)
+        together: Numbers = equalised[:, : self.samples] + beside
         return together
 
     def _from_weights(self, tables: CompactTables, patch: PlaceCells, turned: Numbers) -> Numbers:

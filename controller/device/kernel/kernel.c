@@ -128,7 +128,7 @@ struct work {
     int64_t values, rests, rows, block_rows, blocks; /* values of a response in the band, outside it; rows of eight samples, in a block too; blocks */
     int64_t step, sketch_step; /* samples between the taps of an equaliser, and those of a sketch */
     uint32_t idle_word;
-    int16_t *response[MAX_FOCI], *whole[MAX_FOCI]; /* in the band, with room for a whole last row; all that bits do */
+    int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band and beyond, with room for a whole last row */
     int32_t *strength, *threshold, *near_low, *near_high; /* of each block and channel; between the last two, sums are near their threshold */
     int16_t *threshold_of_one;
     uint32_t *near; /* of each sample: channels whose sums are near their threshold */
@@ -193,56 +193,60 @@ INLINE void turned(uint32_t idle_word, int first, ushorts *even, ushorts *odd) {
 
 INLINE ushorts negated(ushorts value, ushorts where) { return (value ^ where) - where; }
 
-INLINE void interpolate_16(const struct patch *patch, int cells, int64_t at, const ushorts *weight, ushorts *even, ushorts *odd) {
-    *even = *odd = (ushorts){0};
-    for (int cell = 0; cell < cells; cell++) {
-        ushorts levels = load(patch->levels[cell] + at);
-        *even += at_even(levels) * weight[cell];
-        *odd += at_odd(levels) * weight[cell];
+/* Weights of cells for 8 channels each, in the order of values; of channels that idle high they are negated. */
+INLINE void turn_weights(uint32_t idle_word, int cells, const int16_t *weights, ushorts (*weight)[4]) {
+    for (int half = 0; half < 2; half++) {
+        ushorts even, odd;
+        turned(idle_word, 16 * half, &even, &odd);
+        for (int cell = 0; cell < cells; cell++) {
+            ushorts one = (ushorts){0} + (uint16_t)weights[cell];
+            weight[cell][2 * half] = negated(one, even);
+            weight[cell][2 * half + 1] = negated(one, odd);
+        }
+    }
+}
+
+INLINE void interpolate_sample(const struct patch *patch, int cells, int64_t at, const ushorts (*weight)[4], ushorts *value) {
+    for (int half = 0; half < 2; half++) {
+        ushorts even = {0}, odd = {0};
+        for (int cell = 0; cell < cells; cell++) {
+            ushorts levels = load(patch->levels[cell] + at + 16 * half);
+            even += at_even(levels) * weight[cell][2 * half];
+            odd += at_odd(levels) * weight[cell][2 * half + 1];
+        }
+        value[2 * half] = even;
+        value[2 * half + 1] = odd;
     }
 }
 
 /* Words of a single point at full amplitude. */
 INLINE void sign_of(struct work *work, const struct patch *patch, int cells) {
-    ushorts weight[4], value[4], turn_even[2], turn_odd[2];
-    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
-    for (int half = 0; half < 2; half++) turned(work->idle_word, 16 * half, turn_even + half, turn_odd + half);
+    ushorts weight[4][4], value[4];
+    turn_weights(work->idle_word, cells, patch->weight, weight);
     for (int64_t at = 0; at < work->values; at += CHANNELS) {
-        for (int half = 0; half < 2; half++) {
-            ushorts *even = value + 2 * half, *odd = even + 1;
-            interpolate_16(patch, cells, at + 16 * half, weight, even, odd);
-            *even = negated(*even, turn_even[half]);
-            *odd = negated(*odd, turn_odd[half]);
-        }
+        interpolate_sample(patch, cells, at, (const ushorts(*)[4])weight, value);
         work->words[at / CHANNELS] = word_of(value, 1) ^ work->idle_word;
     }
 }
 
 INLINE uints add_absolute(uints sum, ushorts value) {
     ushorts sign = (ushorts)((shorts)value >> 15);
-    uints two = (uints)negated(value, sign);
 #ifdef __SSE2__
-    return sum + (uints)_mm_madd_epi16((__m128i)two, _mm_set1_epi16(1)); /* an equalised value is above -2^15 */
+    return sum + (uints)_mm_madd_epi16((__m128i)value, (__m128i)(sign | 1));
 #else
+    uints two = (uints)negated(value, sign); /* an equalised value is above -2^15 */
     return sum + (two >> 16) + (two & 0xffff);
 #endif
 }
 
-/* Values of a response of a point, negated in channels that idle high. */
-INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int64_t from, int64_t values, int16_t *out) {
-    ushorts weight[4], even, odd, turn_even[2], turn_odd[2];
-    const int16_t *weights = from ? patch->rest_weight : patch->weight;
-    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)weights[cell];
-    for (int half = 0; half < 2; half++) turned(idle_word, 16 * half, turn_even + half, turn_odd + half);
-    for (int64_t at = 0; at < values; at += CHANNELS)
-        for (int half = 0; half < 2; half++) {
-            int64_t here = at + 16 * half;
-            interpolate_16(patch, cells, from + here, weight, &even, &odd);
-            even = negated(even, turn_even[half]);
-            odd = negated(odd, turn_odd[half]);
-            store(out + here, even);
-            store(out + here + 8, odd);
-        }
+/* Values of a response of a point, negated in channels that idle high; or half of what is outside the band. */
+INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int outside, int64_t from, int64_t values, int16_t *out) {
+    ushorts weight[4][4], value[4];
+    turn_weights(idle_word, cells, outside ? patch->rest_weight : patch->weight, weight);
+    for (int64_t at = 0; at < values; at += CHANNELS) {
+        interpolate_sample(patch, cells, from + at, (const ushorts(*)[4])weight, value);
+        for (int part = 0; part < 4; part++) store(out + at + 8 * part, (ushorts)((shorts)value[part] >> outside));
+    }
 }
 
 /* ---- words: responses of a compact bank ---- */
@@ -515,26 +519,36 @@ static void compact_rests(uint32_t idle_word, const struct patch *patch, int64_t
     for (int64_t row = 0; row < rows; row += AT_A_TIME) {
         int64_t end = row + AT_A_TIME < rows ? row + AT_A_TIME : rows;
         outputs(&place, row, end, some);
-        memcpy(out + row * CHANNELS, some, (size_t)((end - row) * CHANNELS) * sizeof *out);
+        for (int64_t i = 0; i < (end - row) * 4; i++) store(out + row * CHANNELS + 8 * i, (ushorts)((shorts)some[i] >> 1));
     }
 }
 
-APART void interpolate(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+INLINE void interpolate(uint32_t idle_word, const struct patch *patch, int outside, int64_t from, int64_t values, int16_t *out) {
     switch (patch->cells) {
-    case 1: interpolate_cells(idle_word, patch, 1, from, values, out); break;
-    case 2: interpolate_cells(idle_word, patch, 2, from, values, out); break;
-    default: interpolate_cells(idle_word, patch, 4, from, values, out);
+    case 1: interpolate_cells(idle_word, patch, 1, outside, from, values, out); break;
+    case 2: interpolate_cells(idle_word, patch, 2, outside, from, values, out); break;
+    default: interpolate_cells(idle_word, patch, 4, outside, from, values, out);
     }
+}
+
+APART void interpolate_band(uint32_t idle_word, const struct patch *patch, int64_t values, int16_t *out) {
+    interpolate(idle_word, patch, 0, 0, values, out);
+}
+
+APART void interpolate_rest(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+    interpolate(idle_word, patch, 1, from, values, out);
 }
 
 /* Half of a response less a share of itself `apart` values before and after; returns the sum of absolute values. */
 APART int64_t equalise(const int16_t *restrict met, int64_t apart, int16_t tap, int64_t values, int16_t *restrict out) {
     uints sum = {0};
-    for (int64_t at = 0; at < values; at += 8) {
-        ushorts value = (ushorts)((shorts)load(met + at) >> 1) - high(load(met + at - apart), tap) - high(load(met + at + apart), tap);
-        store(out + at, value);
-        sum = add_absolute(sum, value);
-    }
+    for (int64_t at = 0; at < values; at += CHANNELS)
+        for (int i = 0; i < CHANNELS; i += 8) {
+            const int16_t *from = met + at + i;
+            ushorts value = (ushorts)((shorts)load(from) >> 1) - high(load(from - apart), tap) - high(load(from + apart), tap);
+            store(out + at + i, value);
+            sum = add_absolute(sum, value);
+        }
     return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
 }
 
@@ -544,44 +558,17 @@ static int64_t respond(const struct work *work, const struct patch *patch, int16
     int16_t *met = room + apart;
     if (patch->tables) return compact_samples(work->idle_word, patch, work->values / CHANNELS, NULL, response);
     memset(room, 0, (size_t)apart * sizeof *room);
-    interpolate(work->idle_word, patch, 0, work->values, met);
+    interpolate_band(work->idle_word, patch, work->values, met);
     memset(met + work->values, 0, (size_t)apart * sizeof *room);
     return equalise(met, apart, patch->tap, work->values, response);
 }
 
-INLINE ushorts add_saturated(ushorts a, ushorts b) {
-#ifdef __SSE2__
-    return (ushorts)_mm_adds_epi16((__m128i)a, (__m128i)b);
-#elif defined __ARM_NEON
-    return (ushorts)vqaddq_s16((int16x8_t)a, (int16x8_t)b);
-#else
-    shorts sum;
-    for (int lane = 0; lane < 8; lane++) {
-        int32_t both = (int16_t)a[lane] + (int16_t)b[lane];
-        sum[lane] = (int16_t)(both > INT16_MAX ? INT16_MAX : both < INT16_MIN ? INT16_MIN : both);
-    }
-    return (ushorts)sum;
-#endif
-}
-
-/* A response and what is outside the band, together within 16 bits, less some bits: in its place or in another. */
-APART void add_rests(const int16_t *response, const int16_t *rest, int64_t values, int shift, int16_t *whole) {
-    enum { BOTH = REST_SAMPLES * CHANNELS };
-    for (int64_t at = 0; at < values; at += BOTH, rest += CHANNELS)
-        for (int i = 0; i < CHANNELS; i += 8) {
-            ushorts halved = (ushorts)((shorts)load(rest + i) >> 1);
-            for (int64_t to = at + i; to < at + BOTH; to += CHANNELS)
-                store(whole + to, (ushorts)((shorts)add_saturated(load(response + to), halved) >> shift));
-        }
-}
-
-/* All that bits do at a point, from its response in the band, with some room for the rest. */
-static void add_outside(const struct work *work, const struct patch *patch, const int16_t *response, int16_t *room, int shift, int16_t *whole) {
+/* Half of what bits do at a point outside the band. */
+static void respond_outside(const struct work *work, const struct patch *patch, int16_t *rest) {
     if (patch->tables)
-        compact_rests(work->idle_word, patch, work->rests / CHANNELS, room);
+        compact_rests(work->idle_word, patch, work->rests / CHANNELS, rest);
     else
-        interpolate(work->idle_word, patch, work->values, work->rests, room);
-    add_rests(response, room, work->values, shift, whole);
+        interpolate_rest(work->idle_word, patch, work->values, work->rests, rest);
 }
 
 APART void compose_one(struct work *work, const struct patch *patch) {
@@ -606,54 +593,149 @@ APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16
 }
 #endif
 
+/* Adds values of two responses, each times its weight: of a pair that is repeated. */
+INLINE void add_pair(uints *low, uints *high, ushorts a, ushorts b, ushorts pair) {
 #ifdef __SSE2__
-/* Sums of eight samples, or where they are positive: responses in pairs, of which one instruction makes products and their sum. */
-INLINE void add_pairs(int pairs, int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum, int16_t *above) {
-    const int16_t *one[(MAX_FOCI + 1) / 2], *other[(MAX_FOCI + 1) / 2];
-    __m128i weights[(MAX_FOCI + 1) / 2];
-    for (int pair = 0; pair < pairs; pair++) {
-        int second = 2 * pair + 1 < count;
-        one[pair] = response[2 * pair] + at;
-        other[pair] = response[2 * pair + second] + at;
-        weights[pair] = _mm_set1_epi32((int)((uint16_t)weight[2 * pair] | (second ? (uint32_t)(uint16_t)weight[2 * pair + 1] << 16 : 0)));
-    }
-    for (int i = 0; i < ROW; i += 8) {
-        __m128i low = _mm_setzero_si128(), high = low;
-        for (int pair = 0; pair < pairs; pair++) {
-            __m128i a = (__m128i)load(one[pair] + i), b = (__m128i)load(other[pair] + i);
-            low = _mm_add_epi32(low, _mm_madd_epi16(_mm_unpacklo_epi16(a, b), weights[pair]));
-            high = _mm_add_epi32(high, _mm_madd_epi16(_mm_unpackhi_epi16(a, b), weights[pair]));
-        }
-        if (above) {
-            store(above + i, positive((ushorts)_mm_packs_epi32(low, high)));
-            continue;
-        }
-        store(sum + i, (ushorts)low);
-        store(sum + i + 4, (ushorts)high);
-    }
-}
-
-INLINE void add_some(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum, int16_t *above) {
-    switch ((count + 1) / 2) {
-    case 1: add_pairs(1, count, response, weight, at, sum, above); break;
-    case 2: add_pairs(2, count, response, weight, at, sum, above); break;
-    case 3: add_pairs(3, count, response, weight, at, sum, above); break;
-    case 4: add_pairs(4, count, response, weight, at, sum, above); break;
-    default: add_pairs(5, count, response, weight, at, sum, above);
-    }
-}
-
-APART void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
-    add_some(count, response, weight, at, sum, NULL);
-}
+    *low += (uints)_mm_madd_epi16(_mm_unpacklo_epi16((__m128i)a, (__m128i)b), (__m128i)pair);
+    *high += (uints)_mm_madd_epi16(_mm_unpackhi_epi16((__m128i)a, (__m128i)b), (__m128i)pair);
+#elif defined __ARM_NEON
+    int16x4_t two = vget_low_s16((int16x8_t)pair);
+    *low = (uints)vmlal_lane_s16((int32x4_t)*low, vget_low_s16((int16x8_t)a), two, 0);
+    *high = (uints)vmlal_lane_s16((int32x4_t)*high, vget_high_s16((int16x8_t)a), two, 0);
+    *low = (uints)vmlal_lane_s16((int32x4_t)*low, vget_low_s16((int16x8_t)b), two, 1);
+    *high = (uints)vmlal_lane_s16((int32x4_t)*high, vget_high_s16((int16x8_t)b), two, 1);
 #else
-static void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
-    memset(sum, 0, ROW * sizeof *sum);
-    int row = 0;
-    for (; row + 1 < count; row += 2) add_two(sum, response[row] + at, response[row + 1] + at, weight[row], weight[row + 1]);
-    if (row < count) add_one(sum, response[row] + at, weight[row]);
-}
+    for (int lane = 0; lane < 4; lane++) {
+        (*low)[lane] += (uint32_t)((int16_t)a[lane] * (int16_t)pair[0] + (int16_t)b[lane] * (int16_t)pair[1]);
+        (*high)[lane] += (uint32_t)((int16_t)a[lane + 4] * (int16_t)pair[0] + (int16_t)b[lane + 4] * (int16_t)pair[1]);
+    }
 #endif
+}
+
+/* Where sums are positive: -1, else 0. */
+INLINE ushorts above_zero(uints low, uints high) {
+#ifdef __SSE2__
+    return positive((ushorts)_mm_packs_epi32((__m128i)low, (__m128i)high));
+#elif defined __ARM_NEON
+    return positive((ushorts)vcombine_s16(vqmovn_s32((int32x4_t)low), vqmovn_s32((int32x4_t)high)));
+#else
+    ushorts above;
+    for (int lane = 0; lane < 8; lane++) above[lane] = (uint16_t)-((int32_t)(lane < 4 ? low[lane] : high[lane - 4]) > 0);
+    return above;
+#endif
+}
+
+INLINE uints add_products(uints sum, ushorts a, ushorts b) {
+#ifdef __SSE2__
+    return sum + (uints)_mm_madd_epi16((__m128i)a, (__m128i)b);
+#elif defined __ARM_NEON
+    int32x4_t more = vmlal_s16((int32x4_t)sum, vget_low_s16((int16x8_t)a), vget_low_s16((int16x8_t)b));
+    return (uints)vmlal_s16(more, vget_high_s16((int16x8_t)a), vget_high_s16((int16x8_t)b));
+#else
+    for (int lane = 0; lane < 8; lane++) sum[lane / 2] += (uint32_t)((int16_t)a[lane] * (int16_t)b[lane]);
+    return sum;
+#endif
+}
+
+INLINE int64_t sum_of(uints four) { return (int64_t)(int32_t)four[0] + (int32_t)four[1] + (int32_t)four[2] + (int32_t)four[3]; }
+
+/* Weights of the points in pairs; of an odd number the last one's is 0. */
+INLINE void pair_weights(int count, const int16_t *weight, ushorts *pair) {
+    for (int i = 0; i < count; i += 2) {
+        uint32_t second = i + 1 < count ? (uint16_t)weight[i + 1] : 0;
+        pair[i / 2] = (ushorts)((uints){0} + (second << 16 | (uint16_t)weight[i]));
+    }
+}
+
+INLINE void add_points(int count, const ushorts *value, const ushorts *pair, uints *low, uints *high) {
+    *low = *high = (uints){0};
+    for (int i = 0; i < count; i += 2) add_pair(low, high, value[i], value[i + (i + 1 < count)], pair[i / 2]);
+}
+
+INLINE void load_points(int count, int16_t *const *response, int64_t at, ushorts *value) {
+    for (int i = 0; i < count; i++) value[i] = load(response[i] + at);
+}
+
+INLINE void add_some(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+    ushorts pair[(MAX_FOCI + 1) / 2], value[MAX_FOCI];
+    pair_weights(count, weight, pair);
+    for (int i = 0; i < ROW; i += 8) {
+        uints low, high;
+        load_points(count, response, at + i, value);
+        add_points(count, value, pair, &low, &high);
+        memcpy(sum + i, &low, sizeof low);
+        memcpy(sum + i + 4, &high, sizeof high);
+    }
+}
+
+/* What is given at each point where the weighted sum of the responses is positive: by its response, and by its rest, unless there is none. */
+INLINE void measure_some(int count, int64_t rests, int16_t *const *response, int16_t *const *rest, const int16_t *weight, int64_t *in_band, int64_t *outside) {
+    ushorts pair[(MAX_FOCI + 1) / 2], value[MAX_FOCI];
+    uints given[MAX_FOCI] = {{0}}, beside[MAX_FOCI] = {{0}}, low, high;
+    pair_weights(count, weight, pair);
+    for (int64_t at = 0; at < rests; at += 8) {
+        int64_t first = at + (at & -CHANNELS) * (REST_SAMPLES - 1);
+        ushorts both = {0};
+        for (int sample = 0; sample < REST_SAMPLES; sample++) {
+            load_points(count, response, first + sample * CHANNELS, value);
+            add_points(count, value, pair, &low, &high);
+            ushorts above = above_zero(low, high);
+            for (int i = 0; i < count; i++) given[i] = add_products(given[i], value[i], above);
+            both += above;
+        }
+        if (!rest) continue;
+        for (int i = 0; i < count; i++) beside[i] = add_products(beside[i], load(rest[i] + at), both);
+    }
+    for (int i = 0; i < count; i++) {
+        in_band[i] = -sum_of(given[i]);
+        outside[i] = -sum_of(beside[i]);
+    }
+}
+
+INLINE void write_some(int count, struct work *work, const int16_t *weight) {
+    ushorts pair[(MAX_FOCI + 1) / 2], value[MAX_FOCI], above[4];
+    pair_weights(count, weight, pair);
+    for (int64_t at = 0; at < work->values; at += CHANNELS) {
+        for (int part = 0; part < 4; part++) {
+            uints low, high;
+            load_points(count, work->response, at + 8 * part, value);
+            add_points(count, value, pair, &low, &high);
+            above[part] = above_zero(low, high);
+        }
+        work->words[at / CHANNELS] = word_of(above, 0) ^ work->idle_word;
+    }
+}
+
+/* A function for each number of points, so that they stay in registers. */
+#define BY_COUNT(count, of) \
+    switch (count) { \
+    case 1: of(1); break; \
+    case 2: of(2); break; \
+    case 3: of(3); break; \
+    case 4: of(4); break; \
+    case 5: of(5); break; \
+    case 6: of(6); break; \
+    case 7: of(7); break; \
+    case 8: of(8); break; \
+    case 9: of(9); break; \
+    default: of(10); \
+    }
+
+/* Sums of eight samples. */
+APART void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
+#define ADD(count) add_some(count, response, weight, at, sum)
+    BY_COUNT(count, ADD)
+}
+
+APART void measure_positive(int count, int64_t rests, int16_t *const *response, int16_t *const *rest, const int16_t *weight, int64_t *in_band, int64_t *outside) {
+#define MEASURE_POSITIVE(count) measure_some(count, rests, response, rest, weight, in_band, outside)
+    BY_COUNT(count, MEASURE_POSITIVE)
+}
+
+APART void write_positive(struct work *work, const int16_t *weight) {
+#define WRITE_POSITIVE(count) write_some(count, work, weight)
+    BY_COUNT(work->count, WRITE_POSITIVE)
+}
 
 /* Where sums are above their threshold: -1, else 0. */
 APART void compare(int16_t *restrict above, const int32_t *restrict sum, const int32_t *restrict threshold) {
@@ -669,17 +751,6 @@ APART void compare_one(int16_t *restrict above, const int16_t *restrict response
 
 APART void compare_nothing(int16_t *restrict above, const int32_t *restrict sum) {
     for (int i = 0; i < ROW; i++) above[i] = (int16_t)-(sum[i] > 0);
-}
-
-/* Where sums of eight samples are positive. */
-APART void add_and_compare(int count, int16_t *const *response, const int16_t *weight, int64_t at, int16_t *above) {
-#ifdef __SSE2__
-    add_some(count, response, weight, at, NULL, above);
-#else
-    int32_t sum[ROW];
-    add_up(count, response, weight, at, sum);
-    compare_nothing(above, sum);
-#endif
 }
 
 /* Of values that are a multiple of the channels. */
@@ -762,34 +833,48 @@ static double whole_weights(const struct work *work, const double *weights, int1
     return unit;
 }
 
-enum { WRITE = 1, MEASURE = 2, STRENGTH = 4, NEAR = 8, IN_BAND = 16, FULL = 32 }; /* at full amplitude thresholds are zero */
+enum { WRITE = 1, MEASURE = 2, STRENGTH = 4, NEAR = 8 };
+
+/* Add what the bits of eight samples give at each point. */
+static void measure_row(const struct work *work, int64_t at, const int16_t *above, int64_t *given) {
+    int16_t both[ROW / REST_SAMPLES];
+    for (int sample = 0; sample < GROUP_SAMPLES; sample += REST_SAMPLES)
+        for (int i = 0; i < CHANNELS; i++)
+            both[sample / REST_SAMPLES * CHANNELS + i] = (int16_t)(above[sample * CHANNELS + i] + above[(sample + 1) * CHANNELS + i]);
+    for (int i = 0; i < work->count; i++)
+        given[i] -= inner_product(work->response[i] + at, above, ROW) + inner_product(work->rest[i] + at / REST_SAMPLES, both, ROW / REST_SAMPLES);
+}
 
 /* Where the weighted sum is above its threshold: the words, what they give at each point, the strength of the sum, what is near. */
 static void pass(struct work *work, const int16_t *weight, int to_do) {
     int32_t sum[ROW];
     int16_t above[ROW];
-    int64_t given[MAX_FOCI] = {0}, in_band[MAX_FOCI] = {0};
+    int64_t given[MAX_FOCI] = {0};
     for (int64_t row = 0; row < work->rows; row++) {
         int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
         int samples = left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES;
-        if (to_do & (STRENGTH | NEAR) || (work->count > 1 && !(to_do & FULL))) add_up(work->count, work->response, weight, at, sum);
+        if (to_do & (STRENGTH | NEAR) || work->count > 1) add_up(work->count, work->response, weight, at, sum);
         if (to_do & STRENGTH) add_strength(work->strength + block, sum, samples);
         if (to_do & NEAR) note_near(work, at, samples, sum, block);
         if (!(to_do & (WRITE | MEASURE))) continue;
-        if (work->count > 1 && to_do & FULL)
-            add_and_compare(work->count, work->response, weight, at, above);
-        else if (work->count > 1)
+        if (work->count > 1)
             compare(above, sum, work->threshold + block);
         else
             compare_one(above, work->response[0] + at, work->threshold_of_one + block);
         if (to_do & WRITE) write_words(work, at, samples, above);
-        if (to_do & MEASURE)
-            for (int i = 0; i < work->count; i++) given[i] -= inner_product(work->whole[i] + at, above, samples * CHANNELS);
-        if (to_do & IN_BAND)
-            for (int i = 0; i < work->count; i++) in_band[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
+        if (to_do & MEASURE) measure_row(work, at, above, given);
     }
     for (int i = 0; to_do & MEASURE && i < work->count; i++) work->measured[i] = (double)given[i] / work->divisor[i];
-    for (int i = 0; to_do & IN_BAND && i < work->count; i++) work->in_band[i] = (double)in_band[i] / work->divisor[i];
+}
+
+/* What the bits of full amplitude give at each point, whose thresholds are zero. */
+static void measure_full(struct work *work, const int16_t *weight) {
+    int64_t in_band[MAX_FOCI], outside[MAX_FOCI];
+    measure_positive(work->count, work->rests, work->response, work->rest, weight, in_band, outside);
+    for (int i = 0; i < work->count; i++) {
+        work->measured[i] = (double)(in_band[i] + outside[i]) / work->divisor[i];
+        work->in_band[i] = (double)in_band[i] / work->divisor[i];
+    }
 }
 
 /* A threshold in local strengths, as a factor of those. */
@@ -892,7 +977,7 @@ INLINE int flip_one(struct work *work, int64_t sample, int channel, const double
     int lane = (channel & 16) + (channel & 1) * 8 + (channel & 15) / 2, down = (work->words[sample] ^ work->idle_word) >> channel & 1;
     double change[MAX_FOCI], gained = 0, size = 0;
     for (int i = 0; i < work->count; i++) {
-        int value = work->whole[i][sample * CHANNELS + lane];
+        int value = work->response[i][sample * CHANNELS + lane] + work->rest[i][sample / REST_SAMPLES * CHANNELS + lane];
         change[i] = (down ? -value : value) * unit[i];
         gained += missing[i] * change[i];
         size += change[i] * change[i];
@@ -1049,15 +1134,12 @@ static void correct_balance(struct work *work, const double *share) {
 /* Weights with which all points get about the same share of their maximum in the sketch; 0 where there is nothing to be had. */
 static void balance_sketch(struct work *work) {
     int count = work->count;
-    int16_t whole[MAX_FOCI], above[ROW];
-    int64_t got[MAX_FOCI] = {0};
+    int16_t whole[MAX_FOCI];
+    int64_t got[MAX_FOCI], none[MAX_FOCI];
     double share[MAX_FOCI];
     for (int i = 0; i < count; i++) work->balance[i] = isfinite(work->divisor[i]);
     whole_weights(work, ONES, whole);
-    for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
-        add_and_compare(count, work->sketch, whole, at, above);
-        for (int i = 0; i < count; i++) got[i] -= inner_product(work->sketch[i] + at, above, ROW);
-    }
+    measure_positive(count, work->sketch_rows * ROW / REST_SAMPLES, work->sketch, NULL, whole, got, none);
     for (int i = 0; i < count; i++) share[i] = (double)got[i] / work->divisor[i];
     correct_balance(work, share);
 }
@@ -1090,11 +1172,11 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
         return;
     }
     for (int i = 0; i < work->count; i++) {
-        int16_t *room = (int16_t *)work->strength;
-        int64_t norm = respond(work, patches + i, work->response[i], room);
-        add_outside(work, patches + i, work->response[i], room, 0, work->whole[i]);
+        int64_t norm = respond(work, patches + i, work->response[i], (int16_t *)work->strength);
+        respond_outside(work, patches + i, work->rest[i]);
         work->divisor[i] = norm ? (double)norm : INFINITY;
         memset(work->response[i] + work->values, 0, (size_t)(work->rows * ROW - work->values) * sizeof(int16_t));
+        memset(work->rest[i] + work->rests, 0, (size_t)(work->rows * ROW / REST_SAMPLES - work->rests) * sizeof(int16_t));
     }
     memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
     memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
@@ -1114,16 +1196,19 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
         pass(work, weight, MEASURE | STRENGTH);
         set_wanted(work, asked);
     } else {
-        pass(work, weight, full ? MEASURE | FULL : MEASURE | FULL | IN_BAND);
+        measure_full(work, weight);
         if (!full) set_wanted(work, asked);
         if (full && work->count > FEW_POINTS) {
             correct_balance(work, work->measured);
             whole_weights(work, ONES, weight);
-            pass(work, weight, MEASURE | FULL);
+            measure_full(work, weight);
         }
         correct_balance(work, work->measured);
         unit = whole_weights(work, asked, weight_asked);
-        pass(work, weight_asked, full ? WRITE | FULL : STRENGTH);
+        if (full)
+            write_positive(work, weight_asked);
+        else
+            pass(work, weight_asked, STRENGTH);
     }
     if (!full) solve(work, asked, weight_asked, unit);
 }
@@ -1389,8 +1474,8 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
     room += -(uintptr_t)room % LINE_BYTES;
     for (int i = 0; i < count; i++) {
         work->response[i] = (int16_t *)room;
-        work->whole[i] = work->response[i] + work->rows * ROW;
-        room += 2 * work->rows * ROW * (int64_t)sizeof(int16_t);
+        work->rest[i] = work->response[i] + work->rows * ROW;
+        room += (work->rows * ROW + work->rows * ROW / REST_SAMPLES) * (int64_t)sizeof(int16_t);
     }
     work->sketch_step = plan->block_samples < SKETCHED_PER_BLOCK ? 1 : plan->block_samples / SKETCHED_PER_BLOCK;
     work->sketch_rows = (plan->samples + work->sketch_step * GROUP_SAMPLES - 1) / (work->sketch_step * GROUP_SAMPLES);
@@ -1687,6 +1772,30 @@ APART void sums_of_ring(const int16_t *restrict met, int64_t apart, int16_t *con
     }
 }
 
+INLINE ushorts add_saturated(ushorts a, ushorts b) {
+#ifdef __SSE2__
+    return (ushorts)_mm_adds_epi16((__m128i)a, (__m128i)b);
+#elif defined __ARM_NEON
+    return (ushorts)vqaddq_s16((int16x8_t)a, (int16x8_t)b);
+#else
+    shorts sum;
+    for (int lane = 0; lane < 8; lane++) {
+        int32_t both = (int16_t)a[lane] + (int16_t)b[lane];
+        sum[lane] = (int16_t)(both > INT16_MAX ? INT16_MAX : both < INT16_MIN ? INT16_MIN : both);
+    }
+    return (ushorts)sum;
+#endif
+}
+
+/* A response and what is outside the band, together within 16 bits, less some bits, in its place. */
+APART void add_rests(int16_t *response, const int16_t *rest, int64_t values) {
+    enum { BOTH = REST_SAMPLES * CHANNELS };
+    for (int64_t at = 0; at < values; at += BOTH, rest += CHANNELS)
+        for (int i = 0; i < CHANNELS; i += 8)
+            for (int64_t to = at + i; to < at + BOTH; to += CHANNELS)
+                store(response + to, (ushorts)((shorts)add_saturated(load(response + to), load(rest + i)) >> SUM_SHIFT));
+}
+
 /* The sums of a pad from the patches of its places; `room` begins with the sums and ends with what is met. Returns where it goes on. */
 static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct work *work, const struct patch *patches, int16_t *room) {
     int64_t padded = nulls->rows * ROW, reach = TIMES * nulls->step * CHANNELS, whole = padded + 2 * reach;
@@ -1696,7 +1805,8 @@ static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct
     for (int place = 0; place < PLACES; place++) {
         int16_t *here = met + place * padded;
         respond(work, patches + place, here, beyond);
-        add_outside(work, patches + place, here, beyond, SUM_SHIFT, here);
+        respond_outside(work, patches + place, beyond);
+        add_rests(here, beyond, work->values);
     }
     sums_of_ring(met, padded, sums, nulls->values);
     for (int i = 0; i < SUMS; i++) prepare_still(nulls, still + i);

@@ -64,6 +64,7 @@ SUMS: Final = (  # of what is met in the ring: orthogonal; eight at most, so tha
 )
 SUMS_OF: Final = (len(SUMS), 1, 1, 1)  # of each pad, by the number of pads: more cost the points and are felt no less
 SUM_SHIFT: Final = 3  # bits that responses lose before
+WITHIN: Final = (-(1 << 15), (1 << 15) - 1)  # 16 bits
 MARGIN_WEIGHT_SUM: Final = 4095  # of the points, and 15 times as much for all corrections: below 2^31 together
 CORRECTION_WEIGHT_SUM: Final = 61440
 LARGEST_WEIGHT: Final = 32767
@@ -132,7 +133,7 @@ class _Nulls:
         self._still, kept = [], SUMS[: SUMS_OF[(len(turned) - points) // len(RING) - 1]]
         for first in range(points, len(turned), len(RING)):
             ring = np.array(turned[first : first + len(RING)], np.int32)
-            shorter = bank.whole(ring) >> SUM_SHIFT
+            shorter = np.clip(bank.whole(ring), *WITHIN) >> SUM_SHIFT
             self._still += [np.einsum("p,prc->rc", shares, shorter) for shares in kept]
         self._spent = 0
 

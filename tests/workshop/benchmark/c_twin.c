@@ -593,7 +593,7 @@ static void balanced(const double *divisor, const int16_t *const *response, int 
 {
     const int16_t *sketches[POINTS] = {0};
     int16_t weight[POINTS];
-    double share[POINTS];
+    double share[POINTS] = {0};
     for (int i = 0; i < count; i++) sketches[i] = sketch_of[i];
     whole_weights(divisor, balance, count, weight);
     bits_of_sum(sketches, weight, count, SKETCH);
