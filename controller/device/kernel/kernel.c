@@ -59,6 +59,7 @@ enum {
     ROW = GROUP_SAMPLES * CHANNELS, /* values that are worked on at a time */
     LINE_BYTES = 64,
     STEPS_PER_BLOCK = 12,
+    AHEAD_BYTES = 1024,
 };
 static const double NEARLY = 0.03, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
@@ -211,6 +212,7 @@ INLINE void interpolate_sample(const struct patch *patch, int cells, int64_t at,
         ushorts even = {0}, odd = {0};
         for (int cell = 0; cell < cells; cell++) {
             ushorts levels = load(patch->levels[cell] + at + 16 * half);
+            if (!half) __builtin_prefetch(patch->levels[cell] + at + AHEAD_BYTES); /* the machine does not look beyond a page */
             even += at_even(levels) * weight[cell][2 * half];
             odd += at_odd(levels) * weight[cell][2 * half + 1];
         }
@@ -239,7 +241,7 @@ INLINE uints add_absolute(uints sum, ushorts value) {
 #endif
 }
 
-/* Values of a response of a point, negated in channels that idle high; or half of what is outside the band. */
+/* Values of a response of a point, negated in channels that idle high; or half of what is outside the band: `outside` is 0 or 1. */
 INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int outside, int64_t from, int64_t values, int16_t *out) {
     ushorts weight[4][4], value[4];
     turn_weights(idle_word, cells, outside ? patch->rest_weight : patch->weight, weight);
