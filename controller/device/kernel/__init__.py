@@ -30,6 +30,7 @@ from controller.device.kernel.twin import (
     pack_loads,
     renumber_loads,
     seal_short_frames,
+    start_program,
     statuses_good,
     unpack_loads,
 )
@@ -56,6 +57,7 @@ __all__ = [
     "renumber_loads",
     "room_bytes",
     "seal_short_frames",
+    "start_program",
     "statuses_good",
     "unpack_loads",
 ]
@@ -91,6 +93,7 @@ if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the t
         pack_loads,
         renumber_loads,
         seal_short_frames,
+        start_program,
         statuses_good,
         unpack_loads,
     )

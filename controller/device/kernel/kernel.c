@@ -1,4 +1,4 @@
-/* The compiled kernel: points to drive words, drive words to LOAD frames.
+/* The compiled kernel: points to drive words, drive words to LOAD frames; and a program's start, without waiting for it.
 
    Its specification is words_twin.py, compact_twin.py and twin.py, which do the same in NumPy and Python: the same whole numbers, to the bit, and where
    weights and thresholds are set the same IEEE double arithmetic in the same order (so: no contraction to fused operations, no library
@@ -6,10 +6,16 @@
    vectors of 128 bits, of which compilers make SSE2 and NEON alike. */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
+#include <fcntl.h>
 #include <float.h>
 #include <math.h>
+#include <signal.h>
 #include <stdint.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
 #ifdef __SSE2__
 #include <emmintrin.h>
 #elif defined __ARM_NEON
@@ -2231,6 +2237,48 @@ static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize
     return PyBool_FromLong(good);
 }
 
+/* Pointers to the strings of a tuple of bytes, and a NULL; to be freed by PyMem_Free. */
+static char **strings(PyObject *tuple) {
+    Py_ssize_t count = PyTuple_Size(tuple);
+    if (count < 0) return NULL;
+    char **all = PyMem_Calloc((size_t)count + 1, sizeof *all);
+    if (!all) return (char **)PyErr_NoMemory();
+    for (Py_ssize_t at = 0; at < count; at++)
+        if (!(all[at] = PyBytes_AsString(PyTuple_GetItem(tuple, at)))) {
+            PyMem_Free(all);
+            return NULL;
+        }
+    return all;
+}
+
+static PyObject *start_program(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    (void)module;
+    if (given != 3) return PyErr_Format(PyExc_TypeError, "start_program takes 3 arguments, not %zd", given);
+    int input = (int)PyLong_AsLong(arguments[2]);
+    if (input == -1 && PyErr_Occurred()) return NULL;
+    char **command = strings(arguments[0]);
+    char **environment = command ? strings(arguments[1]) : NULL;
+    PyObject *answer = NULL;
+    if (environment) {
+#ifdef __linux__
+        /* In the new process there are no other threads, whose locks it might wait for: until the program begins it makes system calls
+           alone. Not by fork(): handlers of libraries would run before it; those of OpenBLAS end its threads. */
+        long process = syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0);
+        if (process == 0) {
+            int nothing = open("/dev/null", O_WRONLY);
+            if (dup2(input, 0) == 0 && dup2(nothing, 1) == 1) execve(command[0], command, environment);
+            _exit(127);
+        }
+        answer = PyLong_FromLong(process);
+#else
+        PyErr_SetString(PyExc_NotImplementedError, "start_program is for Linux");
+#endif
+    }
+    PyMem_Free(command);
+    PyMem_Free(environment);
+    return answer;
+}
+
 static PyMethodDef methods[] = {
     {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
     {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, bank, points, polarities=None)"},
@@ -2239,6 +2287,7 @@ static PyMethodDef methods[] = {
     {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},
     {"unpack_loads", (PyCFunction)(void (*)(void))unpack_loads, METH_FASTCALL, "unpack_loads(words, ready)"},
     {"seal_short_frames", (PyCFunction)(void (*)(void))seal_short_frames, METH_FASTCALL, "seal_short_frames(out, start, count, sequence)"},
+    {"start_program", (PyCFunction)(void (*)(void))start_program, METH_FASTCALL, "start_program(command, environment, standard_input)"},
     {NULL, NULL, 0, NULL},
 };
 

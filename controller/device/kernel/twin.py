@@ -10,6 +10,7 @@ changes from s to t changes its CRC by a constant of its length and of `s ^ t`, 
 
 from __future__ import annotations
 
+import os
 import struct
 import zlib
 from functools import cache
@@ -222,3 +223,17 @@ def _room(out: Writable, total: int) -> memoryview:
     if room.nbytes < total:
         raise ValueError(f"{total} bytes of frames do not fit into {room.nbytes}")
     return room[:total]
+
+
+def start_program(command: tuple[bytes, ...], environment: tuple[bytes, ...], standard_input: int) -> int:
+    """Start a program with this file as its standard input, /dev/null as its output; its process id, or -1 if there can be none.
+
+    `environment` has names, "=" and values. The compiled one, unlike this, does not wait until the new process was scheduled, which
+    can take long for one of ordinary priority; a program that cannot be run ends there with 127, and is -1 here.
+    """
+    files = [(os.POSIX_SPAWN_DUP2, standard_input, 0), (os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
+    values = dict(line.split(b"=", 1) for line in environment)
+    try:
+        return os.posix_spawn(command[0], command, values, file_actions=files)
+    except OSError:
+        return -1

@@ -163,7 +163,7 @@ def test_what_a_process_waited_for_a_processor_is_what_the_kernel_counts():
 def test_no_process_left_is_a_refusal(preparer, monkeypatch):
     os.kill(preparer.helper.process.pid, signal.SIGKILL)
     os.waitid(os.P_PID, preparer.helper.process.pid, os.WEXITED | os.WNOWAIT)
-    monkeypatch.setattr(helper_process, "_fork", lambda: -1)
+    monkeypatch.setattr(helper_process, "start_program", lambda *_: -1)
     assert prepared(preparer, line(*rectangles())) == "there is no process that checks regions"
     monkeypatch.undo()
     works(preparer)

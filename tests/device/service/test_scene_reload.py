@@ -187,7 +187,7 @@ def test_a_helper_that_hangs_is_ended_and_the_next_change_is_made(changer, monke
 def test_no_process_left_is_a_refusal_and_not_the_end(changer, monkeypatch):
     os.kill(changer.helper.process.pid, signal.SIGKILL)
     os.waitid(os.P_PID, changer.helper.process.pid, os.WEXITED | os.WNOWAIT)
-    monkeypatch.setattr(helper_process, "_fork", lambda: -1)
+    monkeypatch.setattr(helper_process, "start_program", lambda *_: -1)
     changer.begin("scene", 4)
     done = changer.take()
     assert (done.ticket, done.scene, done.reason) == (4, None, "there is no process that prepares scenes")

@@ -6,9 +6,8 @@ long for one of ordinary priority.
 
 from __future__ import annotations
 
-import ctypes
+import contextlib
 import os
-import resource
 import signal
 import socket
 import sys
@@ -17,13 +16,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from controller.device.kernel import start_program
 from controller.device.service.scenes.message_frame import HEADER, MessageError, length
 
 T = TypeVar("T")
 
 GRACE_S = 5.0  # after the limit, until a helper counts as hanging: it may still be importing, or reading the bank from a slow card
 CHUNK_BYTES = 1 << 16  # read in one turn of the loop
-MOST_FILES = 1 << 20  # file descriptors to close in the helper if their number is unlimited
 PROGRAM = (
     "import sys; sys.path.insert(0, {!r});"
     " from controller.device.service.scenes.scene_helper_process import main; main(sys.argv[1], float(sys.argv[2]))"
@@ -48,30 +47,20 @@ class HelperProcess:
         return None if self.socket is None else self.socket.fileno()
 
     def start(self) -> None:
-        """Start a helper; on failure there is none. fork does not wait for the new process; vfork and posix_spawn do."""
+        """Start a helper; on failure there is none."""
         try:
             ours, theirs = socket.socketpair()
         except OSError:  # no file is left: the loop goes on without
             return
         folder = str(Path(__file__).resolve().parents[4])
         command = [sys.executable, "-I", "-c", PROGRAM.format(folder), *self._arguments]
-        files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
-        files = MOST_FILES if files == resource.RLIM_INFINITY else files
-        pid = _fork()
+        pid = start_program(tuple(map(os.fsencode, command)), _environment(), theirs.fileno())
+        theirs.close()
         if pid < 0:  # no memory, or too many processes
             ours.close()
-            theirs.close()
             return
-        if pid == 0:
-            try:
-                os.dup2(theirs.fileno(), 0)
-                os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-                os.closerange(3, files)
-                os.sched_setaffinity(0, self._cpus)  # the loop may have its own core by now
-                os.execve(command[0], command, _environment())
-            finally:
-                os._exit(127)
-        theirs.close()
+        with contextlib.suppress(OSError):  # it has ended already
+            os.sched_setaffinity(pid, self._cpus)  # the loop may have its own core by now
         ours.setblocking(False)
         self.pid, self.socket = pid, ours
 
@@ -198,18 +187,8 @@ def starved_s(pid: int) -> float:
         return 0.0
 
 
-def _fork() -> int:
-    """Fork before an exec; below 0 on failure. _Fork does not run fork handlers; those of OpenBLAS would free its memory."""
-    plain = getattr(ctypes.PyDLL(None), "_Fork", None)  # glibc 2.34
-    if plain is not None:
-        return int(plain())
-    try:
-        return os.fork()
-    except OSError:
-        return -1
-
-
-def _environment() -> dict[str, str]:
+def _environment() -> tuple[bytes, ...]:
     """Environment of the helper: without the service manager's variables, with OpenBLAS limited to one thread."""
-    notify = {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}
-    return {name: value for name, value in os.environ.items() if name not in notify} | {"OPENBLAS_NUM_THREADS": "1"}
+    notify = {b"NOTIFY_SOCKET", b"WATCHDOG_USEC", b"WATCHDOG_PID", b"OPENBLAS_NUM_THREADS"}
+    kept = (name + b"=" + value for name, value in os.environb.items() if name not in notify)
+    return (*kept, b"OPENBLAS_NUM_THREADS=1")

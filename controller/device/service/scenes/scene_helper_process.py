@@ -7,14 +7,18 @@ from __future__ import annotations
 
 import contextlib
 import os
+import resource
 import signal
 import socket
 
 NICE = 5
+MOST_FILES = 1 << 20  # to close, if their number is unlimited
 
 
 def main(what: str, limit_s: float) -> None:
     """Serve the socket on standard input: "scenes" or "layers" are prepared, each within `limit_s`."""
+    files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+    os.closerange(3, MOST_FILES if files == resource.RLIM_INFINITY else files)  # of libraries, whose files an exec does not close
     # Meant for the loop, with which this process ends.
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
         signal.signal(number, signal.SIG_IGN)
