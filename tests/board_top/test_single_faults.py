@@ -71,7 +71,7 @@ class Host:
         self.pi = pi
         self.board = pi.board
         self.outputs = sum(channel_pins()) | signal_pins()["hv_enable"]
-        self.link = SpiLink(ULX3S.link, pi.now_s)
+        self.link = SpiLink(pi.files.board.link, pi.now_s)
         self.session = Session(self.link, pi.files.board, build_hash(data_folder("fpga_rtl")), pi.now_s)
         self.session.exchange.write(Register.HEARTBEAT_TICKS, round(TIMEOUT_S * pi.files.board.link.clock_hz))
         self.session.exchange.write(Register.RAMP_SAMPLES, RAMP_SAMPLES)
@@ -316,7 +316,7 @@ def test_one_thing_broken(pi, what):
 def test_one_thing_broken_at_the_start(pi, what):
     AT_THE_START[what](pi)
     with pytest.raises(ControllerError) as caught:
-        Session(SpiLink(ULX3S.link, pi.now_s), pi.files.board, build_hash(data_folder("fpga_rtl")), pi.now_s)
+        Session(SpiLink(pi.files.board.link, pi.now_s), pi.files.board, build_hash(data_folder("fpga_rtl")), pi.now_s)
     assert not pi.board.levels & (sum(channel_pins()) | signal_pins()["hv_enable"])
     said = re.match(r"[^:,.]+", str(caught.value))[0]
     assert ("stay off", "–", f"exit {caught.value.exit_code}: {said}") == reported(pi.name)[what]

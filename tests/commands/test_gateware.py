@@ -170,8 +170,8 @@ def test_a_clock_without_a_constraint_and_an_sck_above_its_own_are_refused(tools
     with pytest.raises(GatewareError, match=r"no constraint for the clock SCK: give it one in the \.lpf"):
         bitstream_build.read_report(free, 1, b"")
     text = (panel / "board.toml").read_text()
-    (panel / "board.toml").write_text(re.sub(r"^sck_hz = [\d_]+", "sck_hz = 26_000_000", text, flags=re.MULTILINE))
-    assert "sck_hz = 26000000, but" in said(capsys, "build", "--board", panel, "--out", "own.bit", code=78)
+    (panel / "board.toml").write_text(re.sub(r"^sck_hz = [\d_]+", "sck_hz = 28_000_000", text, flags=re.MULTILINE))
+    assert "sck_hz = 28000000, but" in said(capsys, "build", "--board", panel, "--out", "own.bit", code=78)
 
 
 def test_the_identity_is_that_of_the_content_and_of_nothing_else(tools, panel, capsys, tmp_path, monkeypatch):
@@ -229,15 +229,15 @@ def test_a_missed_sck_is_what_counts():
 
 
 def test_an_answer_that_comes_too_late_for_the_host_is_refused(tools, panel, capsys):
-    """Half a period of 25 MHz has 20 ns, of which pads and host take 13."""
-    tools.miso_ns = 6.9
+    """Half a period of 27.8 MHz has 18 ns, of which pads and host take 13."""
+    tools.miso_ns = 4.9
     assert main(["gateware", "build", "--board", "ulx3s"]) == 0
-    assert "; MISO 6.9 ns behind the fall of SCK" in capsys.readouterr().out
+    assert "; MISO 4.9 ns behind the fall of SCK" in capsys.readouterr().out
     assert main(["gateware", "info", "build/ulx3s.bit"]) == 0
-    assert "; MISO 6.9 ns behind the fall of SCK" in capsys.readouterr().out
-    tools.miso_ns = 7.1
+    assert "; MISO 4.9 ns behind the fall of SCK" in capsys.readouterr().out
+    tools.miso_ns = 5.1
     line = said(capsys, "build", "--board", "ulx3s", "--out", "late.bit", code=1)
-    assert "MISO comes 7.1 ns behind the fall of SCK, and 13 ns later to the host's flip-flop" in line
+    assert "MISO comes 5.1 ns behind the fall of SCK, and 13 ns later to the host's flip-flop" in line
     assert not Path("late.bit").exists()
     text = (panel / "board.toml").read_text()
     (panel / "board.toml").write_text(re.sub(r"^sck_hz = [\d_]+", "sck_hz = 20_000_000", text, flags=re.MULTILINE))

@@ -474,7 +474,7 @@ RANDOM = {
     "limits__max_edge_rate_hz": Numbers(1e-9, 1e300),
     "limits__resistor_rating_w": Numbers(1e-9, 100),
     "limits__derating": Numbers(1e-9, 1),
-    "link__clock_hz": st.integers(50_000_000, 400_000_000),
+    "link__clock_hz": st.integers(56_000_000, 400_000_000),
     "link__spi_source_hz": st.integers(1_000_000, 1_000_000_000),
     "temperature": st.builds(
         Temperature,

@@ -76,7 +76,7 @@ def test_a_pi_set_up_as_the_page_says_has_nothing_to_mend(found):
         ("boot/firmware/config.txt", "[pi3]\n[all]\ncore_freq_min=500\n", "core clock", "ok", "500 MHz"),
         ("boot/firmware/config.txt", "core_freq_min=500\ncore_freq_min=250\n", "core clock", "NOT OK", "core_freq_min=500"),
         ("sys/module/spi_bcm2835/parameters/polling_limit_us", "30", "SPI polling", "WARNING", "spi_bcm2835.polling_limit_us=250"),
-        ("sys/module/spi_bcm2835/parameters/polling_limit_us", "184", "SPI polling", "WARNING", "spi_bcm2835.polling_limit_us=250"),
+        ("sys/module/spi_bcm2835/parameters/polling_limit_us", "165", "SPI polling", "WARNING", "spi_bcm2835.polling_limit_us=250"),
         ("sys/module/spi_bcm2835/parameters/polling_limit_us", "200", "SPI polling", "ok", "no interrupt"),
         ("sys/devices/system/cpu/cpu3/cpufreq/scaling_governor", "ondemand", "governor", "WARNING", "default_governor=performance"),
         ("sys/devices/system/cpu/isolated", "\n", "isolated core", "WARNING", "isolcpus=3 irqaffinity=0-2"),

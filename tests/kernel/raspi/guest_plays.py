@@ -96,7 +96,7 @@ def play_loop(board, clock, session, bank):
 
 
 def main():
-    board = load_board(find_board("colorlight_i5"))
+    board = load_board(find_board("ulx3s"))
     clock = MonotonicClock()
     link = SpiLink(board.link, clock.now_s)
     session = open_session(link, board, clock.now_s)

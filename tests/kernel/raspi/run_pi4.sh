@@ -30,7 +30,7 @@ from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-build_bank(BankRequest(load_board(find_board("colorlight_i5")), Path(sys.argv[1]), 10e-3))
+build_bank(BankRequest(load_board(find_board("ulx3s")), Path(sys.argv[1]), 10e-3))
 P
 wheel_of() { # FORM VARIABLES...: the wheel for aarch64, unpacked as a form of the package
   local form=$1
@@ -89,5 +89,5 @@ boot() { # NAME FAR_END SETTINGS PARTS...: one life of the machine
 }
 
 boot probe plain "" "$machine/small.cpio" <(cd "$run/tree" && find init | cpio -o -H newc --quiet)
-boot product colorlight_i5 "spidev.bufsiz=8192 spi_bcm2835.polling_limit_us=250" \
+boot product ulx3s "spidev.bufsiz=8192 spi_bcm2835.polling_limit_us=250" \
   "$machine"/{small,userland,wheels}.cpio "$run/package.cpio"

@@ -121,7 +121,7 @@ def test_doctor_misses_a_touch_panel_and_a_bank_and_nothing_else(product):
 
 @cache
 def entry(bank, cell):
-    with Bank.open(bank, load_board(find_board("colorlight_i5"))) as opened:
+    with Bank.open(bank, load_board(find_board("ulx3s"))) as opened:
         return hashlib.sha256(opened.drive.words(cell)).hexdigest()
 
 

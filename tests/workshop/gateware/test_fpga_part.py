@@ -82,7 +82,7 @@ def test_an_sck_that_its_clocks_do_not_allow_is_refused(name, tmp_path):
     ("changes", "said"),
     [
         (
-            [("clock_hz = 62_500_000", "clock_hz = 50_000_000"), ("sck_hz = 25_0", "sck_hz = 20_0")],
+            [("clock_hz = 62_500_000", "clock_hz = 50_000_000"), ("sck_hz = 27_7", "sck_hz = 20_7")],
             "link.clock_hz = 50000000, but ",
         ),
         (
