@@ -152,7 +152,7 @@ def _even(places_m: Floats) -> Floats | None:
     means = np.array([some.mean() for some in np.split(ordered, np.flatnonzero(apart) + 1)])
     pitch_m = float(np.median(np.diff(means)))
     count = round((means[-1] - means[0]) / pitch_m) + 1
-    step_m = float(means[-1] - means[0]) / max(count - 1, 1)
+    step_m = float(means[-1] - means[0]) / (count - 1)
     found = np.array([float(means[0]) + index * step_m for index in range(count)])
     off_m = np.abs(found - places_m[:, None]).min(axis=1)
     return found if count > 2 and off_m.max() <= OFF_PLACE * pitch_m else None

@@ -15,7 +15,7 @@ from controller.device.scene.spacings import Spacing
 from controller.device.scene.trains import Train
 
 ASK = {"kind": "describe", "id": 1}
-SHAPES = Rectangle(0.01, 0.02, 0.05, 0.03), Circle(0.06, 0.05, 0.01), Polygon(((0.0, 0.0), (0.1, 0.0), (0.1, 0.1)))
+SHAPES = Rectangle(0.01, 0.02, 0.05, 0.03), Circle(0.06, 0.05, 0.01 / 3), Polygon(((0.0, 0.0), (0.1, 0.0), (0.1, 0.1)))
 SCENE = Scene(
     (
         Region("bar", SHAPES[0], press=(Train(),), leave=(Train(),)),
@@ -56,7 +56,7 @@ def test_regions_are_described_with_the_keys_of_a_scene_and_their_occasions(pane
         },
         {
             "name": "spot",
-            "shape": {"shape": "circle", "x_mm": 60.0, "y_mm": 50.0, "radius_mm": 10.0},
+            "shape": {"shape": "circle", "x_mm": 60.0, "y_mm": 50.0, "radius_mm": 3.333333},
             "occasions": ["move", "always"],
         },
         {

@@ -5,7 +5,7 @@ import json
 from device.application_socket.test_readme import conversations
 from tables import each_row
 
-from controller.device.application_socket.protocol.schema import protocol_schema
+from controller.device.application_socket.protocol.schema import protocol_schema, protocol_schema_text
 
 SCHEMA = json.loads(json.dumps(protocol_schema()))
 REGION = {"name": "a", "shape": "plate", "effects": ["click"]}
@@ -23,6 +23,7 @@ def fits(side, value):
 
 
 def test_it_is_a_schema():
+    assert json.loads(protocol_schema_text()).keys() == SCHEMA.keys()
     validator_of(SCHEMA).check_schema(SCHEMA)
 
 

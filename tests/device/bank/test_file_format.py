@@ -109,6 +109,8 @@ def test_a_header_comes_back_as_it_was():
     found, sections = parse(header.pack(header.sections()), header.file_bytes)
     assert found == header
     assert tuple(sections.values()) == header.sections()
+    shortest = small_header(samples=1)
+    assert parse(shortest.pack(shortest.sections()), shortest.file_bytes)[0] == shortest
 
 
 def test_a_flip_of_any_bit_of_the_header_is_noticed():
@@ -140,6 +142,7 @@ TABLE = 184
         (TABLE + 24, struct.pack("<Q", 1 << 40), "does not fit"),
         (TABLE + 40, struct.pack("<I", 2), "does not fit"),  # stride
         (120, struct.pack("<d", np.nan), "cannot be"),  # pitch
+        (120, struct.pack("<d", 0.0), "has a grid or bit clock"),
         (164, struct.pack("<I", 16), "does not allow"),  # channels
         (160, struct.pack("<I", 0), "does not allow"),  # samples
         (160, struct.pack("<I", 1001), "does not allow"),

@@ -242,6 +242,8 @@ def test_words_stay_when_the_bank_is_closed_but_nothing_more_is_mapped(path, mak
     assert words == drive_words(responses[0], IDLE_WORD).tobytes()
     with pytest.raises(ValueError, match="closed"):
         bank.responses.response(0)
+    with pytest.raises(ValueError, match="the bank is closed"):
+        bank.file.map("drive")
 
 
 @each_row("granularity", [4096, 16384, 65536], afresh=[path])

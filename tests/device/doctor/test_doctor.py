@@ -5,7 +5,9 @@ import os
 import pwd
 import re
 import resource
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 
 import msgspec
 import pytest
@@ -14,7 +16,7 @@ from tables import each_row
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.device.bank.provenance import Provenance, SourceFile
-from controller.device.board import lookup
+from controller.device.board import gpio_chip, lookup
 from controller.device.board.board import load_board
 from controller.device.board.devices import LinkSettings, Realtime, Temperature
 from controller.device.board.lookup import find_board
@@ -32,6 +34,7 @@ from controller.device.touch.drivers import screen
 from controller.device.touch.panels.ft5x06 import Ft5x06Touch
 from controller.device.touch.panels.linux_input import LinuxInputTouch
 from controller.device.touch.panels.serial_panel import EloTouch
+from controller.errors import LinkError
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.gateware.gateware import Permit
@@ -65,6 +68,7 @@ def test_each_absent_device_of_a_board_is_reported(board, monkeypatch, tmp_path)
     monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path))
     touch = Ft5x06Touch(bus="/dev/i2c-none", interrupt_chip="none", interrupt_line="INT", width=800, height=480, **AXES)
     temperature = Temperature(kind="lm75", device="/dev/i2c-none", coefficient_per_k=-1e-4)
+    monkeypatch.setattr(doctor, "_responses", lambda _: "read")
     findings = look(with_tables(board, link=SPI, touch=touch, temperature=temperature), VirtualClock().now_s)
     assert [finding.about for finding in findings] == [
         "user",
@@ -75,6 +79,7 @@ def test_each_absent_device_of_a_board_is_reported(board, monkeypatch, tmp_path)
         "scene",
         "bank",
         "temperature",
+        "responses",
         "priority",
         "locked memory",
     ]
@@ -84,6 +89,14 @@ def test_each_absent_device_of_a_board_is_reported(board, monkeypatch, tmp_path)
     assert "no temperature sensor answers at /dev/i2c-none, address 0x48" in said(findings, "temperature")[1]
     assert said(findings, "scene")[0]
     assert all("\n" not in finding.said for finding in findings)
+    monkeypatch.setattr(gpio_chip, "find_chip", lambda *_: "/dev/gpiochip0")
+    monkeypatch.setattr(gpio_chip, "find_lines", lambda *_: {"GPIO25": 25})
+    for consumer, by in (("", "the kernel"), ("oscilloscope", "oscilloscope")):
+        info = SimpleNamespace(used=True, consumer=consumer)
+        chip = nullcontext(SimpleNamespace(get_line_info=lambda _, info=info: info))
+        monkeypatch.setattr("gpiod.Chip", lambda _, chip=chip: chip)
+        with pytest.raises(LinkError, match=f"line 'GPIO25' is in use by {by}: end it"):
+            doctor._lines(SPI)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from tables import each_row
 from controller.device.fpga import frames
 from controller.device.fpga.exchange import COMMANDS
 from controller.device.fpga.frames import FRAME_BYTES, Play, ReadyFrames
-from controller.device.fpga.play_messages import PlayMessages
+from controller.device.fpga.play_messages import PlayMessages, _pattern
 from controller.device.fpga.registers import Control, Start
 from controller.device.kernel import load_frames_bytes, pack_loads
 
@@ -108,3 +108,6 @@ def test_a_waveform_of_another_length_is_refused(panel, waveform):
         messages.upload(0, 0, waveform)
     with pytest.raises(ValueError, match="as the board's waveforms have"):
         messages.upload_and_play(0, Play(0, start=Start.NOW), waveform, stop=False)
+    assert len(_pattern((), [bytearray(FRAME_BYTES)] * COMMANDS, None).lengths) == COMMANDS, "as many as the buffer has room for"
+    with pytest.raises(AssertionError):
+        _pattern((), [bytearray(FRAME_BYTES)] * (COMMANDS + 1), None)

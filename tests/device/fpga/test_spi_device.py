@@ -3,11 +3,16 @@
 import errno
 import time
 
+import msgspec
 import pytest
 
 from controller.device.board.devices import LinkSettings
 from controller.device.fpga.links import spi_link
 from controller.errors import LinkError
+
+SETTINGS = LinkSettings(
+    kind="spi", clock_hz=62_500_000, sck_hz=25_000_000, slots=4, device="/dev/null", gpio_chip="none", trigger_line="GPIO25"
+)
 
 
 class Opened(Exception):
@@ -26,11 +31,8 @@ class SpiDev36:
 def opened(monkeypatch, device):
     """Bus and chip select for a device of board.toml."""
     monkeypatch.setattr(spi_link.spidev, "SpiDev", SpiDev36)
-    settings = LinkSettings(
-        kind="spi", clock_hz=62_500_000, sck_hz=25_000_000, slots=4, device=device, gpio_chip="none", trigger_line="GPIO25"
-    )
     with pytest.raises((Opened, LinkError)) as raised:
-        spi_link.SpiLink(settings, time.monotonic)
+        spi_link.SpiLink(msgspec.structs.replace(SETTINGS, device=device), time.monotonic)
     return raised.value
 
 
@@ -55,3 +57,8 @@ def test_another_device_is_refused(monkeypatch):
     assert str(opened(monkeypatch, "/dev/null")) == (
         "/dev/null is /dev/null, which is no device of spidev: give /dev/spidevB.C, or a link to it"
     )
+    link = object.__new__(spi_link.SpiLink)
+    link._settings = SETTINGS
+    for sck_hz in (-1, 0, 25_000_001):
+        with pytest.raises(ValueError, match="is not 1 to the board's 25000000"):
+            link.set_sck_hz(sck_hz)

@@ -52,6 +52,8 @@ def test_one_place_cannot_have_two_amplitudes_at_once():
 def test_an_emission_too_near_a_chosen_one_waits_and_the_next_is_chosen():
     due = emission("a", 60), emission("b", 63, amplitude=0.5), emission("c", 100), emission("d", 103, amplitude=0.5)
     assert chosen_of(*due) == ["a", "c"]
+    here, exactly = (Emission(0.0, x_m, 0.0, None, "r", 0.5 + bool(x_m) / 2, x_m) for x_m in (0.0, SEPARATION_M))
+    assert chosen_of(here, exactly) == [0.0, SEPARATION_M]
 
 
 def test_of_a_crowd_each_has_three_others_near_and_the_rest_waits():

@@ -154,6 +154,9 @@ def test_a_texture_is_felt_by_the_way_on_its_layer(empty):
     active.move(66e-3, 60e-3, 0.0)
     assert crossings(active, [67.9]) == []
     assert crossings(active, [68.1]) == [68.1]
+    active.move(72e-3, 60e-3, 0.0)
+    active.change_layers(empty.under((layer(rectangle("other", 0, 5), texture),)))
+    assert crossings(active, [73.2]) == [73.2], "of the layer by its number, which is another one now"
 
 
 def test_a_command_at_a_point_goes_on_whatever_lies_on_top(empty):

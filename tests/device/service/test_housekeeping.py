@@ -16,6 +16,7 @@ from controller.device.service.systemd import Notifier, Watchdog
 from controller.device.service.temperature import Thermometer
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch.recordings.replay import RecordingSource
+from controller.device.touch.reports import off_plate_warning
 from controller.workshop.gateware.simulated_link import open_simulated
 
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
@@ -112,3 +113,5 @@ def test_some_touches_off_the_plate_are_not_reported(kept, taps, shift_mm):
     """The panel reaches beyond the glass; or there were too few to know."""
     *_, log = kept({}, taps, shift_mm=shift_mm)
     assert "off the plate" not in log
+    assert off_plate_warning(10, 5) == "", "half of them"
+    assert off_plate_warning(10, 6).startswith("6 of 10 positions lie off the plate")

@@ -71,8 +71,13 @@ def test_not_while_the_loop_is_an_ordinary_process(host):
         assert host.policy == os.SCHED_OTHER
 
 
-def test_a_loop_that_is_gone_or_ordinary_is_not_above(bank, preparer):  # noqa: F811
+def test_a_loop_that_is_gone_or_ordinary_is_not_above(bank, preparer, monkeypatch):  # noqa: F811
     assert not realtime_share._above_us(os.getpid())
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "sched_getscheduler", lambda _: os.SCHED_FIFO)
+        for beyond, above in ((1, True), (0, False), (-1, False)):
+            patched.setattr(os, "sched_getparam", lambda _, beyond=beyond: os.sched_param(realtime_share.PRIORITY + beyond))
+            assert realtime_share._above_us(1) is above
     works(preparer)
     pid = preparer.helper.process.pid
     assert os.sched_getscheduler(pid) == os.SCHED_OTHER

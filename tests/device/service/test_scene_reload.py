@@ -6,6 +6,7 @@ import shutil
 import signal
 import socket
 from pathlib import Path
+from types import SimpleNamespace
 
 import msgspec
 import pytest
@@ -14,8 +15,8 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device.bank.reader import Bank
-from controller.device.scene.scene import Scene, load_scene
-from controller.device.service.scenes import helper_process, message_frame, scene_reload
+from controller.device.scene.scene import FixedEmitter, Scene, load_scene
+from controller.device.service.scenes import helper_process, message_frame, prepare_scene, scene_reload
 from controller.device.service.scenes.helper_process import HelperProcess
 from controller.device.service.scenes.message_frame import HEADER, MOST_BYTES, MessageError, board_of
 from controller.device.service.scenes.prepare_scene import populate
@@ -262,6 +263,10 @@ def test_a_bank_that_lacks_what_the_scene_reaches_is_refused(board, bank, folder
     with Bank.open(file, board) as small, pytest.raises(BankError, match="has no entry for"):
         populate(small, scene, "scene.toml")
     assert populate(bank, scene, "scene.toml") == bank.grid.cells
+    without = SimpleNamespace(wave_scale=1.0, drive=SimpleNamespace(compositions=()))
+    one = FixedEmitter(0.06, 0.05, 25.0, "spot")
+    for emitters, served in (((), True), ((one,), True), ((one._replace(amplitude=0.5),), False), ((one, one), False)):
+        assert prepare_scene._emitters_composed(without, SimpleNamespace(emitters=emitters)) is served
 
 
 def test_at_the_start_every_entry_is_checked_and_no_response_is_read(board, bank_file, folder):

@@ -228,8 +228,22 @@ def test_a_sample_has_the_time_of_its_edge(bench):
     edge_s = bench.now_s
     bench.touch({0: (100, 200)})
     bench.now_s += 4e-3
+    chip = type(bench._opened[-1]._chip)
+    fetch, meanwhile = chip.fetch, [{0: (110, 200)}]
+
+    def fetched(*given):
+        contacts = fetch(*given)
+        if meanwhile:
+            bench.touch(meanwhile.pop())
+        return contacts
+
+    bench._monkeypatch.setattr(chip, "fetch", fetched)
     (sample,) = source.read(bench.now_s)
     assert sample.time_s == pytest.approx(edge_s, abs=1e-8)
+    edge_s = bench.now_s
+    bench.now_s += 2e-3
+    (sample,) = source.read(bench.now_s)
+    assert sample.time_s == pytest.approx(edge_s, abs=1e-8), "its edge came while the report before was read"
 
 
 def test_without_an_edge_an_idle_panel_is_asked_ten_times_a_second_and_a_touched_one_every_30_ms(bench):

@@ -1,5 +1,6 @@
 """`LinuxInput` on a pipe in place of an event device: one report a read, however many wait, and the state after a loss."""
 
+import errno
 import os
 import select
 from types import SimpleNamespace
@@ -7,9 +8,10 @@ from types import SimpleNamespace
 import pytest
 
 from controller.device.touch import event_codes as ev
-from controller.device.touch.drivers import event_device
+from controller.device.touch.drivers import event_device, input_device
 from controller.device.touch.drivers.event_device import BUFFERED_EVENTS, INPUT_EVENT, LinuxInput
 from controller.device.touch.event_reader import AxisInfo, DeviceDescription
+from controller.errors import TouchError
 
 END, DROPPED, PACKET = (ev.EV_SYN, ev.SYN_REPORT, 0), (ev.EV_SYN, ev.SYN_DROPPED, 0), (ev.EV_SYN, ev.SYN_MT_REPORT, 0)
 STATE = [PACKET, END]  # of protocol A, of which the kernel keeps none
@@ -40,7 +42,7 @@ def read(reader):
     return [event[:3] for event in events]
 
 
-def test_each_read_gives_one_report_and_the_time_for_the_next_is_now_while_one_waits(panel):
+def test_each_read_gives_one_report_and_the_time_for_the_next_is_now_while_one_waits(panel, monkeypatch):
     reader, send = panel
     assert (read(reader), reader.next_time_s()) == ([], None)
     send(x(1), END, x(2), PACKET, x(3), END, x(4))
@@ -48,6 +50,19 @@ def test_each_read_gives_one_report_and_the_time_for_the_next_is_now_while_one_w
     assert read(reader) == [x(2), PACKET, x(3), END]
     assert (read(reader), reader.next_time_s()) == ([x(4)], None)
     assert not reader.warnings
+    # What is refused once it is open is closed again
+    closed = []
+
+    def refuse(error):
+        raise error
+
+    for error in (OSError(errno.EBUSY, "Device or resource busy"), ValueError("no axes")):
+        device = SimpleNamespace(fd=-1, name="panel", grab=lambda error=error: refuse(error), close=lambda: closed.append(1))
+        monkeypatch.setattr(input_device.evdev, "InputDevice", lambda _, device=device: device)
+        monkeypatch.setattr(input_device, "_describe", lambda _: None)
+        with pytest.raises(TouchError):
+            input_device.open_touch_device("/dev/input/event9", grab=True)
+    assert closed == [1, 1]
 
 
 def test_a_report_longer_than_40_events_comes_in_parts(panel):

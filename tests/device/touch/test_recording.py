@@ -187,6 +187,8 @@ def test_the_extent_is_that_of_possible_positions_only():
     other = "E: 0.1 0003 0035 99999999999\nE: 0.1 0003 0036 -99999999999\nE: 0.1 0004 0035 9999\n"
     recording = Recording(TAP + other)
     assert (recording.x, recording.y) == (AxisRange(250, 250), AxisRange(125, 125))
+    nowhere = Recording(HEADER + "E: 0 0003 0039 5\nE: 0 0000 0000 0\n")
+    assert (nowhere.x, nowhere.y) == (AxisRange(0, 0), AxisRange(0, 0))
 
 
 def test_slots_beyond_the_declared_ones_are_reported():

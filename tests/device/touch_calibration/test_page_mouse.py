@@ -63,6 +63,7 @@ def test_the_lag_is_found_within_what_is_said_and_an_error_of_a_hundredth_of_the
 def test_a_clock_of_the_other_sign_finds_nothing():
     finger, mouse = strokes()
     seen, _ = told(mouse).track()
+    assert np.array_equal(seen.places, mouse.places)
     with pytest.raises(CalibrationError):
         lag_of(finger, TimedPlaces(seen.at_s - 2 * OFFSET_S, seen.places))
     with pytest.raises(CalibrationError, match="did not move together"):

@@ -108,6 +108,8 @@ def test_a_resident_waveform_of_one_point_near_by_and_of_the_same_amplitude_serv
     near, far = (selection.key([(x_m + off_m, y_m, 1.0)]) for off_m in (0.25e-3, 0.75e-3))
     assert selection.reusable(near, here)
     assert not selection.reusable(far, here)
+    selection.reuse_m = LATTICE_M  # one step, exactly
+    assert selection.reusable(((1, 0, 32),), ((0, 0, 32),))
     assert not selection.reusable(here, cell)
     assert selection.reusable(cell, cell)
     fine = Selection(bank, 0.2e-3, board.idle_word)  # so that a place beside a cell does not play the cell itself

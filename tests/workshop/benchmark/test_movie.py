@@ -130,6 +130,8 @@ def test_a_file_has_all_frames_and_holds_the_one_at_t(emission, tmp_path, named)
             durations.append(read.info["duration"])
             place = (round(POINT[0] * 2000), 30 + 148 - round(POINT[1] * 2000))
             brightness.append(read.convert("L").getpixel(place))
+            rim = [read.convert("L").getpixel((place[0] + 8 + off, place[1])) for off in (-1, 0, 1)]
+            assert min(rim) == 0, "a black circle of 4 mm"
     assert durations == [50 * (HELD if at == 0 else 1) for at in movie.time_s]
     assert brightness[5] == max(brightness) > 150, "the focus is the brightest at T"
 

@@ -14,7 +14,7 @@ from controller.device.board.records import load_toml
 from controller.errors import CalibrationError
 from controller.workshop.calibration.clock_fit import fit_clock
 from controller.workshop.calibration.decay_fit import fit_decays
-from controller.workshop.calibration.drift_fit import fit_drift
+from controller.workshop.calibration.drift_fit import _highest, fit_drift
 from controller.workshop.calibration.point_plan import scattered_points
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances, draw
@@ -33,6 +33,13 @@ def test_the_decay_is_that_of_the_plate(time_ms):
     for one in found:
         assert one.error_s < 0.03e-3 * time_ms * 1.01
         assert abs(one.time_s - time_ms * 1e-3) < 3 * one.error_s + 0.01e-3 * time_ms
+    known, of_two = learned.known.copy(), learned.known.copy()
+    known[::2, BOARD.actuators[0].channel] = False
+    of_two[:, [actuator.channel for actuator in BOARD.actuators[2:]]] = False
+    for some in (known, of_two):
+        fewer = fit_decays(learned.responses, some, learned.noise, BOARD.waveform, learned.bit_clock_hz)
+        assert len(fewer) == 5
+        assert all(abs(one.time_s - time_ms * 1e-3) < 3 * one.error_s + 0.03e-3 * time_ms < np.inf for one in fewer)
     untold = fit_decays(learned.responses, learned.known, np.full_like(learned.noise, np.nan), BOARD.waveform, learned.bit_clock_hz)
     assert [one.time_s for one in untold] == pytest.approx([one.time_s for one in found], rel=0.02)
 
@@ -65,6 +72,7 @@ def test_two_measurements_that_do_not_belong_together_are_refused():
     with pytest.raises(CalibrationError, match="not one plate"):
         fit_drift(BOARD, here, other)
     assert fit_drift(BOARD, here, here).coefficient_per_k is None
+    assert _highest(np.arange(4.0), np.ones(4)) == 1, "of what is flat there is no highest"
 
 
 @each_row(

@@ -1,5 +1,8 @@
 """Responses between measured points, against those of a plate whose true ones are known."""
 
+from contextlib import nullcontext
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.special import j0
@@ -8,9 +11,11 @@ from workshop.calibration.true_plate import TruePlate, random_places
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.errors import CalibrationError
+from controller.workshop.calibration import wave_fit
 from controller.workshop.calibration.interpolate import interpolate
 from controller.workshop.calibration.kriging import bessel
 from controller.workshop.calibration.point_plan import grid_points, scattered_points
+from controller.workshop.calibration.spectra import Bins
 
 BOARD = small_board()
 HARDER = {"young_modulus_pa": 1.02 * BOARD.plate.young_modulus_pa, "decay_time_ms": 0.7}
@@ -88,7 +93,7 @@ def test_the_table_of_the_bessel_function_is_right():
     assert np.abs(bessel(places) - j0(places)).max() < 5e-7
 
 
-def test_what_cannot_be_interpolated_is_refused(plate):
+def test_what_cannot_be_interpolated_is_refused(plate, monkeypatch):
     def refused(points_m, match, board=BOARD, **changes):
         fields = {
             **vars(measured),
@@ -124,3 +129,15 @@ def test_no_place_far_from_all_points_is_estimated(plate):
     assert far < 0.8
     with pytest.raises(CalibrationError, match=r"x = 65.0 mm, y = 20.0 mm is too far from the measured points"):
         source.responses([[0.04, 0.02], [0.065, 0.02]])
+    few = np.full((6, 2), 25e-3)
+    few[1:, 0] = 1e-3
+    assert wave_fit._inside(BOARD, few).tolist() == [True] * 6, "one of six would judge"
+    assert wave_fit._inside(BOARD, few[:5]).tolist() == [True, *[False] * 4]
+    bins = Bins.of(BOARD.waveform, 600)
+    spectra, known = np.zeros((len(bins.frequency_hz), 5, 1), np.complex64), np.ones((5, 1), bool)
+    monkeypatch.setattr(wave_fit, "Waves", SimpleNamespace(of=lambda dispersion, *_: dispersion.factor))
+    for number, refused_there in ((0, True), (1, False), (-2, False), (-1, True)):
+        best = wave_fit.COARSE[number]
+        monkeypatch.setattr(wave_fit, "_unforeseen", lambda *given, best=best: abs(given[3] - best))
+        with pytest.raises(CalibrationError, match="within 7 %") if refused_there else nullcontext():
+            assert wave_fit.fit_waves(BOARD, few[:5], spectra, known, bins).dispersion.factor == pytest.approx(best)

@@ -12,6 +12,7 @@ from workshop.calibration.exact_records import BIT_CLOCK_HZ, CHANNELS, NAMES, PO
 from controller.errors import CalibrationError
 from controller.workshop.calibration import learning
 from controller.workshop.calibration.learning import learn
+from controller.workshop.calibration.deconvolution import _tapered
 from controller.workshop.calibration.records.measurement_file import (
     ImpulsesDrive,
     MeasurementFile,
@@ -259,3 +260,9 @@ def test_records_and_drives_that_tell_nothing_are_refused(tmp_path):
     ):
         with pytest.raises(CalibrationError, match=said):
             learned(tmp_path / str(number), drive, array, records)
+    some = np.arange(40) % 20 < 13
+    assert _tapered(some[::-1], 3) == pytest.approx(_tapered(some, 3)[::-1]), "alike at both ends"
+    bins = RawBins.of(board(), RECORD / RATE_HZ)
+    inside = (bins.frequency_hz > board().waveform.band_low_hz) & (bins.frequency_hz < board().waveform.band_high_hz)
+    assert inside.sum() > 100
+    assert (bins.gain[inside] == 1).all()

@@ -5,8 +5,10 @@ import pytest
 from small_plate import small_board
 from workshop.calibration.true_plate import TruePlate
 
+from controller.workshop.calibration.banks.bank_figures import _of_points
 from controller.workshop.calibration.interpolate import interpolate
 from controller.workshop.calibration.learned import LearnedResponses
+from controller.workshop.calibration.point_fit import PointFit
 from controller.workshop.calibration.point_plan import scattered_points
 
 BOARD = small_board()
@@ -55,6 +57,12 @@ def test_places_gains_and_drift_are_found_together(plate):
 
 
 def test_what_is_right_is_left_alone(plate):
-    found, _ = interpolate(BOARD, plate.learned(STATED_M))
+    said = {}
+    found, _ = interpolate(BOARD, plate.learned(STATED_M), progress=lambda what, *done: said.setdefault(what, []).append(done))
+    for of_one in said.values():
+        assert of_one == [(number + 1, len(of_one)) for number in range(len(of_one))]
     assert found.errors.corrected == ()
     assert not found.errors.errors.any()
+    off = np.array([1.5e-3, 1.5e-3, 0.2, 0.0])
+    figures = _of_points(PointFit(np.array([off, -off]), np.array([0.1e-3, 0.1e-3, 0.01, 1e-4]), ("places",), (0.2, 0.1)))
+    assert (figures["places_mm"], figures["sensitivity_percent"]) == ([1.5, 0.1], [20.0, 1.0])

@@ -13,7 +13,7 @@ import pytest
 from controller.cli import main
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.workshop.calibration.checking.checks import wrong_wires
+from controller.workshop.calibration.checking.checks import dead_channels, wrong_wires
 from controller.workshop.calibration.checking.wiring import FIRST_POINTS, wiring_of
 from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
 from controller.workshop.calibration.frame import middle_m
@@ -135,6 +135,10 @@ def test_a_weak_channel_has_no_verdict():
     waves.strength[4, 4] = 0.3
     found = wiring_of(waves, range(8), range(8), 6)
     assert found.undecided == (4,)
+    power = np.full((3, 32), 4.0)
+    power[:, 4] = 4e-4
+    (dead,) = dead_channels(power, np.ones((3, 32)), range(8), np.ones(32, bool))
+    assert (dead.channels, "4 is dead: 1.0% of the others'" in dead.message) == ((4,), True)
 
 
 def test_no_points_are_asked_for_what_is_decided():

@@ -18,6 +18,9 @@ def test_it_moves_as_the_exact_motion_does(quantity, monkeypatch):
     steps_v = 60.0 * random.integers(-1, 2, (40, 32))
     places_m = np.array([[0.02, 0.01], [0.031, 0.027]])
     exact = plate.of_points(places_m, step_s, steps_v[:, :, None], np.arange(400) / 192e3, quantity)[:, 0]
+    some = np.sort(random.choice(400, 200, replace=False))
+    uneven = plate.of_points(places_m, step_s, steps_v[:, :, None], some / 192e3, quantity)[:, 0]
+    assert np.abs(uneven - exact[:, some]).max() < 1e-5 * np.abs(exact).max()
     for kept_bytes in (1 << 30, 0):
         monkeypatch.setattr(even_motion, "KEPT_BYTES", kept_bytes)
         even = EvenMotion(plate, step_s, steps_v, 1 / 192e3, 400, quantity)

@@ -8,7 +8,7 @@ from tables import each_row
 from workshop.physics.lamb import layered_a0, rayleigh_lamb_a0
 
 from controller.device.board.board import load_board
-from controller.device.board.layers import MOST_SHEAR, PlateLayer, laminate
+from controller.device.board.layers import MOST_SHEAR, PlateLayer, laminate, softest
 from controller.device.board.lookup import find_board
 from controller.device.board.panel import Plate
 from controller.device.board.relations.bending_waves import MindlinPlate, bending_stiffness, bending_wavelength_m
@@ -120,6 +120,8 @@ def test_a_stiffer_plate_of_layers_keeps_its_layers():
     plate = of_layers(*LAMINATED).with_stiffness(1.02)
     assert plate.young_modulus_pa == pytest.approx(1.02 * of_layers(*LAMINATED).young_modulus_pa)
     assert plate.layers[1].young_modulus_pa == pytest.approx(1.02 * 3e9)
+    rubbery = msgspec.structs.replace(GLASS, young_modulus_pa=1.1 * GLASS.young_modulus_pa, poisson_ratio=0.49)
+    assert softest((GLASS, rubbery)) == 1, "30.2 GPa in shear of 27.0"
 
 
 def test_a_refusal_tells_both_frequencies():

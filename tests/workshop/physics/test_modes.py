@@ -1,6 +1,7 @@
 """Everything above the modes through their interface only: shapes that are no products, each with a mass and a size of its own."""
 
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from controller.workshop.bank_builder.methods.audible_form import AudibleForm
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.bank_builder.methods.prediction import Prediction
 from controller.workshop.physics.audible import surface_energy
+from controller.workshop.physics.field import Field, FocusScale
 from controller.workshop.physics.memory import entries_bytes
 from controller.workshop.physics.modes.closed_form import SimplySupported
 from controller.workshop.physics.modes.modes import at_points
@@ -108,6 +110,19 @@ def test_the_field_of_any_modes_and_its_figures_are_those_of_the_closed_form(clo
     assert differs(at_points(found.modes, found.modal, many), expected.at(many)) < 1e-12
     metrics, those = found.focus_metrics(0.06, 0.05), expected.focus_metrics(0.06, 0.05)
     assert vars(metrics) == pytest.approx(vars(those), rel=1e-9, abs=0)
+    # A spot of 1.5 by 1 mm (standard deviations), whole, and half a millimetre from the edge, beyond which nothing moves
+    sigma_m, half = np.array([1.5e-3, 1e-3]), np.sqrt(2 * np.log(2))
+    along_x, along_y, askew = half * 1.5e-3, half * 1e-3, half / np.sqrt((sigma_m**-2.0).mean())
+    for x_m, cut_x, cut_askew in ((60e-3, along_x, askew), (0.5e-3, 0.5e-3, 0.5e-3 * 2**0.5)):
+        crest = np.array([x_m, 50e-3])
+        spot = SimpleNamespace(
+            scale=FocusScale(),
+            modes=closed,
+            at=lambda at_m, crest=crest: np.exp(-(((at_m - crest) / sigma_m) ** 2).sum(axis=1) / 2),
+        )
+        expected_m = (along_x + cut_x + 2 * along_y + 2 * (askew + cut_askew)) / 4
+        for sign in (1, -1):
+            assert Field._spot(spot, tuple(crest), 1.0) == pytest.approx(expected_m, abs=0.03e-3), sign
 
 
 def test_what_is_heard_of_any_modes_is_that_of_the_closed_form(closed):

@@ -190,6 +190,8 @@ def test_rigid_motions_are_left_out_and_nothing_else(sides, rigid):
 def test_weyls_law_with_the_edges_terms_counts_the_modes():
     """The mean over ten cuts is within two modes of 100 to 180; a term of the edge is worth 8 to 14."""
     assert edge_term("clamped", 0.208) == pytest.approx(-1.7628, abs=1e-4)  # 1 + Gamma(3/4) / (sqrt(pi) Gamma(5/4))
+    # With nu = 1 a free edge asks of the Laplacian of w, which is w times k^2 of these waves, what a clamped one asks of w
+    assert edge_term("free", 1.0) == pytest.approx(edge_term("clamped", 1.0) + 4)
     for sides in ("FFFF", "CCCC", "SSSS", "CFSF"):
         shape = shape_of(sides)
         found = wavenumbers2(shape, wavenumber(8e3))

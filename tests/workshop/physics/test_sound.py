@@ -160,6 +160,10 @@ def test_ten_microphones_hear_what_sixty_do():
     )
     assert ten_db == pytest.approx(sixty_db, abs=2.0)
     assert np.linalg.norm(around(0.1, 0.05) - [0.1, 0.05, 0], axis=1) == pytest.approx([0.3] * 10)
+    for count in (10, 60):
+        places = around(0.0, 0.0, 1.0, count)
+        apart = np.linalg.norm(places[:, None] - places, axis=2) + 9 * np.eye(count)
+        assert apart.min() > 0.8 * np.sqrt(2 * np.pi / count), "as far apart as squares of its share nearly are"
 
 
 @pytest.mark.slow

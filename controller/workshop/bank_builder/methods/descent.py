@@ -246,7 +246,7 @@ class Descent:
             levels, momentum = stepped, np.where(restart, 1.0, following)
             if step % STEPS_BEFORE_WEIGHING == 0 and step < self._aim.steps:
                 reached = self._amplitude(cells, np.rint(levels * 1024) / 1024)
-                short = np.where(reached > 0, aimed / np.maximum(reached, aimed / 2), 2.0)
+                short = aimed / np.maximum(reached, aimed / 2)
                 cells.worth *= np.square(np.square(short))  # a power of four by itself need not be the same on all machines
         result: Floats = np.rint(levels * LEVELS) / LEVELS
         return result

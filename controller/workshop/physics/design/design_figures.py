@@ -186,9 +186,7 @@ def _counted(board: Board, plate: Plate, low_hz: float, high_hz: float) -> int |
     if plate != board.plate:
         if set(msgspec.structs.astuple(plate.sides)) != {"simply_supported"}:
             return None  # other edges take seconds to minutes for each plate
-        middle = {"x_mm": plate.length_mm / 2, "y_mm": plate.width_mm / 2, "size_mm": min(plate.length_mm, plate.width_mm) / 10}
-        patch = msgspec.structs.replace(board.actuators[0], **middle)  # the board's own may lie off this plate
-        board = msgspec.structs.replace(board, plate=plate, actuators=(patch,))
+        board = msgspec.structs.replace(board, plate=plate, patches=None)  # the board's own may lie off this plate
     try:
         omega = modes_of(board, high_hz).angular_frequency
     except ConfigError:
