@@ -1,6 +1,7 @@
 """A mouse of a web page as reference for the lag: messages compare its clock with ours, and the lag is found as by our own."""
 
 import random
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.page.mouse_steps import ArrivedSteps
 from controller.device.touch.recordings.recording import Recording
-from controller.device.touch_calibration import lag_figures
+from controller.device.touch_calibration import lag_figures, running_lag
 from controller.device.touch_calibration.clock_offset import ClockOffset
 from controller.device.touch_calibration.lag_figures import TimedPlaces, lag_of
 from controller.device.touch_calibration.page_mouse import MAX_CLOCK_ERROR_S, PageMouse
@@ -105,9 +106,21 @@ def test_times_as_coarse_as_frames_are_refused_and_those_of_a_millisecond_are_no
     assert coarse.lag_ms == pytest.approx(LAG_S * 1e3, abs=1.5)
 
 
-def test_clocks_that_drift_apart_are_refused():
+def test_clocks_that_drift_apart_are_refused_and_nobody_is_waited_for_beyond_a_minute(monkeypatch):
     clock = ClockOffset()
     for now_s in range(10):
         clock.heard(now_s * 1.01, now_s + 1e-3)
         clock.answered(now_s + 1e-3, now_s * 1.01 + 2e-3)
     assert clock.error_s < 0
+    now_s = 0.0
+
+    def heard(*_):
+        nonlocal now_s
+        now_s += 7.0
+        return ()
+
+    monkeypatch.setattr(running_lag.time, "monotonic", lambda: now_s)
+    panel = SimpleNamespace(state=lambda: SimpleNamespace(panel_present=True), subscribe=lambda _: None, heard=heard)
+    with pytest.raises(CalibrationError, match="no finger touched the panel within 60 s"):
+        running_lag.running_lag(panel, SimpleNamespace(read=list), lambda *_: None, 20.0)
+    assert now_s == 63.0

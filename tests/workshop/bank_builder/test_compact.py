@@ -1,5 +1,8 @@
 """Compact banks: what they lose, what they play, what is refused."""
 
+import itertools
+from types import SimpleNamespace
+
 import msgspec
 import numpy as np
 import pytest
@@ -20,6 +23,7 @@ from controller.errors import BankError, ConfigError
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.choice import choose
 from controller.workshop.bank_builder.compact import design as module
+from controller.workshop.bank_builder.compact import stencils
 from controller.workshop.bank_builder.compact.design import compact_grid, compact_pitch_m
 from controller.workshop.bank_builder.methods.descent import AIMS
 from controller.workshop.bank_builder.request import BankRequest
@@ -96,10 +100,16 @@ def test_it_keeps_what_it_says_at_a_fraction_of_the_size(board, bank, plain, mod
     assert 10 * bank.file.size < plain.bytes
 
 
-def test_words_for_a_plate_that_is_off_by_1_percent_are_seen(board, bank):
+def test_words_for_a_plate_that_is_off_by_1_percent_are_seen(board, bank, monkeypatch):
     thicker = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, thickness_mm=0.505))
     shares = kept(Composer(bank, board.idle_word), ResponseModel(thicker), places(3))
     assert np.median(shares) < 0.9
+    # Errors of every two cells of a stencil count together
+    fit = SimpleNamespace(table=lambda *_: np.zeros((1, 1, 9)), own=np.ones((9, 9)), error=np.zeros(1), let_through=0.0)
+    monkeypatch.setattr(stencils, "_Waves", lambda *_: None)
+    monkeypatch.setattr(stencils, "_Fit", lambda *_: fit)
+    together = {(row, column) for row, column, _ in stencils.stencil(None, 1.0, 3, 1, None, None).together}
+    assert together == set(itertools.product(range(-2, 3), repeat=2)) - {(0, 0)}
 
 
 def test_amplitudes_and_several_fingers_come_out_as_from_a_plain_bank(board, bank, plain, model):

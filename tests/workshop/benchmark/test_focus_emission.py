@@ -16,8 +16,8 @@ from controller.workshop.benchmark.focus.focus_figures import SETTLED
 from controller.workshop.physics.design.design_figures import design_figures
 from controller.workshop.physics.felt import LIGHT_TOUCH, ONE_NEWTON, felt_amplitudes_um
 from controller.workshop.physics.finger import Finger, point_motion
+from controller.workshop.physics.pictures import plot
 from controller.workshop.physics.pictures.focus_series import focus_series
-from controller.workshop.physics.pictures.plot import plot_focus
 from controller.workshop.physics.responses.modal_history import modal_energy, modal_history
 from controller.workshop.physics.word_capture import capture_of_words
 
@@ -139,8 +139,19 @@ def test_a_series_passes_through_the_focus_and_ends_at_rest(emission):
     assert series.piezo_v.min() > -20, "a driver overshoots, but not so far"
 
 
-def test_the_spectrum_of_a_focus_is_in_its_band(emission):
+def test_the_spectrum_of_a_focus_is_in_its_band(emission, monkeypatch):
     series = focus_series(emission.twin, emission.words, POINT)
+    drawn = []
+    monkeypatch.setattr(plot, "save_figure", lambda figure, *_: drawn.append(figure))
+    plot.plot_focus(None, emission.twin.board, emission.field, [POINT], "focus", series)
+    (figure,) = drawn
+    above, below = figure.subfigs[0].axes[:2]
+    left_mm, right_mm = np.array(above.collections[0].get_coordinates())[..., 0].ravel()[[0, -1]]
+    assert (left_mm, right_mm) == pytest.approx((0, emission.twin.board.plate.length_mm), abs=1)
+    assert [line.get_ydata()[0] for line in below.lines[1:]] == [0]
+    _, whole, *_ = figure.subfigs[1].axes
+    assert whole.get_xlim() == pytest.approx((series.time_s[0] * 1e3, series.time_s[-1] * 1e3))
+    assert "time from T" in whole.get_xlabel()
     frequency_hz, size = series.spectrum()
     band = (frequency_hz >= 20e3) & (frequency_hz <= 70e3)
     assert (size[band] ** 2).sum() > 0.9 * (size**2).sum()
@@ -152,6 +163,6 @@ def test_the_spectrum_of_a_focus_is_in_its_band(emission):
 def test_a_picture_has_the_plate_and_the_series(emission, tmp_path):
     series = focus_series(emission.twin, emission.words, POINT)
     alone, both = tmp_path / "focus.png", tmp_path / "both.png"
-    plot_focus(alone, emission.twin.board, emission.field, [POINT], "focus")
-    plot_focus(both, emission.twin.board, emission.field, [POINT], "focus", series)
+    plot.plot_focus(alone, emission.twin.board, emission.field, [POINT], "focus")
+    plot.plot_focus(both, emission.twin.board, emission.field, [POINT], "focus", series)
     assert both.stat().st_size > 1.3 * alone.stat().st_size

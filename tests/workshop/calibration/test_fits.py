@@ -36,10 +36,10 @@ def test_the_decay_is_that_of_the_plate(time_ms):
     known, of_two = learned.known.copy(), learned.known.copy()
     known[::2, BOARD.actuators[0].channel] = False
     of_two[:, [actuator.channel for actuator in BOARD.actuators[2:]]] = False
-    for some in (known, of_two):
+    for some, off in ((known, 0.02), (of_two, 0.1)):
         fewer = fit_decays(learned.responses, some, learned.noise, BOARD.waveform, learned.bit_clock_hz)
-        assert len(fewer) == 5
-        assert all(abs(one.time_s - time_ms * 1e-3) < 3 * one.error_s + 0.03e-3 * time_ms < np.inf for one in fewer)
+        assert [one.time_s for one in fewer] == pytest.approx([one.time_s for one in found], rel=off)
+        assert all(0 < one.error_s < np.inf for one in fewer)
     untold = fit_decays(learned.responses, learned.known, np.full_like(learned.noise, np.nan), BOARD.waveform, learned.bit_clock_hz)
     assert [one.time_s for one in untold] == pytest.approx([one.time_s for one in found], rel=0.02)
 

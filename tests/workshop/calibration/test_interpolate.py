@@ -118,17 +118,6 @@ def test_what_cannot_be_interpolated_is_refused(plate, monkeypatch):
     refused(some, "do not fit the board's bit_clock_hz", bit_clock_hz=lambda f: f * 1.001)
     refused(some, "fewer than 12 points: 4, 5", known=lambda k: k & ~np.isin(np.arange(32), (4, 5)))
     refused(some, "waves within 7 %", responses=lambda h: np.random.default_rng(1).permutation(h))
-
-
-def test_no_place_far_from_all_points_is_estimated(plate):
-    points = scattered_points(BOARD, 110, 2e-3)
-    source, _ = interpolate(BOARD, plate.learned(points[points[:, 0] < 0.045]))
-    source.responses([[0.04, 0.02]])
-    near, far = source.foreseen([[0.04, 0.02], [0.065, 0.02]])
-    assert near > 0.98
-    assert far < 0.8
-    with pytest.raises(CalibrationError, match=r"x = 65.0 mm, y = 20.0 mm is too far from the measured points"):
-        source.responses([[0.04, 0.02], [0.065, 0.02]])
     few = np.full((6, 2), 25e-3)
     few[1:, 0] = 1e-3
     assert wave_fit._inside(BOARD, few).tolist() == [True] * 6, "one of six would judge"
@@ -141,3 +130,14 @@ def test_no_place_far_from_all_points_is_estimated(plate):
         monkeypatch.setattr(wave_fit, "_unforeseen", lambda *given, best=best: abs(given[3] - best))
         with pytest.raises(CalibrationError, match="within 7 %") if refused_there else nullcontext():
             assert wave_fit.fit_waves(BOARD, few[:5], spectra, known, bins).dispersion.factor == pytest.approx(best)
+
+
+def test_no_place_far_from_all_points_is_estimated(plate):
+    points = scattered_points(BOARD, 110, 2e-3)
+    source, _ = interpolate(BOARD, plate.learned(points[points[:, 0] < 0.045]))
+    source.responses([[0.04, 0.02]])
+    near, far = source.foreseen([[0.04, 0.02], [0.065, 0.02]])
+    assert near > 0.98
+    assert far < 0.8
+    with pytest.raises(CalibrationError, match=r"x = 65.0 mm, y = 20.0 mm is too far from the measured points"):
+        source.responses([[0.04, 0.02], [0.065, 0.02]])

@@ -11,8 +11,8 @@ from workshop.calibration.exact_records import BIT_CLOCK_HZ, CHANNELS, NAMES, PO
 
 from controller.errors import CalibrationError
 from controller.workshop.calibration import learning
-from controller.workshop.calibration.learning import learn
 from controller.workshop.calibration.deconvolution import _tapered
+from controller.workshop.calibration.learning import learn
 from controller.workshop.calibration.records.measurement_file import (
     ImpulsesDrive,
     MeasurementFile,

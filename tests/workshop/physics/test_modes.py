@@ -115,14 +115,14 @@ def test_the_field_of_any_modes_and_its_figures_are_those_of_the_closed_form(clo
     along_x, along_y, askew = half * 1.5e-3, half * 1e-3, half / np.sqrt((sigma_m**-2.0).mean())
     for x_m, cut_x, cut_askew in ((60e-3, along_x, askew), (0.5e-3, 0.5e-3, 0.5e-3 * 2**0.5)):
         crest = np.array([x_m, 50e-3])
-        spot = SimpleNamespace(
-            scale=FocusScale(),
-            modes=closed,
-            at=lambda at_m, crest=crest: np.exp(-(((at_m - crest) / sigma_m) ** 2).sum(axis=1) / 2),
-        )
+
+        def at(places_m, crest=crest):
+            return np.exp(-(((places_m - crest) / sigma_m) ** 2).sum(axis=1) / 2)
+
         expected_m = (along_x + cut_x + 2 * along_y + 2 * (askew + cut_askew)) / 4
         for sign in (1, -1):
-            assert Field._spot(spot, tuple(crest), 1.0) == pytest.approx(expected_m, abs=0.03e-3), sign
+            spot = SimpleNamespace(scale=FocusScale(), modes=closed, at=lambda places_m, sign=sign, at=at: sign * at(places_m))
+            assert Field._spot(spot, tuple(crest), sign) == pytest.approx(expected_m, abs=0.03e-3)
 
 
 def test_what_is_heard_of_any_modes_is_that_of_the_closed_form(closed):

@@ -77,7 +77,7 @@ class _Fit:
         corner = np.isin(rows, (0, across - 1)) & np.isin(columns, (0, across - 1)) & (across >= ROUND_FROM)
         self.cells = np.flatnonzero(~corner)
         self.y, self.x = rows[self.cells].astype(np.float64), columns[self.cells].astype(np.float64)
-        low = (across - 1) // 2 - (0.5 if across % 2 else 0.0)
+        low = across / 2 - 1
         middle = low + (np.arange(MET_AT) + 0.5) / MET_AT
         at_y, at_x = (part.ravel() for part in np.meshgrid(middle, middle, indexing="ij"))
         to_y, to_x = self.y[:, None] - at_y, self.x[:, None] - at_x

@@ -4,6 +4,7 @@ import platform
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import msgspec
 import numpy as np
@@ -203,6 +204,9 @@ def test_where_no_edge_is_allowed_and_where_nothing_moves_the_entry_is_the_plain
     hurried = dataclasses.replace(AIMS["quiet"], steps=2)
     assert np.array_equal(Descent(board, model, hurried).entries(POINTS_M), plain)
     assert np.array_equal(short.entries([(0.0, 0.0)]), np.full((1, BOARD.waveform.samples), BOARD.idle_word))
+    tiny = SimpleNamespace(_x_m=np.arange(3) * 1e-3, _y_m=np.arange(2) * 1e-3, _outside_m=10e-3)
+    along_x, along_y, inside, share = FieldForm.surroundings(tiny, np.zeros(2))
+    assert (len(along_x), len(along_y), inside.shape, share) == (0, 0, (0, 0), 1.0), "no point of the map lies outside of it"
 
 
 @each_row(
