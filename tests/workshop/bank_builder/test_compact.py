@@ -20,6 +20,7 @@ from controller.device.service.scenes.prepare_scene import populate
 from controller.device.waveforms.composition import Composer
 from controller.device.waveforms.selection import Selection
 from controller.errors import BankError, ConfigError
+from controller.workshop.bank_builder import build
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.choice import choose
 from controller.workshop.bank_builder.compact import design as module
@@ -104,6 +105,13 @@ def test_words_for_a_plate_that_is_off_by_1_percent_are_seen(board, bank, monkey
     thicker = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, thickness_mm=0.505))
     shares = kept(Composer(bank, board.idle_word), ResponseModel(thicker), places(3))
     assert np.median(shares) < 0.9
+    # The gain that a trial finds is that of the rest which is written
+    design = SimpleNamespace(rows=lambda *_: ([], []), rest_rows=lambda _: ([], np.array([3.0])), tables=lambda _, scales: scales)
+    written, no_cells = [], SimpleNamespace(board=board, source=None, wanted=None, numbers=np.array([], int))
+    monkeypatch.setattr(build, "Trial", lambda *_: SimpleNamespace(rest_gain=lambda: 1.5, loss=lambda _: {}))
+    entries = SimpleNamespace(set_tables=written.extend, require_motion=lambda _: None)
+    build._write_compact(no_cells, design, entries)
+    assert written == [4.5]
     # Errors of every two cells of a stencil count together
     fit = SimpleNamespace(table=lambda *_: np.zeros((1, 1, 9)), own=np.ones((9, 9)), error=np.zeros(1), let_through=0.0)
     monkeypatch.setattr(stencils, "_Waves", lambda *_: None)

@@ -9,6 +9,7 @@ from small_plate import WHOLE
 from controller.cli import main
 from controller.device.bank.grid import Grid
 from controller.errors import ConfigError
+from controller.workshop.calibration.checking import plot_plan
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.interpolated import LEAST_SHARE
 from controller.workshop.calibration.kriging import Waves, foreseen_shares
@@ -54,10 +55,16 @@ def test_scattered_points_keep_their_distances():
     assert sorted(short_path(points_m)) == list(range(250))
 
 
-def test_what_cannot_be_planned_is_refused():
+def test_what_cannot_be_planned_is_refused_and_places_are_drawn_where_they_are(monkeypatch):
     for arguments in ((0, 0.0), (10, -1e-3), (10, 74e-3), (10, np.nan), (30_000, 0.0)):
         with pytest.raises(ConfigError):
             scattered_points(WHOLE, *arguments)
+    drawn, places_m = [], np.array([[0.05, 0.04], [0.15, 0.1]])
+    monkeypatch.setattr(plot_plan, "save_figure", lambda figure, *_: drawn.append(figure))
+    plot_plan.plot_plan(None, WHOLE, places_m, places_m, np.array([0.9, 1.0]))
+    dots = drawn[0].axes[0].collections[0]
+    assert dots.get_offsets().tolist() == (places_m * 1e3).tolist()
+    assert dots.get_array().tolist() == pytest.approx([10, 0]), "percent that are not foreseen"
 
 
 def test_the_command_writes_positions_and_says_how_long_it_takes(tmp_path, capsys):

@@ -19,6 +19,7 @@ from controller.workshop.physics.motion import PlateMotion
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import (
     AIR_KG_M3,
+    AT_ONCE,
     SOUND_M_S,
     PlateSound,
     Radiation,
@@ -170,7 +171,8 @@ def test_ten_microphones_hear_what_sixty_do():
     assert ten_db == pytest.approx(sixty_db, abs=2.0)
     assert np.linalg.norm(around(0.1, 0.05) - [0.1, 0.05, 0], axis=1) == pytest.approx([0.3] * 10)
     sound = PlateSound(SMALL)
-    assert 3 * sound._radiation._coefficients.nbytes < radiation_bytes(sound._modes), "with the integrals they are made from"
+    arrays = radiation_bytes(sound._modes) - 6 * 16 * AT_ONCE  # three as large as the coefficients, but for part of a node
+    assert 2.9 * sound._radiation._coefficients.nbytes < arrays < 3.5 * sound._radiation._coefficients.nbytes
     for count in (10, 60):
         places = around(0.0, 0.0, 1.0, count)
         apart = np.linalg.norm(places[:, None] - places, axis=2) + 9 * np.eye(count)

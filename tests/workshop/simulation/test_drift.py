@@ -170,12 +170,15 @@ def test_the_service_itself_follows_a_sensor_of_the_kernel(panel, monkeypatch, t
 
     monkeypatch.setattr("controller.workshop.gateware.simulated_link.SimulatedLink", Kept)
     monkeypatch.setattr(service_run, "MonotonicClock", VirtualClock)
-    monkeypatch.setattr(service_run, "enter_realtime", lambda _: [])
+    said = []
+    monkeypatch.setattr(service_run, "log", lambda line, event=None: said.append((line, event)))
+    monkeypatch.setattr(service_run, "enter_realtime", lambda _: ["not in real time"])
     monkeypatch.setattr(service_run, "await_thermometer", lambda of: Thermometer(of.temperature))
     with Bank.open(bank_file, board) as bank:
         figures = service_run.serve(board, load_scene(scene_file, board), str(scene_file), bank, taps(), open_simulated)
     assert figures["bit_clock_scale"] == pytest.approx(1.005, abs=1e-6)
     assert figures["emissions"] == 4
+    assert ("not in real time", service_run.Event.NOT_REALTIME) in said
     twins = [PlateTwin(board, modes=drifted(modes_of(board), by)) for by in (0.005, 0.0)]
     capture = links[0].take_capture()
     shares = []
