@@ -108,18 +108,13 @@ class Bench:
         return str(caught.value)
 
 
-def test_it_is_loaded_and_used(tmp_path):
+def test_it_is_loaded_and_used_and_loaded_again_after_its_supply_was_lost_and_its_flash_has_another(tmp_path):
     bench = Bench(tmp_path)
     bench.bring_up()
     assert "BUILD_HASH is 0x00000007, not 0x1234ABCD" in bench.said
     assert re.search(r"its gateware is being loaded|it has just been loaded", bench.said), "a loader may end at once"
     bench.session.heartbeat()
     assert bench.session.arm() > 0
-
-
-def test_it_is_loaded_again_after_its_supply_was_lost_and_its_flash_has_another(tmp_path):
-    bench = Bench(tmp_path)
-    bench.bring_up()
     bench.power_up(OTHER)
     bench.bring_up()
 

@@ -3,6 +3,7 @@
 import math
 import zlib
 from dataclasses import replace
+from types import SimpleNamespace
 
 import msgspec
 import numpy as np
@@ -303,6 +304,10 @@ def test_a_play_at_once_and_one_at_a_time_need_no_trigger(board, clock, link, ar
     assert set((masked & 0xFFFFFF00).tolist()) == {board.idle_word & 0xFFFFFF00}
     with pytest.raises(Refused, match="has passed, or is too near"):
         armed.play(Play(1, start=Start.TIME, when_ticks=at), stop=False)
+    repeated = Play(1, start=Start.TIME, emissions=0, period_ticks=1 << 16, when_ticks=5)
+    for since, began in ((0, True), (1 << 16, True), (1, False), (1 << 31, False), (3 << 30, False)):
+        reading = SimpleNamespace(exchange=SimpleNamespace(read=lambda _, since=since: since + 5))
+        assert Session._began(reading, repeated) is began, "half of the counter's range is before it"
 
 
 def test_over_a_good_link_the_fpga_finds_no_gap_in_the_numbers_of_the_frames(clock, link, armed):

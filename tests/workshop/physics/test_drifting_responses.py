@@ -38,6 +38,7 @@ def test_a_tone_is_resampled():
         for omega in (0.25, 0.88):  # 20 and 70 kHz at 500 kHz
             off = resampling(1000, 1 + 0.004 * wrong) @ np.cos(omega * since) - np.cos(omega * 1.004 * since) / 1.004
             assert (abs(off[20:970]).max() > 1e-3) == caught
+    assert resampling(3, 2.0).any(axis=1).tolist() == [True, True, False], "what a record ends with is in it"
 
 
 def test_the_mean_is_that_of_plates_whose_own_modes_are_off():
