@@ -23,8 +23,8 @@ from controller.device.kernel.crc import intact, sealed
 from controller.errors import BankError
 
 MAGIC = b"HPNLBANK"
-VERSION = 7
-COMPACT_VERSION = 8  # of compact banks
+VERSION = 9
+COMPACT_VERSION = 10  # of compact banks
 PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 2  # of which the rest of a response, outside the band, is kept as the mean

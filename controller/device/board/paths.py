@@ -18,7 +18,7 @@ from controller.errors import BankError, ConfigError
 SERVICE = "haptic-panel"  # name of the service's user and group
 SERVICE_STATE = Path("/var/lib/haptic-panel")  # StateDirectory= of the unit
 SERVICE_STATE_MODE = 0o750  # StateDirectoryMode=
-BANK_FORMAT: Final = 7  # of bank.file_format: part of a bank's name, so that an older release finds its own beside it
+BANK_FORMAT: Final = 9  # of bank.file_format: part of a bank's name, so that an older release finds its own beside it
 
 
 def state_folder(board: Board | None = None) -> Path:

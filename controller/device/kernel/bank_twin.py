@@ -19,6 +19,7 @@ Readable = bytes | bytearray | memoryview
 Writable = bytearray | memoryview
 Point = tuple[float, float, float]  # x_m, y_m, amplitude
 Cells = list[tuple[int, int]]  # number and weight of each
+Shares = list[tuple[int, float]]  # index along an axis and share of each
 
 
 class PlaceCells(NamedTuple):
@@ -41,6 +42,8 @@ LARGEST_EQUALISER: Final = 0.5  # so that an equalised response is within 16 bit
 TAP_BITS: Final = 15  # behind the point of a product with a tap
 LARGEST: Final = (1 << 31) - 1
 WEIGHT_SUM: Final = 256  # of the cells around a point: four roundings may add 2, and 258 * 127 is still within 16 bits
+WIDE_CELLS: Final = 6  # around a point among many; they share one less, as six roundings may add 3
+LEAST_MORE: Final = 1 / 48  # share of the farthest of them from which on they are worth reading
 
 # What a composition needs to know of bank and board: samples, bytes from one response to the next, cells along x and y,
 # responses, idle word, samples of a block; pitch, x and y of cell 0 in m; the equaliser (`Responses.equalised`), and what it leaves
@@ -133,22 +136,26 @@ class Responses:
         self._equaliser, self._band_lost = equaliser, band_lost
         self.step, self.sketch_step = max(block // STEPS_PER_BLOCK, 1), max(block // SKETCHED_PER_BLOCK, 1)
 
-    def patch(self, x_m: float, y_m: float) -> tuple[PlaceCells, int]:
-        """Responses around a point that have a weight, with their weights; and -1, or the first cell without one."""
+    def patch(self, x_m: float, y_m: float, *, wide: bool = False) -> tuple[PlaceCells, int]:
+        """Responses around a point that have a weight, with their weights; and -1, or the first cell without one.
+
+        Along an axis on which a point lies halfway between cells, interpolation takes more from the waves than along one on which
+        it lies on a cell. If `wide`, cells of a third row are added along the latter where the bank has them, so that as much is
+        taken in all directions, which the equaliser then gives back.
+        """
         if self.tables:
             return self._stencil(self.tables, x_m, y_m)
         ix, right = self._along(x_m - self.x0_m, self.nx - 1)
         iy, up = self._along(y_m - self.y0_m, self.ny - 1)
-        corner = iy * self.nx + ix
-        cells = [(corner, (1 - up) * (1 - right))]
-        if right:
-            cells.append((corner + 1, (1 - up) * right))
-        if up:
-            cells.append((corner + self.nx, up * (1 - right)))
-            if right:
-                cells.append((corner + self.nx + 1, up * right))
+        along_x, along_y = right * (1 - right), up * (1 - up)
+        between, more = along_x + along_y, abs(along_x - along_y) / 2
+        cells = self._cells(_row(ix, right, more * (along_y > along_x)), _row(iy, up, more * (along_x > along_y)))
+        if wide and more > LEAST_MORE and all(map(self._has, cells)):
+            between += 2 * more
+        else:
+            cells = self._cells(_row(ix, right), _row(iy, up))
         numbers, shares, total = [], [], 0.0
-        for cell, share in cells:
+        for cell, share in cells.items():
             entry, scale = self._entry(cell)
             if entry < 0:
                 return PlaceCells([], []), cell
@@ -158,10 +165,24 @@ class Responses:
         if len(cells) == 1:
             alone = [(numbers[0], WEIGHT_SUM)]
             return PlaceCells(alone, alone), -1
-        between, unit = right * (1 - right) + up * (1 - up), WEIGHT_SUM / total if total > 0 else 0.0
+        unit = (WEIGHT_SUM - (len(cells) == WIDE_CELLS)) / total if total > 0 else 0.0
         tap = round(self._equaliser * between * (1 << TAP_BITS - 1))
         rest = _whole(numbers, shares, unit * (1 - self._band_lost * between))
         return PlaceCells(_whole(numbers, shares, unit), rest, tap), -1
+
+    def _cells(self, columns: Shares, rows: Shares) -> dict[int, float]:
+        """Cells with their shares of a place; -1 for any beyond the grid."""
+        cells = {}
+        for y, of_row in rows:
+            for x, of_column in columns:
+                if of_row * of_column:
+                    within = 0 <= x < self.nx and 0 <= y < self.ny
+                    cells[y * self.nx + x if within else -1] = of_row * of_column
+        return cells
+
+    def _has(self, cell: int) -> bool:
+        """Whether a cell has a response, which may be used or not yet."""
+        return cell >= 0 and 0 <= ENTRY.unpack_from(self.entries, 4 * cell)[0] < self.count
 
     def _entry(self, cell: int) -> tuple[int, float]:
         """Number and scale of the response of a cell; below 0 if it has none, or one that may not be used."""
@@ -247,6 +268,15 @@ class Responses:
             return last, 0.0
         index, beyond = divmod(round(millionths), 1_000_000)
         return index, beyond * 1e-6
+
+
+def _row(index: int, beyond: float, more: float = 0.0) -> Shares:
+    """Indices of cells along an axis and their shares of a place `beyond` the first; with `more`, of three, farther apart."""
+    if not more:
+        return [(index, 1 - beyond), (index + 1, beyond)]
+    if beyond <= 0.5:
+        return [(index - 1, more), (index, 1 - beyond - 2 * more), (index + 1, beyond + more)]
+    return [(index, 1 - beyond + more), (index + 1, beyond - 2 * more), (index + 2, more)]
 
 
 def _whole(numbers: list[int], shares: list[float], unit: float) -> Cells:

@@ -51,6 +51,7 @@ enum {
     MAX_SAMPLES = 2000,
     MAX_BLOCK_SAMPLES = 256,
     WEIGHT_SUM = 256,
+    WIDE_CELLS = 6,
     POINT_WEIGHT_SUM = 32767,
     STRENGTH_SHIFT = 8,
     SKETCHED_PER_BLOCK = 16,
@@ -67,7 +68,7 @@ enum {
     STEPS_PER_BLOCK = 12,
     AHEAD_BYTES = 1024,
 };
-static const double NEARLY = 0.03, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32;
+static const double NEARLY = 0.03, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32, LEAST_MORE = 1.0 / 48;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
@@ -249,7 +250,7 @@ INLINE uints add_absolute(uints sum, ushorts value) {
 
 /* Values of a response of a point, negated in channels that idle high; or half of what is outside the band: `outside` is 0 or 1. */
 INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int outside, int64_t from, int64_t values, int16_t *out) {
-    ushorts weight[4][4], value[4];
+    ushorts weight[WIDE_CELLS][4], value[4];
     turn_weights(idle_word, cells, outside ? patch->rest_weight : patch->weight, weight);
     for (int64_t at = 0; at < values; at += CHANNELS) {
         interpolate_sample(patch, cells, from + at, (const ushorts(*)[4])weight, value);
@@ -535,7 +536,8 @@ INLINE void interpolate(uint32_t idle_word, const struct patch *patch, int outsi
     switch (patch->cells) {
     case 1: interpolate_cells(idle_word, patch, 1, outside, from, values, out); break;
     case 2: interpolate_cells(idle_word, patch, 2, outside, from, values, out); break;
-    default: interpolate_cells(idle_word, patch, 4, outside, from, values, out);
+    case 4: interpolate_cells(idle_word, patch, 4, outside, from, values, out); break;
+    default: interpolate_cells(idle_word, patch, WIDE_CELLS, outside, from, values, out);
     }
 }
 
@@ -1273,6 +1275,12 @@ static int weigh_cells(const uint8_t **levels, int16_t *weight, const double *sh
     return kept;
 }
 
+static int32_t entry_of(const struct bank *bank, int64_t cell) {
+    int32_t entry;
+    memcpy(&entry, bank->entries + 4 * cell, sizeof entry);
+    return entry;
+}
+
 /* As `find_patch`, of a compact bank. */
 static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, struct patch *patch) {
     const struct plan *plan = &bank->plan;
@@ -1287,8 +1295,7 @@ static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, str
     patch->cells = (int)(across * across);
     for (int i = 0; i < patch->cells; i++) {
         int64_t cell = (iy + i / across) * plan->nx + ix + i % across;
-        int32_t entry;
-        memcpy(&entry, bank->entries + 4 * cell, sizeof entry);
+        int32_t entry = entry_of(bank, cell);
         if (entry < 0 || entry >= plan->entries || !bank->good[entry]) return cell;
         if (entry * plan->stride + tables->in_band.row_bytes > bank->response_bytes) {
             PyErr_SetString(PyExc_ValueError, "the responses are too short for the plan");
@@ -1316,23 +1323,55 @@ static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, str
     return -1;
 }
 
-/* Responses around a point, with their weights. Returns -1; or the first cell without a response; or -2, with an exception. */
-static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struct patch *patch) {
+/* Cells along an axis around a place, and their shares. */
+struct line {
+    int64_t first;
+    int cells;
+    double share[3];
+};
+
+/* Those of a place beyond a cell by this share of a pitch; three of them, farther apart, where there is `more`. */
+static struct line cells_along(int64_t cell, double beyond, double more) {
+    if (!(more > 0)) return (struct line){cell, 2, {1 - beyond, beyond}};
+    if (beyond <= 0.5) return (struct line){cell - 1, 3, {more, 1 - beyond - 2 * more, beyond + more}};
+    return (struct line){cell, 3, {1 - beyond + more, beyond - 2 * more, more}};
+}
+
+/* Whether a bank has the responses of all cells of a rectangle. */
+static int has_all(const struct bank *bank, const struct line *x, const struct line *y) {
     const struct plan *plan = &bank->plan;
-    double right, up, share[4], total = 0;
+    if (x->first < 0 || y->first < 0 || x->first + x->cells > plan->nx || y->first + y->cells > plan->ny) return 0;
+    for (int i = 0; i < x->cells * y->cells; i++) {
+        int32_t entry = entry_of(bank, (y->first + i / x->cells) * plan->nx + x->first + i % x->cells);
+        if (entry < 0 || entry >= plan->entries) return 0;
+    }
+    return 1;
+}
+
+/* Responses around a point, with their weights. Returns -1; or the first cell without a response; or -2, with an exception. */
+static int64_t find_patch(const struct bank *bank, double x_m, double y_m, int wide, struct patch *patch) {
+    const struct plan *plan = &bank->plan;
+    double right, up, share[WIDE_CELLS], total = 0;
     int64_t ix = along(x_m - plan->x0_m, plan->pitch_m, plan->nx - 1, &right);
     int64_t iy = along(y_m - plan->y0_m, plan->pitch_m, plan->ny - 1, &up);
     int64_t needed = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
     if (bank->tables.there) return find_stencil(bank, x_m, y_m, patch);
     patch->cells = 0;
     patch->tables = NULL;
-    for (int corner = 0; corner < 4; corner++) {
-        int to_right = corner & 1, upwards = corner >> 1;
-        if ((to_right && right == 0) || (upwards && up == 0)) continue;
-        int64_t cell = (iy + upwards) * plan->nx + ix + to_right;
-        int32_t entry;
+    double along_x = right * (1 - right), along_y = up * (1 - up), more = fabs(along_x - along_y) / 2, between = along_x + along_y;
+    struct line x = cells_along(ix, right, along_y > along_x ? more : 0), y = cells_along(iy, up, along_x > along_y ? more : 0);
+    if (wide && more > LEAST_MORE && has_all(bank, &x, &y)) {
+        between += 2 * more;
+    } else {
+        x = cells_along(ix, right, 0);
+        y = cells_along(iy, up, 0);
+    }
+    for (int i = 0; i < x.cells * y.cells; i++) {
+        double part = y.share[i / x.cells] * x.share[i % x.cells];
+        int64_t cell = (y.first + i / x.cells) * plan->nx + x.first + i % x.cells;
         float scale;
-        memcpy(&entry, bank->entries + 4 * cell, sizeof entry);
+        if (part == 0) continue;
+        int32_t entry = entry_of(bank, cell);
         if (entry < 0 || entry >= plan->entries || !bank->good[entry]) return cell;
         if (entry * plan->stride + needed > bank->response_bytes) {
             PyErr_SetString(PyExc_ValueError, "the responses are too short for the plan");
@@ -1344,10 +1383,10 @@ static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struc
             return -2;
         }
         patch->levels[patch->cells] = bank->response + entry * plan->stride;
-        share[patch->cells] = (upwards ? up : 1 - up) * (to_right ? right : 1 - right) * (double)scale;
+        share[patch->cells] = part * (double)scale;
         total += share[patch->cells++];
     }
-    double between = right * (1 - right) + up * (1 - up), unit = total > 0 ? WEIGHT_SUM / total : 0, rest_unit = unit * (1 - plan->band_lost * between);
+    double unit = total > 0 ? (WEIGHT_SUM - (patch->cells == WIDE_CELLS)) / total : 0, rest_unit = unit * (1 - plan->band_lost * between);
     for (int i = 0; i < patch->cells; i++) {
         patch->weight[i] = (int16_t)nearest(share[i] * unit);
         patch->rest_weight[i] = (int16_t)nearest(share[i] * rest_unit);
@@ -1570,7 +1609,7 @@ static PyObject *compose_with(const Py_buffer *buffer, PyObject *const *argument
     }
     if (!has_room(buffer, plan->samples)) return NULL;
     for (Py_ssize_t i = 0; i < count; i++) {
-        int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
+        int64_t cell = find_patch(&bank, point[i][0], point[i][1], count > FEW_POINTS, patches + i);
         if (cell == -2) return NULL;
         if (cell >= 0) return PyLong_FromLongLong(cell);
     }
@@ -1887,7 +1926,7 @@ static PyObject *null_places_in(const Py_buffer *buffer, PyObject *const *argume
     for (Py_ssize_t i = 0; i < count + PLACES * still; i++) {
         static const double MIDDLE[2] = {0, 0};
         const double *of = point[i < count ? i : count + (i - count) / PLACES], *beside = i < count ? MIDDLE : RING_M[(i - count) % PLACES];
-        int64_t cell = find_patch(&bank, of[0] + beside[0], of[1] + beside[1], patches + i);
+        int64_t cell = find_patch(&bank, of[0] + beside[0], of[1] + beside[1], 0, patches + i);
         if (cell == -2) return NULL;
         if (cell >= 0) return PyLong_FromLongLong(cell);
     }

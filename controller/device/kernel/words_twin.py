@@ -54,7 +54,7 @@ THRESHOLD_BITS: Final = 24  # behind the point of a threshold
 # Sums are near a threshold within 1/8 of it and 1/32 of the local strength
 NEAR_LEVEL_SHIFT: Final = 3
 NEAR_STRENGTHS: Final = 1 / 32
-FEW_POINTS: Final = 4  # whose weights have settled after one round with all that bits do
+FEW_POINTS: Final = 4  # whose weights have settled after one round with all that bits do, and to whom four cells do
 OWN_LEVEL: Final = 1 / 8  # difference from the common level from which on a point has its own
 
 
@@ -83,7 +83,7 @@ def compose(
         raise ValueError(f"{len(signs)} polarities, not {MAX_FOCI}")
     patches = []
     for x_m, y_m, _ in points:
-        patch, cell = responses.patch(x_m, y_m)
+        patch, cell = responses.patch(x_m, y_m, wide=count > FEW_POINTS)
         if cell >= 0:
             return cell
         patches.append(patch)

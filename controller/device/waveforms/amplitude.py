@@ -6,9 +6,9 @@ import math
 
 from controller.device.board.devices import MIN_AMPLITUDE
 
-STEPS_PER_HALF = 16  # a step is 4.4 %: rounding to one is at most 2.2 % off
+STEPS_PER_HALF = 128  # a step is 0.54 %: rounding to one is at most 0.27 % off
 LAST_STEP = round(-STEPS_PER_HALF * math.log2(MIN_AMPLITUDE))
-AMPLITUDES = tuple(2 ** (-step / STEPS_PER_HALF) for step in range(LAST_STEP + 1))
+AMPLITUDES = *(2 ** (-step / STEPS_PER_HALF) for step in range(LAST_STEP)), MIN_AMPLITUDE
 
 
 def amplitude_step(amplitude: float) -> int:

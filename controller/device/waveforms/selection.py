@@ -26,6 +26,7 @@ from controller.errors import BankError
 LATTICE_M: Final = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
 REUSE_RADIUS_M: Final = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less amplitude (README.md)
 
+FINER: Final = 8  # lattice of several points: what strong ones do to a faint one beside them changes within less than that
 LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
 Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice
 NULL: Final = -1  # in place of a step of amplitude: a place that is kept still
@@ -105,8 +106,9 @@ class Selection:
         if not apart:
             return self.key(points)
         apart.sort()
-        still = lattice_key([(x_m, y_m, 1.0) for _, x_m, y_m in apart[:MAX_NULLS]], self.lattice_m)
-        return (*lattice_key(points, self.lattice_m), *[(x, y, NULL) for x, y, _ in still])
+        finer_m = self.lattice_m / FINER
+        still = _on_lattice([(x_m, y_m, 1.0) for _, x_m, y_m in apart[:MAX_NULLS]], finer_m)
+        return (*_on_lattice(points, finer_m), *[(x, y, NULL) for x, y, _ in still])
 
     def channel_key(self, channel: int) -> Key:
         """Name of the waveform that tests a channel."""
@@ -132,7 +134,7 @@ class Selection:
                 return ReadyFrames(*self._bank.drive.composed(key))
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
-        lattice_m = self.lattice_m
+        lattice_m = self._lattice_of(key)
         points = self.foci(key)
         words = self._composer.compose(points, polarities)
         if len(points) < len(key):
@@ -142,8 +144,11 @@ class Selection:
 
     def foci(self, key: tuple[LatticePoint, ...]) -> list[Point]:
         """Points that are composed for a key, as they lie on the lattice."""
-        lattice_m = self.lattice_m
+        lattice_m = self._lattice_of(key)
         return [(x * lattice_m, y * lattice_m, AMPLITUDES[step]) for x, y, step in key if step != NULL]
+
+    def _lattice_of(self, key: tuple[LatticePoint, ...]) -> float:
+        return self.lattice_m if len(key) == 1 else self.lattice_m / FINER
 
     def recheck(self, key: Key) -> None:
         """Check the entry of a key again, of which the FPGA refused a frame or the words for a wrong CRC.
@@ -174,7 +179,11 @@ class Selection:
 
 
 def lattice_key(points: Sequence[Point], lattice_m: float) -> tuple[LatticePoint, ...]:
-    """Points (x_m, y_m, amplitude) on a lattice of `lattice_m`, in ascending order."""
+    """Points (x_m, y_m, amplitude) on a lattice of `lattice_m` for one point, `FINER` for several, in ascending order."""
+    return _on_lattice(points, lattice_m if len(points) == 1 else lattice_m / FINER)
+
+
+def _on_lattice(points: Sequence[Point], lattice_m: float) -> tuple[LatticePoint, ...]:
     lattice = []
     for x_m, y_m, amplitude in points:
         step = 0 if amplitude == 1 else amplitude_step(amplitude)

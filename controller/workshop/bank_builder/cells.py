@@ -17,6 +17,7 @@ from controller.workshop.bank_builder.optimised import kept_path
 from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.memory import BASE_BYTES, require
+from controller.workshop.physics.plate import rest_lift
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.workers.map_kept import Mapped, map_kept
 
@@ -33,17 +34,24 @@ class CellEntries:
     samples: int
     rows: int  # of a response: samples, then rest
     idle_word: int
+    lift: tuple[float, float]  # of the rest (`rest_lift`)
 
     @classmethod
     def of(cls, plan: BankPlan) -> Self:
         """That of a build."""
         samples = plan.header.samples
-        return cls(plan.source, samples, samples + plan.header.rest_rows, plan.board.idle_word)
+        lift = rest_lift(plan.board, plan.header.grid.pitch_m)
+        return cls(plan.source, samples, samples + plan.header.rest_rows, plan.board.idle_word, lift)
 
     def entries(self, points_m: Floats, room: Reals | None = None) -> Iterator[Entry]:
         """Entries of the cells of a block, at (cell, 2) in m; `room` for the responses of at least as many."""
         room = np.empty((len(points_m), self.rows, CHANNELS), np.float32) if room is None else room[: len(points_m)]
+        own, beside = map(np.float32, self.lift)
         for response in self.source.entry_responses(points_m, out=room):
+            rest, neighbours = response[self.samples :], beside * response[self.samples :]
+            rest *= own
+            rest[1:] -= neighbours[:-1]
+            rest[:-1] -= neighbours[1:]
             yield drive_words(response[: self.samples], self.idle_word), *quantise(response)
 
     def __call__(self, blocks: Sequence[Floats]) -> list[bytes]:

@@ -20,10 +20,13 @@ from controller.workshop.workers.workers import ALONE, Workers
 
 
 def cells_around(grid: Grid, places_m: Iterable[tuple[float, float]]) -> Bools:
-    """The cells that are interpolated between at some places: (cells of the grid,)."""
-    cells = np.zeros(grid.cells, bool)
+    """The cells that are interpolated between at some places, alone and among many: (cells of the grid,)."""
+    cells, rows = np.zeros(grid.cells, bool), range(-1, 3)
     for x_m, y_m in places_m:
-        cells[list(grid.corners(x_m, y_m)[0])] = True
+        iy, ix = divmod(grid.corners(x_m, y_m)[0][0], grid.nx)
+        for x, y in ((x, y) for y in rows for x in rows if x in (0, 1) or y in (0, 1)):
+            if 0 <= ix + x < grid.nx and 0 <= iy + y < grid.ny:
+                cells[(iy + y) * grid.nx + ix + x] = True
     return cells
 
 

@@ -47,7 +47,7 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
         return read(data, fields, name)
 
     assert header("`HPNLBANK`") == b"HPNLBANK"
-    assert header("format version") == 7
+    assert header("format version") == 9
     assert header("bytes of the file") == len(data)
     assert header("SHA-256") == board.digest()
     assert (header("pitch"), header("x"), header("y")) == (5e-3, 5e-3, 6e-3)

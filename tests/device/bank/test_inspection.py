@@ -86,7 +86,7 @@ def test_info_tells_what_a_bank_is_without_reading_its_entries(bank_path, board)
     assert (info["cells"], info["cells_of_grid"], info["samples"], info["board"]) == (3, 6, 9, "simulated")
     assert info["board_digest"] == board.digest().hex()
     assert info["grid"] == {"pitch_mm": 5.0, "nx": 3, "ny": 2, "x0_mm": 5.0, "y0_mm": 6.0}
-    assert info["format"] == 7
+    assert info["format"] == 9
     assert info["compositions"] == 1
     assert info["bytes"] == bank_path.stat().st_size
 

@@ -109,7 +109,7 @@ def test_the_nearest_four_places_are_kept_still_but_none_at_a_focus(bank_file):
         point = (0.1, 0.07, 1.0)
         far = [(0.1 + 0.01 * n, 0.07) for n in (5, 3, 1, 2, 4)]
         key = selection.null_key([point], [*far, (0.104, 0.07)])
-        assert key == ((400, 280, 0), *[(400 + 40 * n, 280, NULL) for n in (1, 2, 3, 4)])
+        assert key == ((3200, 2240, 0), *[(3200 + 320 * n, 2240, NULL) for n in (1, 2, 3, 4)])
         assert selection.null_key([point], [(0.104, 0.07)]) == selection.key([point])
         assert selection.null_key([point], []) == selection.key([point])
 

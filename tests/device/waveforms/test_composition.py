@@ -1,4 +1,5 @@
 import itertools
+import math
 
 import numpy as np
 import pytest
@@ -25,12 +26,37 @@ def bank(tmp_path_factory, make_bank, waves):
         yield opened
 
 
-def interpolated(bank, x_m, y_m):
-    """Bilinear, with weights in 256ths: whole numbers."""
+def interpolated(bank, x_m, y_m, *, many):
+    """Bilinear, with weights in 256ths: whole numbers. Among many points from cells spread as far along x as along y."""
     cells, shares = bank.grid.corners(x_m, y_m)
+    if many:
+        cells, shares = spread_alike(bank, x_m, y_m) or (cells, shares)
     used = [(cell, share * bank.responses.response(cell)[1]) for cell, share in zip(cells, shares, strict=True) if share]
-    total = sum(share for _, share in used)
-    return sum(round(256 * share / total) * bank.responses.response(cell)[0].astype(np.int64) for cell, share in used)
+    total = sum(share for _, share in used) / (256 if len(used) < 6 else 255)
+    return sum(round(share / total) * bank.responses.response(cell)[0].astype(np.int64) for cell, share in used)
+
+
+def spread_alike(bank, x_m, y_m):
+    """Two cells along one axis, the nearest three along the other, with shares of equal variance; None where they hardly differ."""
+    grid = bank.grid
+    at = (x_m - grid.x0_m) / grid.pitch_m, (y_m - grid.y0_m) / grid.pitch_m
+    if not (0 <= at[0] <= grid.nx - 1 and 0 <= at[1] <= grid.ny - 1):
+        return None
+    spreads = [place % 1 * (1 - place % 1) for place in at]
+    if abs(spreads[0] - spreads[1]) / 2 <= 1 / 48:
+        return None
+    along = []
+    for place, spread in zip(at, spreads, strict=True):
+        wide = spread < max(spreads)
+        here = np.arange(3) + math.floor(place + 0.5) - 1 if wide else np.arange(2) + math.floor(place)
+        powers = np.arange(len(here))[:, None]
+        moments = [1.0, place, place**2 + max(spreads)]
+        along.append((here, np.linalg.solve((here**powers).astype(float), moments[: len(here)])))
+    (xs, of_x), (ys, of_y) = along
+    if min(xs) < 0 or min(ys) < 0 or max(xs) >= grid.nx or max(ys) >= grid.ny:
+        return None
+    cells = (ys[:, None] * grid.nx + xs).ravel().tolist()
+    return None if MISSING in cells else (cells, np.outer(of_y, of_x).ravel().tolist())
 
 
 def weighed(bank, points):
@@ -41,7 +67,7 @@ def weighed(bank, points):
     is outside the band here, and the bank has no equaliser: responses of several are only halved.
     """
     turned = 1 - 2 * channel_bits(np.uint32([IDLE_WORD])).astype(np.int64)
-    responses = [interpolated(bank, x_m, y_m) for x_m, y_m, _ in points]
+    responses = [interpolated(bank, x_m, y_m, many=len(points) > 4) for x_m, y_m, _ in points]
     if len(points) > 1:
         responses = [(here * turned >> 1) * turned for here in responses]
     norms = np.array([float(np.abs(here).sum()) for here in responses])

@@ -11,7 +11,7 @@ from controller.device.bank.reader import Bank
 from controller.device.fpga.frames import ReadyFrames
 from controller.device.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.device.waveforms.composition import Composer
-from controller.device.waveforms.selection import LATTICE_M, Selection
+from controller.device.waveforms.selection import FINER, LATTICE_M, Selection
 
 SNAP_M = 1e-3
 
@@ -58,7 +58,9 @@ def test_a_place_is_rounded_to_the_lattice_and_of_two_to_the_even_one(selection,
     expected = round(x_m / LATTICE_M)
     ((x, _, _),) = selection.key([(x_m, 0.0, 0.5)])
     assert x == expected
-    assert sorted(x for x, _, _ in selection.key([(x_m, 0.0, 1.0), (0.15, 0.1, 1.0)])) == sorted([expected, 600])
+    finer_m = LATTICE_M / FINER
+    key = selection.key([(steps * finer_m, 0.0, 1.0), (0.15, 0.1, 1.0)])
+    assert sorted(x for x, _, _ in key) == sorted([expected, round(0.15 / finer_m)])
 
 
 def test_the_order_of_the_fingers_does_not_matter_but_their_amplitudes_do(selection):
@@ -84,14 +86,14 @@ def test_less_than_full_amplitude_is_composed_on_a_cell_too(bank, selection):
 @given(st.floats(0.25, 1))
 def test_an_amplitude_is_rounded_by_less_than_it_may_be_off(amplitude):
     step = amplitude_step(amplitude)
-    assert AMPLITUDES[step] == pytest.approx(amplitude, rel=0.022)
+    assert AMPLITUDES[step] == pytest.approx(amplitude, rel=0.0028)
     assert amplitude_step(AMPLITUDES[step]) == step
 
 
 def test_a_quarter_is_the_least_amplitude():
     assert AMPLITUDES[0] == 1
     assert AMPLITUDES[amplitude_step(0.25)] == 0.25
-    assert AMPLITUDES[amplitude_step(0.1)] == AMPLITUDES[amplitude_step(1e-9)] == pytest.approx(0.1, rel=0.01)
+    assert AMPLITUDES[amplitude_step(0.1)] == AMPLITUDES[amplitude_step(1e-9)] == 0.1
 
 
 @each_row("amplitude", [0.0, -1.0, 1.001, float("nan"), float("inf")])

@@ -62,7 +62,7 @@ def test_float32_differs_from_float64_in_at_most_a_bit_of_a_thousand_and_nothing
             assert np.sum((2.0 * bits - 1) * response) / np.abs(response).sum() >= 0.9999
             levels, scale_m_per_v = bank.responses.response(cell)
             assert np.abs(levels * np.float64(scale_m_per_v) - response).max() <= 0.51 * scale_m_per_v
-            assert np.abs(levels).max() == 127
+            assert 90 < np.abs(levels).max() <= 127  # what lies outside the band may be larger
             wrong = bits ^ (np.arange(bits.size).reshape(bits.shape) % 150 == 0)  # under 1 % of the bits
             assert np.mean(wrong != expected) > 0.001
             assert np.sum((2.0 * wrong - 1) * response) / np.abs(response).sum() < 0.9999

@@ -873,6 +873,9 @@ static struct tracked *finger_of(int finger)
     return 0;
 }
 
+/* The lattice of several points is finer. */
+static double lattice_of(int count) { return count == 1 ? c.lattice_m : c.lattice_m / 8; }
+
 /* What fingers are due, and the key of where they will be; 0, or -1: one was not due here, -2: it is not known here. */
 static int aim(const int *fingers, int count, double focus_s, struct key *key)
 {
@@ -903,15 +906,15 @@ static int aim(const int *fingers, int count, double focus_s, struct key *key)
                 return 0;
             }
         }
-        long x = lrint(x_m / c.lattice_m), y = lrint(y_m / c.lattice_m);
+        long x = lrint(x_m / lattice_of(count)), y = lrint(y_m / lattice_of(count));
         int j = i; /* in the order of their places */
         for (; j && (key->at[j - 1][0] > x || (key->at[j - 1][0] == x && key->at[j - 1][1] > y)); j--)
             memcpy(key->at[j], key->at[j - 1], sizeof *key->at);
         key->at[j][0] = x;
         key->at[j][1] = y;
     }
-    key->x_m = key->at[0][0] * c.lattice_m;
-    key->y_m = key->at[0][1] * c.lattice_m;
+    key->x_m = key->at[0][0] * lattice_of(count);
+    key->y_m = key->at[0][1] * lattice_of(count);
     return 0;
 }
 
@@ -960,8 +963,8 @@ int64_t twin_upload(const int *fingers, int count, const struct reported *report
     } else {
         double points[POINTS][2];
         for (int i = 0; i < count; i++) {
-            points[i][0] = key.at[i][0] * c.lattice_m;
-            points[i][1] = key.at[i][1] * c.lattice_m;
+            points[i][0] = key.at[i][0] * lattice_of(count);
+            points[i][1] = key.at[i][1] * lattice_of(count);
         }
         if (count == 1)
             interpolate(key.x_m, key.y_m);

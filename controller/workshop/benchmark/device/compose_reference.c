@@ -33,26 +33,49 @@ static double along(double distance_m, double pitch_m, int64_t last, int64_t *in
     return 0;
 }
 
+/* The four cells around a place, with their shares along x and y; for many points six, so that waves of all directions lose alike.
+   Returns a of the equaliser. */
+static double cells_around(const struct bank *b, const double *place, int many, int64_t *column, int64_t *row, double *x, double *y)
+{
+    double right = along(place[0] - b->x0_m, b->pitch_m, b->nx - 1, column), up = along(place[1] - b->y0_m, b->pitch_m, b->ny - 1, row);
+    double ax = right * (1 - right), ay = up * (1 - up), more = fabs(ax - ay) / 2, *wide = ax > ay ? y : x, beyond = ax > ay ? up : right;
+    int64_t *first = ax > ay ? row : column, start, count = ax > ay ? b->ny : b->nx;
+    x[0] = 1 - right, x[1] = right, x[2] = 0;
+    y[0] = 1 - up, y[1] = up, y[2] = 0;
+    start = beyond <= 0.5 ? *first - 1 : *first;
+    if (!many || more <= 1.0 / 48 || start < 0 || start + 3 > count) return ax + ay;
+    for (int i = 0; i < 6; i++) {
+        int64_t cx = ax > ay ? *column + i % 2 : start + i % 3, cy = ax > ay ? start + i / 2 : *row + i / 3;
+        if (cx >= b->nx || cy >= b->ny || b->entry_of[cy * b->nx + cx] < 0) return ax + ay;
+    }
+    *first = start;
+    if (beyond <= 0.5)
+        wide[0] = more, wide[1] = 1 - beyond - 2 * more, wide[2] = beyond + more;
+    else
+        wide[0] = 1 - beyond + more, wide[1] = beyond - 2 * more, wide[2] = more;
+    return ax + ay + 2 * more;
+}
+
 /* Values of a response of a point. */
-static void interpolate(const struct bank *b, double x_m, double y_m, int first, int values, int16_t *out)
+static void interpolate(const struct bank *b, const double *place, int many, int first, int values, int16_t *out)
 {
     int64_t ix, iy;
-    double right = along(x_m - b->x0_m, b->pitch_m, b->nx - 1, &ix), up = along(y_m - b->y0_m, b->pitch_m, b->ny - 1, &iy);
-    double share[4] = {(1 - up) * (1 - right), (1 - up) * right, up * (1 - right), up * right}, total = 0;
-    const int8_t *from[4];
-    int16_t weight[4];
+    double x[3], y[3], share[6], total = 0, between = cells_around(b, place, many, &ix, &iy, x, y);
+    const int8_t *from[6];
+    int16_t weight[6];
     int cells = 0;
-    for (int corner = 0; corner < 4; corner++) {
-        if (share[corner] == 0) continue;
-        int32_t entry = b->entry_of[(iy + (corner >> 1)) * b->nx + ix + (corner & 1)];
+    for (int i = 0; i < 9; i++) {
+        double part = y[i / 3] * x[i % 3];
+        if (part == 0) continue;
+        int32_t entry = b->entry_of[(iy + i / 3) * b->nx + ix + i % 3];
         from[cells] = b->response + entry * b->stride + first;
-        share[cells] = share[corner] * b->scale_of[entry];
+        share[cells] = part * b->scale_of[entry];
         total += share[cells++];
     }
-    double kept = first ? 1 - b->band_lost * (right * (1 - right) + up * (1 - up)) : 1; /* of what is outside the band */
-    for (int i = 0; i < cells; i++) weight[i] = (int16_t)rint(share[i] * (256 / total * kept));
+    double kept = first ? 1 - b->band_lost * between : 1; /* of what is outside the band */
+    for (int i = 0; i < cells; i++) weight[i] = (int16_t)rint(share[i] * ((cells == 6 ? 255 : 256) / total * kept));
     if (cells == 1) weight[0] = 256;
-    const int8_t *p = from[0], *q = from[1 % cells], *r = from[2 % cells], *s = from[3 % cells];
+    const int8_t *p = from[0], *q = from[1 % cells], *r = from[2 % cells], *s = from[3 % cells], *t = from[4 % cells], *u = from[5 % cells];
     if (cells == 1)
         for (int v = 0; v < values; v++) out[v] = (int16_t)(p[v] * weight[0]);
     else if (cells == 2)
@@ -60,6 +83,8 @@ static void interpolate(const struct bank *b, double x_m, double y_m, int first,
     else
         for (int v = 0; v < values; v++)
             out[v] = (int16_t)(p[v] * weight[0]) + (int16_t)(q[v] * weight[1]) + (int16_t)(r[v] * weight[2]) + (int16_t)(s[v] * weight[3]);
+    if (cells == 6)
+        for (int v = 0; v < values; v++) out[v] += (int16_t)(t[v] * weight[4]) + (int16_t)(u[v] * weight[5]);
 }
 
 /* Negated in channels that idle high: a bit deviates from idle where the sum is positive. */
@@ -70,12 +95,12 @@ static void turn(int16_t *response, int rows, const int16_t *idles_high)
 }
 
 /* Halved, with the band's slope given back: 8 us before and after; all that bits do; the sum of absolute values in the band. */
-static int64_t equalise(const struct bank *b, double x_m, double y_m, int16_t *response, const int16_t *rest, int16_t *whole)
+static int64_t equalise(const struct bank *b, const double *place, int many, int16_t *response, const int16_t *rest, int16_t *whole)
 {
     static int16_t met[VALUES + 2 * APART];
     int64_t ix, iy, norm = 0;
-    double right = along(x_m - b->x0_m, b->pitch_m, b->nx - 1, &ix), up = along(y_m - b->y0_m, b->pitch_m, b->ny - 1, &iy);
-    int32_t tap = (int32_t)rint(b->equaliser * (right * (1 - right) + up * (1 - up)) * (1 << 14));
+    double x[3], y[3];
+    int32_t tap = (int32_t)rint(b->equaliser * cells_around(b, place, many, &ix, &iy, x, y) * (1 << 14));
     memcpy(met + APART, response, VALUES * sizeof *met);
     for (int v = 0; v < VALUES; v++) response[v] = (int16_t)((met[v + APART] >> 1) - (met[v] * tap >> 15) - (met[v + 2 * APART] * tap >> 15));
     for (int v = 0; v < VALUES; v++) {
@@ -200,12 +225,12 @@ static void compose(const struct bank *b, const double (*points)[2], int count, 
     int sign[POINTS] = {1};
     for (int c = 0; c < CHANNELS; c++) idles_high[c] = b->idle_word >> c & 1;
     for (int i = 0; i < count; i++) {
-        interpolate(b, points[i][0], points[i][1], 0, VALUES, response_of[i]);
+        interpolate(b, points[i], count > 4, 0, VALUES, response_of[i]);
         turn(response_of[i], SAMPLES, idles_high);
         if (count == 1) continue;
-        interpolate(b, points[i][0], points[i][1], VALUES, RESTS, rest);
+        interpolate(b, points[i], count > 4, VALUES, RESTS, rest);
         turn(rest, SAMPLES / 2, idles_high);
-        norm[i] = equalise(b, points[i][0], points[i][1], response_of[i], rest, whole_of[i]);
+        norm[i] = equalise(b, points[i], count > 4, response_of[i], rest, whole_of[i]);
         sketch(response_of[i], sketch_of[i]);
     }
     if (count > 1) find_polarities(norm, count, sign);

@@ -1,7 +1,8 @@
 """Figures under "Amplitude": amplitudes reached on the plate by composing from a bank.
 
-`haptic-panel focus --amplitude-figures` makes them: requested against reached amplitude, places between cells, edges. The
-reference is the whole displacement in float64, with all modes, at the very points; it does not use the bank.
+`haptic-panel focus --amplitude-figures` makes them: requested against reached amplitude, places between cells, edges. What fingers
+get is what the device plays for them, with places and amplitudes rounded as it rounds them; the reference is the whole displacement
+in float64, with all modes, at the very points, and does not use the bank.
 """
 
 import tempfile
@@ -18,7 +19,8 @@ from controller.device.bank.packing import WORD, edges
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.waveforms.selection import REUSE_RADIUS_M
+from controller.device.fpga.frames import ReadyFrames
+from controller.device.waveforms.selection import REUSE_RADIUS_M, Selection
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.methods.design import DesignMethod
 from controller.workshop.bank_builder.methods.device_composition import DeviceComposition
@@ -29,19 +31,21 @@ from controller.workshop.physics.plate import wave_scale
 from controller.workshop.physics.plate_twin import PlateTwin
 
 Figures = dict[str, Any]
+Scene = list[tuple[float, float, float]]  # x_m, y_m, amplitude of each finger
 
 # On the paper's plate; on others they go with the length of its waves
 MARGIN_M = 12e-3  # distance of fingers from the plate's edges
 SEPARATION_M = 8e-3  # smallest distance between two fingers
-FINGERS = (1, 2, 4, 10)
+FINGERS = (1, 2, 3, 4, 6, 8, 10)
 AMPLITUDES = (MIN_AMPLITUDE, 0.25, 0.5, 0.75, 1.0)
 
 
 def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float | None = None) -> Figures:
-    """Evaluate random scenes of 1, 2, 4 and 10 fingers, this many of each, and as many single points; none is left out.
+    """Evaluate random scenes of 1 to 10 fingers, this many of each number, and as many single points; none is left out.
 
     The bank, of the board's own pitch by default, holds only the cells needed here. `fingers`: for each number of fingers, `asked`
-    and `got`, as shares of what exact composition gives each finger at full amplitude, and `error_percent`. `single`: for each
+    and `got`, as shares of what exact composition gives each finger at full amplitude, and `error_percent`, where each finger asks
+    for an amplitude of its own, and where all ask for the same. `single`: for each
     amplitude, contrast and spot relative to full amplitude, and edges. `between_cells`: relative amplitude when interpolated and
     from the nearest entry, and `REUSE_RADIUS_M` beside the point.
     """
@@ -58,17 +62,18 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
         build_bank(BankRequest(board, path, pitch_m, cells_around(Grid.of(board.plate, pitch_m), places.tolist())))
         with Bank.open(path, board) as bank:
             composer, twin = DeviceComposition(board, bank), PlateTwin(board)
+            selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
             return {
                 "seed": seed,
                 "scenes": scenes,
                 "pitch_mm": pitch_m * 1e3,
-                "fingers": {str(len(some[0])): _mixed(composer, twin, some) for some in played},
+                "fingers": {str(len(some[0])): _mixed(selection, bank, twin, some) for some in played},
                 "single": {f"{amplitude:g}": _single(composer, twin, singles, amplitude) for amplitude in AMPLITUDES},
                 "between_cells": _between_cells(bank, composer, twin, singles, beside),
             }
 
 
-def _scene(board: Board, random: np.random.Generator, fingers: int) -> list[tuple[float, float, float]]:
+def _scene(board: Board, random: np.random.Generator, fingers: int) -> Scene:
     """(x_m, y_m, amplitude) of fingers at random places, as far apart as there is room for; amplitudes from the least to 1."""
     sides, scale = np.array([board.plate.length_m, board.plate.width_m]), wave_scale(board)
     margin = np.minimum(MARGIN_M * scale, 0.4 * sides)
@@ -81,21 +86,37 @@ def _scene(board: Board, random: np.random.Generator, fingers: int) -> list[tupl
             return [(float(x_m), float(y_m), float(random.uniform(MIN_AMPLITUDE, 1))) for x_m, y_m in places]
 
 
-def _words(composer: DesignMethod, scene: list[tuple[float, float, float]]) -> Words:
+def _words(composer: DesignMethod, scene: Scene) -> Words:
     return composer.design(scene).words
 
 
-def _mixed(composer: DesignMethod, twin: PlateTwin, scenes: list[list[tuple[float, float, float]]]) -> Figures:
+def _mixed(selection: Selection, bank: Bank, twin: PlateTwin, scenes: list[Scene]) -> Figures:
     """Requested and reached amplitudes of fingers that are composed together."""
+    asked, got = _reached(selection, bank, twin, scenes)
+    percent = {"each_its_own": _errors(asked, got)}
+    for amplitude in AMPLITUDES:
+        alike = [[(x_m, y_m, amplitude) for x_m, y_m, _ in scene] for scene in scenes]
+        percent[f"all_{amplitude:g}"] = _errors(*_reached(selection, bank, twin, alike))
+    return {"error_percent": percent, "asked": asked, "got": got}
+
+
+def _reached(selection: Selection, bank: Bank, twin: PlateTwin, scenes: list[Scene]) -> tuple[list[float], list[float]]:
+    """What all fingers of some scenes ask for, and what they get by what the device plays."""
     asked: list[float] = []
     got: list[float] = []
     for scene in scenes:
-        places = tuple((x_m, y_m) for x_m, y_m, _ in scene)
-        got.extend(np.abs(emit(twin, _words(composer, scene)).at(places)) / twin.exact_amplitudes(places))
+        key, places = selection.key(scene), tuple((x_m, y_m) for x_m, y_m, _ in scene)
+        played = bank.drive.words(key) if isinstance(key, int) else selection.waveform(key)
+        assert not isinstance(played, ReadyFrames)
+        words = np.frombuffer(played, WORD).copy()
+        got.extend((np.abs(emit(twin, words).at(places)) / twin.exact_amplitudes(places)).tolist())
         asked.extend(amplitude for _, _, amplitude in scene)
+    return asked, got
+
+
+def _errors(asked: list[float], got: list[float]) -> dict[str, float]:
     error = 100 * np.abs(np.array(got) / asked - 1)
-    percent = spread(error.tolist()) | {"p95": float(np.quantile(error, 0.95))}
-    return {"error_percent": percent, "asked": asked, "got": [float(share) for share in got]}
+    return {"median": float(np.median(error)), "p95": float(np.quantile(error, 0.95)), "max": float(error.max())}
 
 
 def _single(composer: DesignMethod, twin: PlateTwin, points: Floats, amplitude: float) -> Figures:
@@ -141,7 +162,7 @@ def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
     ends = np.array([0.2, 1.05])
     against.fill_between(ends, 0.95 * ends, 1.05 * ends, color="0.9", label="within 5 %")
     errors.axhspan(-5, 5, color="0.9")
-    for (fingers, found), marker in zip(figures["fingers"].items(), "os^.", strict=True):
+    for (fingers, found), marker in zip(figures["fingers"].items(), "os^vD*.", strict=True):
         asked, got = np.array(found["asked"]), np.array(found["got"])
         label = f"{fingers} finger{'s' * (fingers != '1')}"
         against.plot(asked, got, marker, ms=4, label=label)
