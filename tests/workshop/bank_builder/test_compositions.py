@@ -46,7 +46,7 @@ def test_what_spots_play_together_is_taken_from_the_bank_as_exact_composition_ma
     with Bank.open(path, board) as bank:
         assert report.worst_edge_rate_hz * board.waveform.duration_s <= bank.worst_edges[0]
         selection = Selection(bank, 1e-3, board.idle_word)
-        for points in (POINTS, POINTS[::-1], [(x_m + 0.02e-3, y_m, amplitude) for x_m, y_m, amplitude in POINTS]):
+        for points in (POINTS, POINTS[::-1], [(x_m + 0.01e-3, y_m, amplitude) for x_m, y_m, amplitude in POINTS]):
             waveform = selection.waveform(selection.key(points))
             assert isinstance(waveform, ReadyFrames)
             words = bytearray(4000)
