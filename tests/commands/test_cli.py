@@ -483,7 +483,7 @@ def test_a_bank_of_another_pitch_is_said_not_to_be_the_one_that_run_reads(capsys
     path = bank_path(load_board(small_board))
     path.unlink(missing_ok=True)
     _, err = printed(capsys, "bank", "build", "--board", small_board, "--pitch-mm", "20")
-    assert f"run plays from {path} (the device's own) unless given --bank {path.with_name('small-20mm.v7.bank')}" in err
+    assert f"run plays from {path} (the device's own) unless given --bank {path.with_name('small-20mm.v9.bank')}" in err
     assert not path.exists()
 
 

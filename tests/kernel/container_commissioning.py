@@ -49,7 +49,7 @@ with socket.socket(socket.AF_UNIX) as jtag:
     jtag.sendall(f"{{option}}\\n{{file}}".encode())
     sys.exit(jtag.recv(16) != b"done")
 """
-BANK = Path("/var/lib/haptic-panel/banks/panel.v7.bank")
+BANK = Path("/var/lib/haptic-panel/banks/panel.v9.bank")
 TOOLS = Path("/run/tools")
 SOCKET = "/tmp/panel.sock"
 ENVIRONMENT = {

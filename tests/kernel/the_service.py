@@ -13,7 +13,7 @@ from controller.device.board.board import load_board
 
 CHECKOUT = Path(__file__).parents[2]
 UNIT = "haptic-panel"
-BANK = Path("/var/lib/haptic-panel/banks/panel.v7.bank")
+BANK = Path("/var/lib/haptic-panel/banks/panel.v9.bank")
 
 
 def run(*command, cwd=CHECKOUT):

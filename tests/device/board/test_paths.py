@@ -42,7 +42,7 @@ def test_a_device_has_a_board_of_its_own_once_there_is_one_called_panel(panel, t
 
 def test_a_board_of_etc_has_its_bank_in_the_services_folder_by_the_name_it_is_called_by(panel, tmp_path, monkeypatch):
     assert panel.called == "panel"
-    expected = tmp_path / "var" / "haptic-panel" / "banks" / "panel.v7.bank"
+    expected = tmp_path / "var" / "haptic-panel" / "banks" / "panel.v9.bank"
     assert bank_path(panel) == expected
     monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "var" / "haptic-panel"))
     assert bank_path(panel) == expected, "the service itself looks where root and the doctor look"
@@ -53,14 +53,14 @@ def test_a_board_of_etc_has_its_bank_in_the_services_folder_by_the_name_it_is_ca
 
 def test_any_other_boards_bank_lies_in_the_users_cache(board, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert bank_path(board) == tmp_path / "haptic-panel" / "banks" / "simulated.v7.bank"
+    assert bank_path(board) == tmp_path / "haptic-panel" / "banks" / "simulated.v9.bank"
     assert state_folder() == tmp_path / "haptic-panel"
 
 
 def test_another_pitch_has_a_file_of_its_own(board):
     own = bank_path(board)
     assert bank_path(board, board.bank.pitch_mm * 1e-3) == own
-    assert bank_path(board, 5e-3) == own.with_name("simulated-5mm.v7.bank")
+    assert bank_path(board, 5e-3) == own.with_name("simulated-5mm.v9.bank")
 
 
 def test_the_line_that_builds_a_bank_builds_that_bank(board, tmp_path):
@@ -121,7 +121,7 @@ def test_a_bank_that_this_user_may_not_read_is_reported_and_not_built_again(pane
     path.chmod(0o600)
     os.seteuid(pwd.getpwnam("nobody").pw_uid)
     try:
-        with pytest.raises(paths.BankError, match=r"panel\.v7\.bank: cannot be read \(Permission denied\)$"):
+        with pytest.raises(paths.BankError, match=r"panel\.v9\.bank: cannot be read \(Permission denied\)$"):
             fit(path, panel, np.ones(Grid.of(panel.plate, panel.bank.pitch_mm * 1e-3).cells, bool))
     finally:
         os.seteuid(0)
