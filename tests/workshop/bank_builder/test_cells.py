@@ -19,7 +19,7 @@ from workshop.calibration.true_plate import TruePlate
 from controller.device.board.panel import AssumedFinger
 from controller.device.scene.scene import FixedEmitter
 from controller.errors import ConfigError
-from controller.workshop.bank_builder import plan
+from controller.workshop.bank_builder import plan, said_amplitude
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.cells import CellEntries
 from controller.workshop.bank_builder.request import BankRequest
@@ -60,6 +60,7 @@ def groups(monkeypatch):
 
     monkeypatch.setattr(map_kept, "_computed", by_workers)
     monkeypatch.setattr(plan, "CELLS_PER_BLOCK", 32)
+    monkeypatch.setattr(said_amplitude, "PLACES", 3)  # of the whole bank, whoever computes its cells
     return computed
 
 

@@ -20,6 +20,7 @@ from tables import each_row
 from controller.cli import main
 from controller.commands.calibrate import fleet as fleet_command
 from controller.device.bank.reader import Bank
+from controller.workshop.bank_builder import said_amplitude
 from controller.workshop.bank_builder.methods.descent import AIMS
 from controller.workshop.calibration.banks import fleet
 from controller.workshop.calibration.banks.fleet import KEPT, REPORT, calibrate_fleet
@@ -90,6 +91,7 @@ def test_a_full_disk_ends_the_fleet_where_it_is_and_the_same_command_goes_on(tmp
 
     monkeypatch.setattr(fleet_command, "load_board", lambda _: small_board())
     monkeypatch.setattr(fleet, "fit", lambda one: begun.append(one.folder.name) or fitted)  # copies
+    monkeypatch.setattr(said_amplitude, "PLACES", 3)  # of each bank, where most of the time goes
     monkeypatch.setattr(os, "posix_fallocate", full)
     assert main(["calibrate", "fleet", str(fleet_folder), "--out", str(banks), "--pitch-mm", "4", "--workers", "1"]) == 78
     (line,) = capsys.readouterr().err.splitlines()
