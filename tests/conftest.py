@@ -106,7 +106,8 @@ def pytest_collection_modifyitems(items, config):
     items.sort(key=lambda item: (LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST), item.path))
 
 
-def pytest_collection_finish():
+@pytest.fixture(scope="module", autouse=True)
+def what_is_there_stays():
     """Each run of the loop begins with a garbage collection, which need not walk all tests and modules every time."""
     gc.collect()
     gc.freeze()

@@ -177,7 +177,7 @@ def test_a_trial_that_fails_is_given_up_at_once(device, how):
     assert (device.current, device.failed) == ("1.0", ["2.0"])
 
 
-@pytest.mark.parametrize("how", ["failed", "late"])
+@each_row("how", ["failed", "late"], afresh=[device])
 def test_what_is_no_trial_is_not_given_up(device, how):
     device.unit_state("failed" if how == "failed" else "activating")
     device.run(how)

@@ -9,6 +9,7 @@ from functools import cache
 import msgspec
 import numpy as np
 import pytest
+from tables import each_row
 
 from controller.cli import main
 from controller.device.board.board import load_board
@@ -190,7 +191,7 @@ def test_the_command_from_the_first_points_to_a_verdict(tmp_path, capsys):
     assert "undecided" not in out
 
 
-@pytest.mark.parametrize("off_m", [1e-3, 4e-3])
+@each_row("off_m", [1e-3, 4e-3])
 def test_points_that_lie_elsewhere_are_found_and_accuse_nobody(off_m):
     points_m, measured = transfers("free", 8, 5, 0.03)
     stated_m, resolved = points_m + np.array([off_m, 0]), np.ones(measured.shape[:2], bool)
