@@ -235,7 +235,7 @@ def test_load_frames_lie_where_upload_slices_say(length):
     assert end <= frames.UPLOAD_BYTES == 4096
 
 
-@pytest.mark.parametrize("length", [0, 1001])
+@each_row("length", [0, 1001])
 def test_a_waveform_of_an_impossible_length_is_refused(length):
     with pytest.raises(ValueError, match="1 to 1000 words"):
         frames.upload_slices(length)

@@ -5,6 +5,7 @@ import time
 
 import msgspec
 import pytest
+from tables import each_row
 
 from controller.device.board.devices import LinkSettings
 from controller.device.fpga.links import spi_link
@@ -46,7 +47,7 @@ def test_a_link_to_a_device_is_followed(monkeypatch, tmp_path):
     assert opened(monkeypatch, str(tmp_path / "fpga")).args == (3, 1)
 
 
-@pytest.mark.parametrize("device", ["/dev/spidev7.1", "/dev/none"])
+@each_row("device", ["/dev/spidev7.1", "/dev/none"])
 def test_a_device_that_is_not_there_is_one_line(monkeypatch, device):
     error = opened(monkeypatch, device)
     assert isinstance(error, LinkError)
@@ -57,6 +58,10 @@ def test_another_device_is_refused(monkeypatch):
     assert str(opened(monkeypatch, "/dev/null")) == (
         "/dev/null is /dev/null, which is no device of spidev: give /dev/spidevB.C, or a link to it"
     )
+
+
+@pytest.mark.interpreted
+def test_an_sck_beyond_the_boards_is_refused():
     link = object.__new__(spi_link.SpiLink)
     link._settings = SETTINGS
     for sck_hz in (-1, 0, 25_000_001):
