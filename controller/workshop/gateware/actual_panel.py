@@ -20,7 +20,6 @@ from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS, FPGAS_MAX, Actuator, Driver, Plate
 from controller.device.board.records import Record, as_record, load_toml
 from controller.device.board.relations.panel import PLACES
-from controller.device.fpga.bitstream import read_identity
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.errors import ConfigError
 
@@ -115,6 +114,8 @@ def gateware_of(board: Board, build_hash: int) -> BuildParameters | None:
         return of_board
     if not flash.exists():
         return None
+    from controller.device.fpga.bitstream import read_identity  # noqa: PLC0415 - loads OpenSSL: 4 MB of a simulated service
+
     return replace(of_board, **{name.lower(): value for name, value in read_identity(flash).parameters.items()})
 
 
