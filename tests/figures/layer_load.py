@@ -28,8 +28,8 @@ from typing import Any, Final
 import msgspec
 
 from controller.console import program, say
-from controller.device.application_socket import messages
 from controller.device.application_socket.client import PanelClient
+from controller.device.application_socket.protocol import client_messages, panel_messages
 from controller.metrics import LatencyHistogram
 from tests.figures.socket_load import Account, connect, received, wait_for_panel
 
@@ -108,7 +108,7 @@ class Load:
         self._replacements_hz = replacements_hz
         self._player, self._page = connect(path), connect(path)
         self._chance = random.Random(1)
-        self._decoder, self._encoder = messages.message_decoder(), msgspec.json.Encoder()
+        self._decoder, self._encoder = panel_messages.message_decoder(), msgspec.json.Encoder()
         self._places = [(self._chance.uniform(15, 195), self._chance.uniform(15, 133)) for _ in range(PLACES)]
         self._one_span = LatencyHistogram()
         self._counted = False  # commands that are answered now
@@ -150,9 +150,9 @@ class Load:
 
     def _play(self) -> None:
         x_mm, y_mm = self._chance.choice(self._places)
-        self._send(self._player, messages.PlayRequest(id=self._player.sent + 1, effect="click", x_mm=x_mm, y_mm=y_mm))
+        self._send(self._player, client_messages.PlayRequest(id=self._player.sent + 1, effect="click", x_mm=x_mm, y_mm=y_mm))
 
-    def _send(self, account: Account, request: messages.PlayRequest) -> None:
+    def _send(self, account: Account, request: client_messages.PlayRequest) -> None:
         account.sent += 1
         account.waiting[account.sent] = time.monotonic_ns()
         account.socket.send(self._encoder.encode(request) + b"\n")
@@ -164,14 +164,14 @@ class Load:
         self._page.socket.sendall(line)
         self._page.socket.setblocking(False)
 
-    def _take(self, account: Account, message: messages.AnyMessage, spans: Spans) -> None:
+    def _take(self, account: Account, message: panel_messages.AnyMessage, spans: Spans) -> None:
         if account is self._page:
-            whole = isinstance(message, messages.LayerAnswer) and not message.refused_count
-            overtaken = isinstance(message, messages.Answer) and message.outcome == "merged"
+            whole = isinstance(message, panel_messages.LayerAnswer) and not message.refused_count
+            overtaken = isinstance(message, panel_messages.Answer) and message.outcome == "merged"
             self.replaced += whole
             self.overtaken += overtaken
             self.refused += not (whole or overtaken)
-        elif isinstance(message, messages.Answer) and isinstance(message.id, int):
+        elif isinstance(message, panel_messages.Answer) and isinstance(message.id, int):
             sent_ns = account.waiting.pop(message.id)
             if self._counted and message.outcome == "played" and message.age_ms is not None:
                 took_ns = time.monotonic_ns() - sent_ns

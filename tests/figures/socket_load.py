@@ -27,8 +27,8 @@ from typing import Any
 import msgspec
 
 from controller.console import program, say
-from controller.device.application_socket import messages
 from controller.device.application_socket.client import PanelClient
+from controller.device.application_socket.protocol import client_messages, panel_messages
 from controller.errors import ControllerError, LinkError
 from controller.metrics import LatencyHistogram
 
@@ -70,12 +70,12 @@ def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, 
     `pid` is the service's, whose memory is watched; `rate_hz` is that of all clients together. The waveforms of a few different
     `places` on the plate stay resident in the FPGA, those of many are uploaded. Raises LinkError if the panel ends a connection.
     """
-    decoder, observed = messages.message_decoder(), Observed()
+    decoder, observed = panel_messages.message_decoder(), Observed()
     with PanelClient(path) as panel:
         commands = _Commands(panel.hello(), places, observed.fingers)
         before = panel.figures()
     accounts = [connect(path) for _ in range(clients)]
-    accounts[0].socket.sendall(msgspec.json.encode(messages.Subscribe(id="touches")) + b"\n")
+    accounts[0].socket.sendall(msgspec.json.encode(client_messages.Subscribe(id="touches")) + b"\n")
     memory: list[tuple[float, int]] = []
     with selectors.DefaultSelector() as selector:
         for account in accounts:
@@ -108,7 +108,7 @@ def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, 
 class _Commands:
     """Draws commands, for places on the plate away from its edges and for the fingers that are down; the same in each run."""
 
-    def __init__(self, size: messages.Greeting, places: int, fingers: dict[int, bool]) -> None:
+    def __init__(self, size: panel_messages.Greeting, places: int, fingers: dict[int, bool]) -> None:
         self._chance, self._encoder, self._fingers = random.Random(1), msgspec.json.Encoder(), fingers
         self._spots = [
             (
@@ -122,11 +122,11 @@ class _Commands:
         """The command of a number, as it is sent."""
         return self._encoder.encode(self._request(number)) + b"\n"
 
-    def _request(self, number: int) -> messages.PlayRequest:
+    def _request(self, number: int) -> client_messages.PlayRequest:
         if self._fingers and number % FOR_FINGERS == 0:
-            return messages.PlayRequest(id=number, effect="click", finger=self._chance.choice(list(self._fingers)))
+            return client_messages.PlayRequest(id=number, effect="click", finger=self._chance.choice(list(self._fingers)))
         x_mm, y_mm = self._chance.choice(self._spots)
-        return messages.PlayRequest(id=number, effect="click", x_mm=x_mm, y_mm=y_mm)
+        return client_messages.PlayRequest(id=number, effect="click", x_mm=x_mm, y_mm=y_mm)
 
 
 def connect(path: str) -> Account:
@@ -159,15 +159,15 @@ def received(account: Account, path: str) -> list[bytearray]:
     return lines
 
 
-def _account_for(account: Account, message: messages.AnyMessage, observed: Observed) -> None:
-    if isinstance(message, messages.Touch):
+def _account_for(account: Account, message: panel_messages.AnyMessage, observed: Observed) -> None:
+    if isinstance(message, panel_messages.Touch):
         if message.contact:
             observed.fingers[message.finger] = True
         else:
             observed.fingers.pop(message.finger, None)
-    elif isinstance(message, messages.Farewell):
+    elif isinstance(message, panel_messages.Farewell):
         raise LinkError(f"the panel has ended a connection: {message.reason}")
-    elif isinstance(message, messages.Answer) and message.id != "touches":
+    elif isinstance(message, panel_messages.Answer) and message.id != "touches":
         sent_ns = account.waiting.pop(message.id, None) if isinstance(message.id, int) else None
         if sent_ns is None:
             account.wrong += 1

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from controller.device.application_socket import messages
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import Connection, MessageTooLong
 from controller.device.application_socket.counters import SocketCounters
-from controller.device.application_socket.messages import Id, Right
 from controller.device.application_socket.pending_commands import PendingCommands
+from controller.device.application_socket.protocol import panel_messages
+from controller.device.application_socket.protocol.client_messages import Id
+from controller.device.application_socket.protocol.panel_messages import Right
 from controller.device.application_socket.tickets import FULL
 from controller.device.loop.layer_source import AcceptedLayer, LayerResult
 
@@ -22,12 +23,12 @@ class Answers:
         self._clients = clients
         self._pending = pending
 
-    def answer(self, client: Connection, number: Id, outcome: messages.Outcome, reason: str = "") -> None:
+    def answer(self, client: Connection, number: Id, outcome: panel_messages.Outcome, reason: str = "") -> None:
         """Answer the request with id `number`."""
         self.counters.count(outcome)
-        client.put(messages.Answer(id=number, outcome=outcome, reason=reason))
+        client.put(panel_messages.Answer(id=number, outcome=outcome, reason=reason))
 
-    def data(self, client: Connection, message: messages.Data) -> None:
+    def data(self, client: Connection, message: panel_messages.Data) -> None:
         """Answer with data; a message that is too long for the client's buffer is refused."""
         try:
             client.put(message)
@@ -59,14 +60,14 @@ class Answers:
             self.answer(client, number, "refused", f"{most} commands wait for their outcome already")
         return ticket
 
-    def outcome(self, ticket: int, outcome: messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
+    def outcome(self, ticket: int, outcome: panel_messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
         """Answer the command that took a ticket, and send the answer.
 
         `age_ms` is from the command to its outcome; `reason` is that of a refusal.
         """
         found = self._take_back(ticket, outcome)
         if found is not None:
-            self._send(found[1], messages.Answer(id=found[0], outcome=outcome, age_ms=age_ms, reason=reason))
+            self._send(found[1], panel_messages.Answer(id=found[0], outcome=outcome, age_ms=age_ms, reason=reason))
 
     def loaded(self, ticket: int, reason: str) -> None:
         """Answer a command to load or save a scene; an empty reason: the scene is in force, or saved."""
@@ -82,7 +83,7 @@ class Answers:
         if found is not None:
             self._send(found[1], _layer_answer(found[0], layer, result.age_s))
 
-    def _take_back(self, ticket: int, outcome: messages.Outcome) -> tuple[Id, Connection] | None:
+    def _take_back(self, ticket: int, outcome: panel_messages.Outcome) -> tuple[Id, Connection] | None:
         """Take back a ticket; the request's id and the client to answer, or None if it has disconnected."""
         found = self._pending.give_back(ticket)
         if found is None:
@@ -95,14 +96,14 @@ class Answers:
             return None
         return holder.id, client
 
-    def _send(self, client: Connection, message: messages.Answer | messages.LayerAnswer) -> None:
+    def _send(self, client: Connection, message: panel_messages.Answer | panel_messages.LayerAnswer) -> None:
         client.put(message)
         self._clients.send(client)
 
 
-def _layer_answer(number: Id, layer: AcceptedLayer, age_s: float) -> messages.LayerAnswer:
+def _layer_answer(number: Id, layer: AcceptedLayer, age_s: float) -> panel_messages.LayerAnswer:
     """Answer to the request with id `number`: its layer is in force."""
-    return messages.LayerAnswer(
+    return panel_messages.LayerAnswer(
         id=number,
         regions=len(layer.regions),
         off_plate=layer.off_plate,

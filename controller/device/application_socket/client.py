@@ -17,9 +17,10 @@ from typing import Any, Self
 import msgspec
 from msgspec import Raw
 
-from controller.device.application_socket import messages
 from controller.device.application_socket.client_link import PanelLink, T
-from controller.device.application_socket.messages import (
+from controller.device.application_socket.protocol import client_messages
+from controller.device.application_socket.protocol.client_messages import Transform
+from controller.device.application_socket.protocol.panel_messages import (
     Answer,
     ContactNotice,
     Description,
@@ -31,7 +32,6 @@ from controller.device.application_socket.messages import (
     LogLine,
     StateAnswer,
     Touch,
-    Transform,
 )
 
 DEFAULT_PATH = "/run/haptic-panel/panel.sock"
@@ -93,12 +93,12 @@ class PanelClient:
         where: dict[str, Any] = {"x_mm": x_mm, "y_mm": y_mm, "finger": finger, "region": region, "amplitude": amplitude}
         number = self._link.new_id()
         if isinstance(effect, str):
-            return self._link.ask(messages.PlayRequest(id=number, effect=effect, **where))
-        return self._link.ask(messages.Clip(id=number, effect=Raw(msgspec.json.encode(effect)), **where))
+            return self._link.ask(client_messages.PlayRequest(id=number, effect=effect, **where))
+        return self._link.ask(client_messages.Clip(id=number, effect=Raw(msgspec.json.encode(effect)), **where))
 
     def keep_clip(self, name: str, effect: Mapping[str, Any]) -> None:
         """Have the panel keep an effect, a table with the keys of a scene's [effects.NAME], to be played by that name."""
-        self._link.done(messages.Clip(id=self._link.new_id(), effect=Raw(msgspec.json.encode(effect)), name=name))
+        self._link.done(client_messages.Clip(id=self._link.new_id(), effect=Raw(msgspec.json.encode(effect)), name=name))
 
     def wait(self, number: int) -> Answer:
         """Wait for the outcome of a command given with `start_play`."""
@@ -120,11 +120,13 @@ class PanelClient:
         number = self._link.new_id()
         raw = Raw(msgspec.json.encode(effects or {}))
         tables = tuple(Raw(msgspec.json.encode(region)) for region in regions)
-        return self._link.question(messages.Regions(id=number, regions=tables, effects=raw, transform=transform), LayerAnswer)
+        return self._link.question(
+            client_messages.Regions(id=number, regions=tables, effects=raw, transform=transform), LayerAnswer
+        )
 
     def move_regions(self, *, x_mm: float = 0.0, y_mm: float = 0.0, scale: float = 1.0) -> None:
         """Move this client's layer: its point (x, y) is at (x_mm + scale x, y_mm + scale y) on the plate."""
-        self._link.done(messages.MoveRegions(id=self._link.new_id(), x_mm=x_mm, y_mm=y_mm, scale=scale))
+        self._link.done(client_messages.MoveRegions(id=self._link.new_id(), x_mm=x_mm, y_mm=y_mm, scale=scale))
 
     def touches(self) -> Iterator[Touch]:
         """Every touch from this call on, until the iterator is closed."""
@@ -134,9 +136,9 @@ class PanelClient:
         """Every contact as the touch panel has it, ghosts too, as for `states`; for operators."""
         return self._link.follow(ContactNotice, "contacts")
 
-    def subscribe(self, *topics: messages.Topic) -> None:
+    def subscribe(self, *topics: client_messages.Topic) -> None:
         """Have the panel send what belongs to these topics, for `heard`."""
-        self._link.done(messages.Subscribe(id=self._link.new_id(), to=topics))
+        self._link.done(client_messages.Subscribe(id=self._link.new_id(), to=topics))
 
     def heard(self, kind: type[T], wait_s: float) -> list[T]:
         """What has come of a kind that was subscribed to; if nothing has, wait up to `wait_s` for a message of any kind."""
@@ -164,50 +166,50 @@ class PanelClient:
 
     def arm(self) -> None:
         """Switch the outputs on as soon as the FPGA allows it; `states` reports when they are. For operators."""
-        self._link.done(messages.Arm(id=self._link.new_id()))
+        self._link.done(client_messages.Arm(id=self._link.new_id()))
 
     def disarm(self) -> None:
         """Ramp the outputs down to 0 V; they stay off until a client arms. For operators."""
-        self._link.done(messages.Disarm(id=self._link.new_id()))
+        self._link.done(client_messages.Disarm(id=self._link.new_id()))
 
     def test_channel(self, channel: int) -> Answer:
         """Play a chirp on one channel alone, and wait for the outcome, as of `play`; for operators."""
-        return self._link.answer(self._link.ask(messages.ChannelTest(id=self._link.new_id(), channel=channel)))
+        return self._link.answer(self._link.ask(client_messages.ChannelTest(id=self._link.new_id(), channel=channel)))
 
     def write_trace(self) -> None:
         """Have the service write what its loop did in the last seconds; for operators.
 
         The service's log names the file, `haptic-panel trace` explains it.
         """
-        self._link.done(messages.WriteTrace(id=self._link.new_id()))
+        self._link.done(client_messages.WriteTrace(id=self._link.new_id()))
 
     def stop(self) -> None:
         """As `disarm`, whatever this user's rights are."""
-        self._link.done(messages.Stop(id=self._link.new_id()))
+        self._link.done(client_messages.Stop(id=self._link.new_id()))
 
     def state(self) -> StateAnswer:
         """State of the panel: outputs, cause of a fault, touch panel, temperature."""
-        return self._link.question(messages.AskState(id=self._link.new_id()), StateAnswer)
+        return self._link.question(client_messages.AskState(id=self._link.new_id()), StateAnswer)
 
     def load_scene(self, name: str) -> None:
         """Load another scene of the board; returns when it is in force. If it is refused, the panel keeps the scene before."""
-        self._link.done(messages.LoadScene(id=self._link.new_id(), name=name))
+        self._link.done(client_messages.LoadScene(id=self._link.new_id(), name=name))
 
     def save_scene(self, name: str, toml: str) -> None:
         """Keep a scene.toml, given as text, on the device, so that `load_scene` finds it by its name."""
-        self._link.done(messages.SaveScene(id=self._link.new_id(), name=name, toml=toml))
+        self._link.done(client_messages.SaveScene(id=self._link.new_id(), name=name, toml=toml))
 
     def figures(self) -> dict[str, Any]:
         """Counters and latencies of the panel so far."""
-        return self._link.question(messages.AskFigures(id=self._link.new_id()), FiguresAnswer).figures
+        return self._link.question(client_messages.AskFigures(id=self._link.new_id()), FiguresAnswer).figures
 
     def describe(self) -> Description:
         """What the panel is and plays: plate, patches, axes, scene, effects, limits, versions, last faults."""
-        return self._link.question(messages.Describe(id=self._link.new_id()), Description)
+        return self._link.question(client_messages.Describe(id=self._link.new_id()), Description)
 
     def hello(self) -> Greeting:
         """Version, board, extents in mm, the effects that a command can play, and this user's rights."""
-        return self._link.question(messages.Hello(id=self._link.new_id()), Greeting)
+        return self._link.question(client_messages.Hello(id=self._link.new_id()), Greeting)
 
 
 if __name__ == "__main__":

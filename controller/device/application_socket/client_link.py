@@ -14,11 +14,11 @@ from typing import Any, TypeVar, get_args
 
 import msgspec
 
-from controller.device.application_socket import messages
-from controller.device.application_socket.messages import (
+from controller.device.application_socket.protocol import client_messages, panel_messages
+from controller.device.application_socket.protocol.client_messages import AnyRequest
+from controller.device.application_socket.protocol.panel_messages import (
     Answer,
     AnyMessage,
-    AnyRequest,
     ContactNotice,
     Data,
     Description,
@@ -52,7 +52,7 @@ class PanelLink:
         self._path = path
         self._timeout_s = timeout_s
         self._encoder = msgspec.json.Encoder()
-        self._decoder = messages.message_decoder()
+        self._decoder = panel_messages.message_decoder()
         self._received = bytearray()
         self._notices: dict[type[Any], deque[Any]] = {kind: deque(maxlen=MAX_KEPT) for kind in get_args(Notice)}
         self._answers: dict[int, Reply] = {}  # by request id: answers that no call has taken yet
@@ -71,9 +71,9 @@ class PanelLink:
         """End the connection."""
         self._socket.close()
 
-    def follow(self, kind: type[T], topic: messages.Topic) -> Iterator[T]:
+    def follow(self, kind: type[T], topic: client_messages.Topic) -> Iterator[T]:
         """Everything of a topic from this call on, until the iterator is closed, which ends all topics."""
-        self.done(messages.Subscribe(id=self.new_id(), to=(topic,)))
+        self.done(client_messages.Subscribe(id=self.new_id(), to=(topic,)))
         return self._follow(self._notices[kind])
 
     def heard(self, kind: type[T], wait_s: float) -> list[T]:
@@ -94,7 +94,7 @@ class PanelLink:
                 self._keep(self._receive(None))  # nobody may touch the panel for hours
         except GeneratorExit:
             if self._socket.fileno() >= 0:
-                self.done(messages.Unsubscribe(id=self.new_id()))
+                self.done(client_messages.Unsubscribe(id=self.new_id()))
                 for notices in self._notices.values():
                     notices.clear()
 

@@ -13,9 +13,9 @@ import msgspec
 
 from controller.device.application_socket.connection import NOT_LOGGED, UNWATCHED, Connection
 from controller.device.application_socket.counters import SocketCounters
-from controller.device.application_socket.messages import Farewell, Right
 from controller.device.application_socket.peers import Peer, Rights
 from controller.device.application_socket.places import offered
+from controller.device.application_socket.protocol.panel_messages import Farewell, Right
 from controller.device.application_socket.socket_file import SocketFile
 from controller.device.board.devices import ApplicationSocket
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from controller.device.application_socket.messages import Outcome
+from controller.device.application_socket.protocol.panel_messages import Outcome
 
 
 @dataclass(slots=True)

@@ -8,15 +8,14 @@ from typing import Any, Final
 from controller import __version__
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.counters import SocketCounters
-from controller.device.application_socket.messages import (
-    LINE_BYTES,
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES, Id
+from controller.device.application_socket.protocol.panel_messages import (
     PROTOCOL,
     Axes,
     ClientCounts,
     ClientLimits,
     Description,
     FaultNotice,
-    Id,
     PatchPlace,
     SceneRegion,
 )

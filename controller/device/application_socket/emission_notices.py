@@ -8,7 +8,7 @@ from typing import Final
 
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import MessageTooLong
-from controller.device.application_socket.messages import Emissions, PlayedFocus
+from controller.device.application_socket.protocol.panel_messages import Emissions, PlayedFocus
 from controller.device.bank.expectation import Expectation
 from controller.device.loop.control import PanelControl
 from controller.device.loop.emission_ring import EmissionRing

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.messages import MoveRegions, Regions, Transform
+from controller.device.application_socket.protocol.client_messages import MoveRegions, Regions, Transform
 from controller.device.application_socket.tickets import FULL
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.control import PanelControl

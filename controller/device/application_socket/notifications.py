@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite
 
-from controller.device.application_socket import messages
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import NOT_LOGGED, Connection
 from controller.device.application_socket.description import Faults
+from controller.device.application_socket.protocol import client_messages, panel_messages
 from controller.device.board.panel_state import Condition
 from controller.device.loop.control import PanelControl
 from controller.device.touch.source import TouchSample
@@ -32,7 +32,7 @@ class Notifications:
             return
         for client in self._clients.places:
             if client.subscribed:
-                self._send(client, samples, messages.Touch)
+                self._send(client, samples, panel_messages.Touch)
 
     def contacts_to(self, client: Connection, control: PanelControl) -> None:
         """Have a client receive the contacts of each report from now on."""
@@ -46,11 +46,11 @@ class Notifications:
         for client in self._clients.places:
             if client.overhears:
                 wanted = True
-                self._send(client, samples, messages.ContactNotice)
+                self._send(client, samples, panel_messages.ContactNotice)
         if not wanted and self._control is not None:
             self._control.hear(None)
 
-    def _send(self, client: Connection, samples: Sequence[TouchSample], kind: type[messages.Touch]) -> None:
+    def _send(self, client: Connection, samples: Sequence[TouchSample], kind: type[panel_messages.Touch]) -> None:
         for finger, x_m, y_m, time_s, contact, size_m in samples:
             client.put(
                 kind(
@@ -87,7 +87,7 @@ class Notifications:
             self._logged_to |= client.lines_sent != NOT_LOGGED
             if NOT_LOGGED < client.lines_sent < LOG.count:
                 for line in list(LOG.last)[client.lines_sent - LOG.count :]:
-                    client.put(messages.LogLine(time_s=line.time_s, priority=int(line.priority), text=line.text))
+                    client.put(panel_messages.LogLine(time_s=line.time_s, priority=int(line.priority), text=line.text))
                     self._clients.send(client)  # each at once: all of them may be more than the queue takes
                 client.lines_sent = LOG.count
         self._lines_sent = LOG.count
@@ -103,10 +103,10 @@ class Notifications:
             client.lines_sent = max(LOG.count - LAST_LINES, 0)
             self._logged_to, self._lines_sent = True, NOT_LOGGED
 
-    def state(self, number: messages.Id = None) -> messages.StateAnswer:
+    def state(self, number: client_messages.Id = None) -> panel_messages.StateAnswer:
         """The condition as a message: the answer to the request with id `number`, or with None a notification."""
         now = self.condition
-        return messages.StateAnswer(
+        return panel_messages.StateAnswer(
             id=number,
             state=now.state.value,
             cause=now.cause,

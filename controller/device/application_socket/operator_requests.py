@@ -4,8 +4,16 @@ from __future__ import annotations
 
 from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.messages import Arm, ChannelTest, Disarm, LoadScene, SaveScene, Stop, WriteTrace
 from controller.device.application_socket.peers import Rights
+from controller.device.application_socket.protocol.client_messages import (
+    Arm,
+    ChannelTest,
+    Disarm,
+    LoadScene,
+    SaveScene,
+    Stop,
+    WriteTrace,
+)
 from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.application_socket.tickets import FULL
 from controller.device.board.board import Board

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.messages import Aimed, Clip, Id, PlayRequest
+from controller.device.application_socket.protocol.client_messages import Aimed, Clip, Id, PlayRequest
 from controller.device.application_socket.tickets import FULL
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE, ApplicationSocket

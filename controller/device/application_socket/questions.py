@@ -12,18 +12,17 @@ from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import Connection, MessageTooLong
 from controller.device.application_socket.description import Describer
 from controller.device.application_socket.emission_notices import EmissionNotices
-from controller.device.application_socket.messages import (
+from controller.device.application_socket.notifications import Notifications
+from controller.device.application_socket.protocol.client_messages import (
     AnyQuestion,
     AskFigures,
     AskState,
     Describe,
-    FiguresAnswer,
-    Greeting,
     Hello,
     Subscribe,
     Unsubscribe,
 )
-from controller.device.application_socket.notifications import Notifications
+from controller.device.application_socket.protocol.panel_messages import FiguresAnswer, Greeting
 from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.control import PanelControl

@@ -6,14 +6,15 @@ from typing import Any, Final, get_args
 
 import msgspec
 
-from controller.device.application_socket import messages
 from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import Connection, LineTooLong
 from controller.device.application_socket.layer_requests import LayerRequests
-from controller.device.application_socket.messages import LINE_BYTES, AnyRequest, Id, Right
 from controller.device.application_socket.operator_requests import OperatorRequests
 from controller.device.application_socket.play_requests import PlayRequests
+from controller.device.application_socket.protocol import client_messages
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES, AnyRequest, Id
+from controller.device.application_socket.protocol.panel_messages import Right
 from controller.device.application_socket.questions import Questions
 from controller.device.application_socket.stop_ahead import AHEAD_BYTES, STOP, stop_ahead
 from controller.device.board.descriptions import type_info
@@ -21,12 +22,12 @@ from controller.device.board.validation import NO_JSON, explain
 from controller.device.loop.control import PanelControl
 
 NEEDED: Final[dict[Any, Right]] = {
-    messages.PlayRequest: "play",
-    messages.Clip: "play",
-    messages.Regions: "regions",
-    messages.MoveRegions: "regions",
-} | dict.fromkeys(get_args(messages.OPERATIONS), "operate")
-NEEDED_TO_FOLLOW: Final[dict[messages.Topic, Right]] = {
+    client_messages.PlayRequest: "play",
+    client_messages.Clip: "play",
+    client_messages.Regions: "regions",
+    client_messages.MoveRegions: "regions",
+} | dict.fromkeys(get_args(client_messages.OPERATIONS), "operate")
+NEEDED_TO_FOLLOW: Final[dict[client_messages.Topic, Right]] = {
     "log": "operate",
     "contacts": "operate",
     "touches": "play",
@@ -52,9 +53,9 @@ class Requests:
         self._layers = layers
         self._operators = operators
         self._questions = questions
-        self._decoder = messages.request_decoder()
+        self._decoder = client_messages.request_decoder()
         type_info(AnyRequest)  # made now: it takes a millisecond, and the first invalid line comes between two turns of the loop
-        self._ids = msgspec.json.Decoder(messages.Numbered)
+        self._ids = msgspec.json.Decoder(client_messages.Numbered)
         self._ahead = bytearray(AHEAD_BYTES)
 
     def serve(self, client: Connection, most: int, now_s: float, control: PanelControl) -> int:
@@ -104,7 +105,7 @@ class Requests:
         except NO_JSON as error:
             self._answers.invalid(client, self._id_of(line), _why_invalid(line, error))
             return
-        if len(line) >= LINE_BYTES and not isinstance(request, messages.LONG):
+        if len(line) >= LINE_BYTES and not isinstance(request, client_messages.LONG):
             kind = request.__struct_config__.tag
             self._answers.invalid(client, request.id, f"a line of kind {kind} is at most {LINE_BYTES} bytes")
             return
@@ -113,20 +114,25 @@ class Requests:
             self._answers.not_allowed(client, request.id, lacking)
             return
         match request:
-            case messages.Arm() | messages.Disarm() | messages.Stop():
+            case client_messages.Arm() | client_messages.Disarm() | client_messages.Stop():
                 self._operators.switch(client, request, control)
-            case messages.PlayRequest() | messages.Clip():
+            case client_messages.PlayRequest() | client_messages.Clip():
                 self._plays.play(client, request, now_s, control)
-            case messages.Regions():
+            case client_messages.Regions():
                 self._layers.put(client, request, line, now_s, control)
-            case messages.MoveRegions():
+            case client_messages.MoveRegions():
                 self._layers.move(client, request, control)
-            case messages.LoadScene() | messages.SaveScene() | messages.ChannelTest() | messages.WriteTrace():
+            case (
+                client_messages.LoadScene()
+                | client_messages.SaveScene()
+                | client_messages.ChannelTest()
+                | client_messages.WriteTrace()
+            ):
                 self._operators.carry_out(client, request, now_s, control)
             case _:
                 self._questions.answer(client, request, now_s, control)
 
-    def _stop_of(self, line: memoryview) -> messages.Stop | None:
+    def _stop_of(self, line: memoryview) -> client_messages.Stop | None:
         """A line that is the one request that no rate refuses."""
         if STOP not in bytes(line):
             return None
@@ -134,7 +140,7 @@ class Requests:
             request = self._decoder.decode(line)
         except (*NO_JSON, UnicodeDecodeError):
             return None
-        return request if isinstance(request, messages.Stop) else None
+        return request if isinstance(request, client_messages.Stop) else None
 
     def _id_of(self, line: memoryview) -> Id:
         """Id of a line that is refused; None if it has none that can be read."""
@@ -146,7 +152,7 @@ class Requests:
 
 def _lacking(client: Connection, request: AnyRequest) -> Right | None:
     """A right that the request needs and its client does not have."""
-    if isinstance(request, messages.Subscribe):
+    if isinstance(request, client_messages.Subscribe):
         needed = [right for topic, right in NEEDED_TO_FOLLOW.items() if topic in request.to]
         return next((right for right in needed if right not in client.rights), None)
     right = NEEDED.get(type(request))

@@ -7,7 +7,6 @@ zero. Tables are covered by a CRC-32 in the header, entries by one each.
 from __future__ import annotations
 
 import json
-import math
 import struct
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,8 +18,7 @@ from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
 from controller.device.bank.provenance import MODEL_VERSION, Provenance, provenance_of
 from controller.device.kernel import LARGEST_EQUALISER, load_frames_bytes
-from controller.device.kernel.crc import intact, sealed
-from controller.errors import BankError
+from controller.device.kernel.crc import sealed
 
 MAGIC = b"HPNLBANK"
 VERSION = 9
@@ -113,22 +111,17 @@ class Header:
     @property
     def wave_scale(self) -> float:
         """How much longer the plate's waves are than the paper's plate's: distances on the device go with it. 1, if not given."""
-        reported: object = self.parameters.get("wave_scale")
-        return (
-            float(reported) if isinstance(reported, int | float) and LEAST_WAVE_SCALE <= reported <= 1 / LEAST_WAVE_SCALE else 1.0
-        )
+        return self._number("wave_scale", LEAST_WAVE_SCALE, 1 / LEAST_WAVE_SCALE, otherwise=1.0)
 
     @property
     def equaliser(self) -> float:
         """What gives back to a response between cells what interpolation takes from it (`kernel.bank_twin`); 0, if not given."""
-        reported: object = self.parameters.get("equaliser")
-        return float(reported) if isinstance(reported, int | float) and 0 <= reported <= LARGEST_EQUALISER else 0.0
+        return self._number("equaliser", 0, LARGEST_EQUALISER)
 
     @property
     def band_lost(self) -> float:
         """What interpolation takes from a response in spite of the equaliser (`kernel.bank_twin`); 0, if not given."""
-        reported: object = self.parameters.get("band_lost")
-        return float(reported) if isinstance(reported, int | float) and 0 <= reported <= 1 else 0.0
+        return self._number("band_lost", 0, 1)
 
     @property
     def amplitude_um(self) -> tuple[float, float, float] | None:
@@ -198,6 +191,11 @@ class Header:
         body = (body + parameters).ljust(self.header_bytes - CRC.size, b"\0")
         return sealed(body)
 
+    def _number(self, name: str, least: float, most: float, *, otherwise: float = 0.0) -> float:
+        """A build parameter; `otherwise`, if it is not given or no number of that range."""
+        reported: object = self.parameters.get(name)
+        return float(reported) if isinstance(reported, int | float) and least <= reported <= most else otherwise
+
     def _json(self) -> bytes:
         return json.dumps(self.parameters, sort_keys=True, allow_nan=False).encode()
 
@@ -212,95 +210,6 @@ def model_version_of(creator: str) -> str:
     return creator.partition(", model ")[2]
 
 
-def begins_as_bank(start: bytes) -> bool:
-    """Whether a file that starts with the bytes `start` may be replaced by a bank: it is one, damaged or not, or a part of one."""
-    return MAGIC.startswith(start[: len(MAGIC)])
-
-
 def round_up(value: int, step: int) -> int:
     """Round `value` up to a multiple of `step`."""
     return -(-value // step) * step
-
-
-def header_length(start: bytes, file_bytes: int) -> int:
-    """Length of the header in bytes, by the first 16 bytes of the file, or as many as it has.
-
-    Raises BankError for what is empty, no bank, of another version, or cut off within the header.
-    """
-    if file_bytes == 0:
-        raise BankError("is empty")
-    if start[:8] != MAGIC[: len(start)]:
-        raise BankError(f"is not a bank: it begins with {start[:8]!r}")
-    if len(start) < 16:
-        raise BankError(f"is truncated: {file_bytes} bytes, less than a header")
-    _, version, length, *_ = struct.unpack("<8sII", start[:16])
-    if version not in (VERSION, COMPACT_VERSION):
-        raise BankError(
-            f"has format version {version}; this program reads version {VERSION}, and {COMPACT_VERSION} of compact banks"
-        )
-    if not PAGE <= length <= MAX_HEADER or length % PAGE:
-        raise BankError(f"is damaged: header of {length} bytes")
-    if file_bytes < length:
-        raise BankError(f"is truncated: {file_bytes} bytes, less than its header of {length}")
-    return int(length)
-
-
-def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
-    """Read a header of `header_length` bytes; the reverse of `Header.pack`.
-
-    Raises BankError if the checksum is wrong, the file is cut short or has grown, or a table or section is not where this version
-    of the format puts it.
-    """
-    body = data[: -CRC.size]
-    if not intact(data):
-        raise BankError("is damaged: CRC-32 of the header is wrong")
-    fixed = FIXED.unpack_from(body)
-    reported_bytes, maker, digest, pitch_m, x0_m, y0_m, bit_clock_hz, nx, ny, samples, channels, entries = fixed[3:15]
-    parameters_bytes, section_count, compositions = fixed[15:]
-    if file_bytes != reported_bytes:
-        raise BankError(
-            f"{'is truncated' if file_bytes < reported_bytes else 'has grown'}: {file_bytes} bytes instead of {reported_bytes}"
-        )
-    at = FIXED.size + section_count * SECTION.size
-    compact = fixed[1] == COMPACT_VERSION
-    counts_fit = section_count == SECTIONS + compact and compositions <= COMPOSITIONS_MAX and 1 <= samples <= SAMPLES_MAX
-    if channels != CHANNELS or not counts_fit or at + parameters_bytes > len(body):
-        raise BankError("has a header that this version of the format does not allow")
-    if not all(map(math.isfinite, (pitch_m, x0_m, y0_m, bit_clock_hz))) or pitch_m <= 0 or bit_clock_hz <= 0 or entries > nx * ny:
-        raise BankError("has a grid or bit clock that cannot be")
-    try:
-        parameters = json.loads(body[at : at + parameters_bytes])
-        grid = Grid(pitch_m, nx, ny, x0_m, y0_m)
-        header = Header(maker.rstrip(b"\0").decode(), digest, grid, bit_clock_hz, samples, entries, parameters, compositions)
-    except ValueError as error:
-        raise BankError(f"has unreadable build parameters or creator ({error})") from None
-    if not isinstance(parameters, dict):
-        raise BankError("has build parameters that are no table")
-    if header.version != fixed[1] or (compact and not header.composes):
-        raise BankError("has build parameters that do not fit its version of the format")
-    if body[at + parameters_bytes :].strip(b"\0"):
-        raise BankError("has padding in its header that is not zero")
-    rows = [SECTION.unpack_from(body, FIXED.size + i * SECTION.size) for i in range(section_count)]
-    return header, _sections(header, rows, len(data), reported_bytes)
-
-
-def _sections(header: Header, rows: list[tuple[Any, ...]], header_bytes: int, file_bytes: int) -> dict[str, Section]:
-    """Check the section table: known names, in order, each on the page after the last one's end."""
-    found = {}
-    end = header_bytes
-    for reported, should in zip(rows, header.sections(), strict=True):
-        name, offset, size, count, row_bytes, stride, crc = reported
-        name = name.rstrip(b"\0").decode(errors="replace")
-        if name != should.name:
-            raise BankError(f"has section {name!r} where {should.name!r} belongs")
-        if offset != round_up(end, PAGE):
-            raise BankError(
-                f"has section {name!r} at byte {offset}, not at {round_up(end, PAGE)}: out of order, apart or overlapping"
-            )
-        if (size, count, row_bytes, stride) != (should.size, should.rows, should.row_bytes, should.stride):
-            raise BankError(f"has a section {name!r} that does not fit its samples, cells and entries")
-        end = offset + size
-        found[name] = Section(name, offset, count, row_bytes, stride, crc)
-    if round_up(end, PAGE) != file_bytes:
-        raise BankError(f"has sections that end at byte {end} of {file_bytes}")
-    return found

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from controller.device.bank.file_format import Header, Section, header_length, parse
+from controller.device.bank.file_format import Header, Section
 from controller.device.bank.grid import Grid
+from controller.device.bank.header_reading import header_length, parse
 from controller.device.bank.memory import memory_fit
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board

@@ -13,7 +13,7 @@ import numpy as np
 from controller.arrays import Bools
 from controller.device.bank.bank_file import BankFile
 from controller.device.bank.drive_entries import DriveEntries
-from controller.device.bank.file_format import begins_as_bank, header_length, parse
+from controller.device.bank.header_reading import begins_as_bank, header_length, parse
 from controller.device.bank.packing import CHANNELS
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.response_entries import ResponseEntries

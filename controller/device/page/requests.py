@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import msgspec
 
-from controller.device.application_socket.messages import LINE_BYTES
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.permissions import refused
 from controller.errors import ControllerError

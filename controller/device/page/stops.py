@@ -10,7 +10,7 @@ import msgspec
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
-from controller.device.application_socket.messages import BY_CHARACTERS, Numbered
+from controller.device.application_socket.protocol.client_messages import BY_CHARACTERS, Numbered
 from controller.device.page.addresses import shown
 from controller.device.page.requests import answer
 

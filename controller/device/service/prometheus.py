@@ -13,7 +13,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Histo
 from prometheus_client.registry import Collector, CollectorRegistry
 
 from controller.device.application_socket.client import PanelClient
-from controller.device.application_socket.messages import Greeting
+from controller.device.application_socket.protocol.panel_messages import Greeting
 from controller.device.board.panel_state import PanelState
 from controller.device.fpga.registers import Fault
 from controller.errors import ControllerError

@@ -18,7 +18,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from controller.device.application_socket.client import PanelClient
-from controller.device.application_socket.messages import ContactNotice, Description, Emissions, Touch
+from controller.device.application_socket.protocol.panel_messages import ContactNotice, Description, Emissions, Touch
 from controller.device.touch.source import TouchSample
 from controller.device.touch_calibration import ghost_figures
 from controller.device.touch_calibration.calibration import Calibration, Point, StationaryTouches, calibrate

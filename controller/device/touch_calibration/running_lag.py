@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from controller.device.application_socket.client import PanelClient
-from controller.device.application_socket.messages import ContactNotice
+from controller.device.application_socket.protocol.panel_messages import ContactNotice
 from controller.device.touch_calibration.lag_figures import SEVERAL, LagFigures, finger_track, lag_of
 from controller.device.touch_calibration.page_mouse import PageMouse, StandardInput
 from controller.device.touch_calibration.running import Progress

@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.arrays import Bools
-from controller.device.bank.file_format import COMPOSITION, FOCI, MAGIC, Header, Section, begins_as_bank
+from controller.device.bank.file_format import COMPOSITION, FOCI, MAGIC, Header, Section
+from controller.device.bank.header_reading import begins_as_bank
 from controller.device.bank.packing import CHANNELS, WORD
 from controller.device.kernel import pack_loads
 from controller.durable import sync_folder

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller.device.application_socket.connection import QUEUE_BYTES, Connection, LineTooLong
-from controller.device.application_socket.messages import LINE_BYTES, Answer
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES
+from controller.device.application_socket.protocol.panel_messages import Answer
 
 
 @pytest.fixture

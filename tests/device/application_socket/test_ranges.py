@@ -6,7 +6,7 @@ import pytest
 from device.board.numbers_of import beyond, ends, numbers_of
 from tables import each_row
 
-from controller.device.application_socket.messages import AnyRequest
+from controller.device.application_socket.protocol.client_messages import AnyRequest
 from controller.device.board.descriptions import described, type_info, unit_of
 from controller.device.board.validation import dotted
 

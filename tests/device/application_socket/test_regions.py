@@ -11,8 +11,8 @@ import pytest
 from tables import each_row
 
 from controller.device.application_socket.connection import LAYER_BURST
-from controller.device.application_socket.messages import LINE_BYTES
 from controller.device.application_socket.peers import Peer
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.loop.layer_source import AcceptedLayer, LayerResult
 from controller.device.scene.layers import Placement, RefusedRegion
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from controller.device.application_socket.messages import LINE_BYTES
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.loop.commands import Outcome
 from controller.device.scene.clips import MOST_PULSES, read_clip
 from controller.device.touch.source import TouchSample

@@ -8,8 +8,9 @@ import pytest
 from tables import each_row
 
 import controller.device.bank
-from controller.device.bank.file_format import Header, header_length, parse
+from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
+from controller.device.bank.header_reading import header_length, parse
 from controller.errors import BankError
 
 README = (Path(controller.device.bank.__file__).parent / "README.md").read_text(encoding="utf-8")

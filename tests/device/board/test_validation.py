@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.application_socket.messages import AnyRequest
+from controller.device.application_socket.protocol.client_messages import AnyRequest
 from controller.device.board.board import board_file
 from controller.device.board.lookup import find_board
 from controller.device.board.records import as_record

@@ -15,7 +15,7 @@ from chromium import PROGRAM, browser
 from device.touch_calibration.test_running import axes_at, off_mm, touched  # noqa: F401 - a fixture
 
 from controller.device.application_socket.client import PanelClient
-from controller.device.application_socket.messages import ContactNotice
+from controller.device.application_socket.protocol.panel_messages import ContactNotice
 
 pytestmark = [
     pytest.mark.slow,

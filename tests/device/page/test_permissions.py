@@ -119,9 +119,9 @@ def test_every_page_may_stop_and_none_may_operate_by_default():
 
 
 def test_every_message_of_the_socket_has_its_right():
-    from controller.device.application_socket import messages
+    from controller.device.application_socket.protocol import client_messages
 
-    assert {kind.__struct_config__.tag for kind in messages.AnyRequest.__args__} <= RIGHT_OF.keys()
+    assert {kind.__struct_config__.tag for kind in client_messages.AnyRequest.__args__} <= RIGHT_OF.keys()
 
 
 @given(st.text())

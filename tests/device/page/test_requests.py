@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.application_socket.messages import LINE_BYTES
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.outbox import Outbox, TooSlow
 from controller.device.page.requests import FRAME_BYTES, evaluated

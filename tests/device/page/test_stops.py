@@ -12,7 +12,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.frames import Frame, Opcode
 from websockets.sync.client import connect
 
-from controller.device.application_socket.messages import BY_CHARACTERS
+from controller.device.application_socket.protocol.client_messages import BY_CHARACTERS
 from controller.device.page import relay, stops
 from controller.device.page.bridge import Bridge
 from controller.device.page.settings import PageSettings

@@ -11,7 +11,7 @@ import pytest
 from device.service.test_scene_reload import prepared, works
 from tables import each_row
 
-from controller.device.application_socket.messages import request_decoder
+from controller.device.application_socket.protocol.client_messages import request_decoder
 from controller.device.scene.scene_file import find_scene, read_scene
 from controller.device.service.scenes import saved_scene
 from controller.device.service.scenes.saved_scene import BYTES_MAX, SAVED_MAX, save_scene

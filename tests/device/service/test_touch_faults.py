@@ -8,13 +8,14 @@ import pytest
 
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.board.panel_status import read_status
-from controller.device.doctor import doctor
+from controller.device.doctor import touch_check
 from controller.device.service import touch_faults
 from controller.device.service.status_file import StatusFile
 from controller.device.service.touch_faults import TouchFaults
 from controller.device.touch.event_reader import DeviceDescription
 from controller.device.touch.panels.ft5x06 import Ft5x06Touch
 from controller.device.touch.reports import FAULTS, WARNINGS
+from controller.errors import ControllerError
 from controller.log import Event
 from controller.metrics import Counters
 
@@ -76,15 +77,15 @@ def test_the_command_says_them_also_of_a_newer_release(tmp_path, capsys):
 
 
 def test_doctor_says_what_the_running_service_has_found_instead_of_taking_its_panel(board, tmp_path, monkeypatch):
-    monkeypatch.setattr(doctor, "FOLDER", tmp_path)
+    monkeypatch.setattr(touch_check, "FOLDER", tmp_path)
     touch = Ft5x06Touch(bus="/dev/i2c-no", width=100, height=100, **AXES_MM)
     with_chip = msgspec.structs.replace(board, name="glass", touch=touch)
     status_of(tmp_path, {"interrupt_silent": 2, "bus_retried": 7})
-    finding = doctor._touch(with_chip, lambda: 0.0)
+    finding = touch_check.look_at_touch_panel(with_chip, lambda: 0.0)
     assert (finding.good, finding.warns) == (True, True)
     assert finding.said == f"read by the running service; 2 × {WARNINGS['interrupt_silent']}; {UNSHARED}"
     status_of(tmp_path, {})
-    finding = doctor._touch(with_chip, lambda: 0.0)
+    finding = touch_check.look_at_touch_panel(with_chip, lambda: 0.0)
     assert (finding.good, finding.warns, finding.said) == (True, False, f"read by the running service; {UNSHARED}")
-    with pytest.raises(doctor.ControllerError, match="no I2C bus"):
-        doctor._touch(msgspec.structs.replace(with_chip, name="another"), lambda: 0.0)
+    with pytest.raises(ControllerError, match="no I2C bus"):
+        touch_check.look_at_touch_panel(msgspec.structs.replace(with_chip, name="another"), lambda: 0.0)

@@ -18,7 +18,7 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.doctor import doctor
+from controller.device.doctor import touch_check
 from controller.device.touch.drivers import i2c_bus, i2c_reader, panel_lines
 from controller.device.touch.event_codes import ABS_MT_TOUCH_MAJOR
 from controller.device.touch.live_source import LiveSource
@@ -43,7 +43,7 @@ class Bench:
         self._opened = []
         monkeypatch.setattr(i2c_reader, "time", SimpleNamespace(sleep=self.wait))
         monkeypatch.setattr(panel_lines, "find_chip", lambda *_: "/dev/gpiochip0")
-        monkeypatch.setattr(doctor, "FOLDER", tmp_path)
+        monkeypatch.setattr(touch_check, "FOLDER", tmp_path)
 
     def put(self, chip, **adapter):
         self.chip = chip
@@ -412,17 +412,17 @@ def test_doctor_says_how_a_panel_is_read_and_what_it_refuses(bench):
     bench.put(Emulated())
     ask = {"bus": str(bench._path), "width": 2100, "height": 1480, **AXES_MM}
     board = msgspec.structs.replace(BOARD, touch=Ft5x06Touch(**ask))
-    finding = doctor._touch(board, lambda: bench.now_s)
+    finding = touch_check.look_at_touch_panel(board, lambda: bench.now_s)
     assert (finding.good, finding.warns) == (True, True)
     assert "refuses registers 0xA3, 0xA6, 0xA8, 0xA4" in finding.said
     assert finding.said.endswith("polled, as the board names no interrupt line")
     bench.put(Ft5x06Chip())
     wired = msgspec.structs.replace(BOARD, touch=Ft5x06Touch(**ask, interrupt_chip="panel", interrupt_line="INT"))
-    finding = doctor._touch(wired, lambda: bench.now_s)
+    finding = touch_check.look_at_touch_panel(wired, lambda: bench.now_s)
     assert (finding.good, finding.warns) == (True, False)
     assert "whether line 'INT' announces reports shows when it is touched" in finding.said
     bench.lines.held = False
-    finding = doctor._touch(wired, lambda: bench.now_s)
+    finding = touch_check.look_at_touch_panel(wired, lambda: bench.now_s)
     assert finding.warns
     assert "interrupt line active and nothing touched" in finding.said
 

@@ -19,8 +19,8 @@ from kernel.serial_finger import LARGEST, SerialPanel
 from patience import wait_for
 from tables import each_row
 
-from controller.device.application_socket import messages
 from controller.device.application_socket.client import PanelClient
+from controller.device.application_socket.protocol import panel_messages
 from controller.device.touch_calibration.running import axes_values
 from controller.errors import CalibrationError
 
@@ -85,7 +85,7 @@ def touch_all(touched, process, beside_mm=()):
         while (line := json.loads(process.stdout.readline()))["at_mm"] is not None:
             assert line["step"] == number
             place_mm = np.array(line["at_mm"]) + (beside_mm[number] if number < len(beside_mm) else (0.0, 0.0))
-            while number and all(touch.contact for touch in watcher.heard(messages.Touch, 60.0)):
+            while number and all(touch.contact for touch in watcher.heard(panel_messages.Touch, 60.0)):
                 pass  # the one before is lifted as soon as the panel is certain of it
             with panel.finger(itertools.repeat(axes_at(*place_mm))):
                 select.select([process.stdout], [], [])
@@ -245,7 +245,7 @@ def test_outputs_that_go_off_end_it_and_a_ghost_is_never_felt(ghostly):
             if json.loads(line)["step"] == 5:
                 break
         panel.subscribe("emissions")
-        seen = [panel.heard(messages.Emissions, 10.0) for _ in range(10)]
+        seen = [panel.heard(panel_messages.Emissions, 10.0) for _ in range(10)]
         assert {focus.of for batch in seen for one in batch for focus in one.foci} == {"click"}
         panel.stop()
         process.stdout.read()

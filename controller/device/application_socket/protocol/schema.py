@@ -1,4 +1,4 @@
-"""The protocol as a JSON Schema, made from the records of `messages` and of a scene's regions: `protocol.schema.json`.
+"""The protocol as a JSON Schema, made from the records of both sides' messages and of a scene's regions: `protocol.schema.json`.
 
 `$defs/Request` is any line of a client, `$defs/Message` any line of the panel.
 """
@@ -11,7 +11,8 @@ from typing import Any
 
 import msgspec
 
-from controller.device.application_socket.messages import LINE_BYTES, PROTOCOL, AnyMessage, AnyRequest
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES, AnyRequest
+from controller.device.application_socket.protocol.panel_messages import PROTOCOL, AnyMessage
 from controller.device.board.descriptions import END
 from controller.device.board.reference import SCHEMA_DIALECT
 from controller.device.scene.effects import EffectTable
