@@ -16,7 +16,7 @@ from compiled_top import CompiledTop, files, signal_pins
 from gpiod.line import Direction, Value
 
 from controller.device.board import gpio_chip
-from controller.device.fpga.links import gpio_lines, spi_link
+from controller.device.fpga.links import gpio_lines, spi_device, spi_link
 from controller.device.fpga.links.spi_messages import TRANSFER, message_request
 
 CHIP = "pinctrl-bcm2711"
@@ -49,9 +49,10 @@ class RaspberryPi:
         """Take the place of the machine's interfaces."""
         patch.setattr(gpio_chip, "DEVICES", self._folder)
         patch.setattr(gpio_chip.gpiod, "Chip", lambda path: Chip(self, path))
-        patch.setattr(spi_link.spidev, "SpiDev", lambda: SpiDev(self._device))
+        patch.setattr(spi_device.spidev, "SpiDev", lambda: SpiDev(self._device))
         system = {name: getattr(fcntl, name) for name in ("flock", "LOCK_EX", "LOCK_NB")}
-        patch.setattr(spi_link, "fcntl", SimpleNamespace(ioctl=self._ioctl, **system))
+        for module in (spi_device, spi_link):
+            patch.setattr(module, "fcntl", SimpleNamespace(ioctl=self._ioctl, **system))
         patch.setattr(gpio_lines, "fcntl", SimpleNamespace(ioctl=Request.ioctl))
 
     def _ioctl(self, fd, request, argument):
@@ -78,9 +79,9 @@ class SpiDev:
     """The extension module's object, with what version 3.6 has of it."""
 
     READ = {  # noqa: RUF012
-        spi_link.RD_MODE32: ("mode", "=I"),
-        spi_link.RD_BITS_PER_WORD: ("bits_per_word", "=B"),
-        spi_link.RD_MAX_SPEED_HZ: ("max_speed_hz", "=I"),
+        spi_device.RD_MODE32: ("mode", "=I"),
+        spi_device.RD_BITS_PER_WORD: ("bits_per_word", "=B"),
+        spi_device.RD_MAX_SPEED_HZ: ("max_speed_hz", "=I"),
     }
     opened = {}  # noqa: RUF012
 

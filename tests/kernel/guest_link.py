@@ -26,7 +26,8 @@ from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.exchange import FpgaReset
 from controller.device.fpga.frames import Play
 from controller.device.fpga.links.gpio_lines import SET_VALUES
-from controller.device.fpga.links.spi_link import SpiLink, read_bufsiz
+from controller.device.fpga.links.spi_device import read_bufsiz
+from controller.device.fpga.links.spi_link import SpiLink
 from controller.device.fpga.registers import Register
 from controller.device.fpga.session import Session
 from controller.device.loop.context import LoopContext

@@ -117,7 +117,7 @@ def _node(device: str) -> str:
 
 
 def _buffer() -> str:
-    from controller.device.fpga.links.spi_link import read_bufsiz
+    from controller.device.fpga.links.spi_device import read_bufsiz
 
     bufsiz = read_bufsiz()
     if bufsiz >= 2 * UPLOAD_BYTES:

@@ -6,7 +6,7 @@ to: then both say the same. Where they differ, a frame, an answer or an edge was
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, Protocol
 
 from controller.device.fpga.frames import Play
 from controller.device.fpga.registers import Start, State
@@ -18,6 +18,17 @@ TIME: Final = Start.TIME
 TRIGGERED: Final = -1  # in place of a time: at the next trigger
 BUSY: Final = State.PLAYING | State.REPEATING | State.PENDING | State.DELAYED
 UNSURE_TICKS: Final = 64  # around the time of a play: whether a status shows it begun
+
+
+class NeverBegan(Protocol):
+    """Whoever wants to know that an emission never began."""
+
+    def __call__(self, *, repeats: bool) -> None:
+        """Take note; `repeats`: the FPGA repeats an emission by itself."""
+
+
+def nobody(*, repeats: bool) -> None:
+    """In place of whoever wants to know that an emission never began."""
 
 
 class Belief:

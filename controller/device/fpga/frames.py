@@ -13,6 +13,7 @@ modulo 256), and return the offset of its end.
 from __future__ import annotations
 
 import struct
+import zlib
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Final, NamedTuple
@@ -84,6 +85,11 @@ class ReadyFrames(NamedTuple):
 
 Waveform = memoryview | ReadyFrames
 """Drive words, 4 bytes for each sample; or the frames that carry them. Of several FPGAs theirs, one behind the other."""
+
+
+def crc_of(waveform: Waveform) -> int:
+    """CRC-32 of the drive words of a waveform."""
+    return waveform.crc if isinstance(waveform, ReadyFrames) else zlib.crc32(waveform)
 
 
 def joined(waveforms: Sequence[Waveform]) -> Waveform:

@@ -7,15 +7,14 @@ is sent again. What waits in its queue is compared with what this host had accep
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable
-from typing import Final, Protocol
+from typing import Final
 
 from controller.device.board.board import Board
 from controller.device.fpga import frames
-from controller.device.fpga.belief import Belief
+from controller.device.fpga.belief import Belief, NeverBegan, nobody
 from controller.device.fpga.exchange import ATTEMPTS, DAMAGED, OutOfStep, Refused
-from controller.device.fpga.frames import Play, ReadyFrames, Waveform
+from controller.device.fpga.frames import Play, Waveform, crc_of
 from controller.device.fpga.links.link import Link
 from controller.device.fpga.play_messages import PlayMessages
 from controller.device.fpga.registers import READ_SLOT_CRC, Control, Register, Result, Start, State
@@ -28,17 +27,6 @@ RESET_RESULTS: Final = frozenset({Result.NOT_ARMED, Result.EMPTY_SLOT})  # also 
 REPETITIONS: Final = (False, *[True] * (ATTEMPTS - 1))  # whether each attempt is one
 
 
-class NeverBegan(Protocol):
-    """Whoever wants to know that an emission never began."""
-
-    def __call__(self, *, repeats: bool) -> None:
-        """Take note; `repeats`: the FPGA repeats an emission by itself."""
-
-
-def _nobody(*, repeats: bool) -> None:
-    """In place of whoever wants to know that an emission never began."""
-
-
 class Session(Supervision):
     """Uploads and plays waveforms on one FPGA.
 
@@ -48,9 +36,8 @@ class Session(Supervision):
     def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True) -> None:
         self.belief = Belief()  # what waits and plays in the FPGA
         self.counters = LinkCounters()  # counts what differs from it
-        # Called when an emission that this host had started is found not to have begun; `repeats`: the FPGA repeats one by
-        # itself
-        self.never_began: NeverBegan = _nobody
+        # Called when an emission that this host had started is found not to have begun
+        self.never_began: NeverBegan = nobody
         super().__init__(link, board, build_hash, now_s, bring_up=bring_up)
         self._messages = PlayMessages(self._sent, board)
 
@@ -142,25 +129,6 @@ class Session(Supervision):
             self.never_began(repeats=False)
         return status
 
-    def set_bit_period(self, scale: float) -> bool:
-        """Scale the bit clock, for example for the plate's temperature; kept over `bring_up`.
-
-        A `scale` above 1 plays faster than the board's bit clock. Returns False if something plays or is queued: try again later.
-        Raises Refused if the FPGA does not allow this rate.
-        """
-        period = self.timing.scaled_bit_period(scale)
-        if period == self.bit_period:
-            return True
-
-        try:
-            self.exchange.retry(lambda: self.exchange.ask(frames.pack_write, Register.BIT_PERIOD, period))
-        except Refused as refusal:
-            if refusal.result is Result.BUSY:
-                return False
-            raise
-        self.timing.bit_period = period
-        return True
-
     def _send(self, play: Play, waveform: Waveform | None, *, stop: bool) -> None:
         """Have a play accepted, with its upload if there is a waveform; raises as `upload_and_play`."""
         failure: LinkError = OutOfStep("the FPGA's queue holds other plays than were accepted, also after a STOP")
@@ -238,7 +206,7 @@ class Session(Supervision):
             self._remove(play)
             return False, False
         belief, ticks = self.belief, status.timestamp_ticks
-        stored = waveform is None or status.data == _crc_of(waveform)
+        stored = waveform is None or status.data == crc_of(waveform)
         surplus = status.queued - (0 if stopped else belief.at(ticks))
         clear = stored and belief.saw_triggers(status) and not (stopped and State.REPEATING in status.state)
         if not clear or surplus > 1:
@@ -279,8 +247,3 @@ class Session(Supervision):
         """Raise FpgaReset if the FPGA refused because it was reset."""
         if self._armed and refusal.result in RESET_RESULTS:
             self.heartbeat()
-
-
-def _crc_of(waveform: Waveform) -> int:
-    """CRC-32 of the drive words of a waveform."""
-    return waveform.crc if isinstance(waveform, ReadyFrames) else zlib.crc32(waveform)

@@ -13,9 +13,9 @@ from controller.device.board.board import Board
 from controller.device.fpga import configuration, frames
 from controller.device.fpga.bitstream_loader import BitstreamLoader
 from controller.device.fpga.emission_timing import EmissionTiming
-from controller.device.fpga.exchange import DAMAGED, Exchange, FpgaReset
+from controller.device.fpga.exchange import DAMAGED, Exchange, FpgaReset, Refused
 from controller.device.fpga.links.link import Link
-from controller.device.fpga.registers import Control, State
+from controller.device.fpga.registers import Control, Register, Result, State
 from controller.device.fpga.status import Status
 from controller.errors import ControllerError, FaultError, LinkError
 
@@ -163,6 +163,24 @@ class Supervision:
         self._armed = True
         self.ramp_end_s = self._after_s(configuration.arming_ticks(self._board, self.bit_period))
         return self.ramp_end_s
+
+    def set_bit_period(self, scale: float) -> bool:
+        """Scale the bit clock, for example for the plate's temperature; kept over `bring_up`.
+
+        A `scale` above 1 plays faster than the board's bit clock. Returns False if something plays or is queued: try again later.
+        Raises Refused if the FPGA does not allow this rate.
+        """
+        period = self.timing.scaled_bit_period(scale)
+        if period == self.bit_period:
+            return True
+        try:
+            self.exchange.retry(lambda: self.exchange.ask(frames.pack_write, Register.BIT_PERIOD, period))
+        except Refused as refusal:
+            if refusal.result is Result.BUSY:
+                return False
+            raise
+        self.timing.bit_period = period
+        return True
 
     def require_armed(self) -> None:
         """Check with a heartbeat that the FPGA is armed; raises LinkError if it is not, with the state it reports."""

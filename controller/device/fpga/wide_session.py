@@ -13,21 +13,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Final, TypeVar
+from typing import Final
 
 from controller.device.board.board import Board
 from controller.device.fpga.belief import BUSY
-from controller.device.fpga.configuration import IncompatibleFpga
 from controller.device.fpga.exchange import OutOfStep, Refused
 from controller.device.fpga.frames import Play, Waveform, parted
 from controller.device.fpga.links.link_group import LinkGroup
-from controller.device.fpga.registers import Fault, Register, Start, State
+from controller.device.fpga.registers import Register, Start, State
 from controller.device.fpga.session import Session
+from controller.device.fpga.several_fpgas import NamedFpga, answers_of_all, ask_all, rank
 from controller.device.fpga.status import Status
 from controller.device.fpga.supervision import Supervision
-from controller.errors import ControllerError, FaultError, LinkError
-
-Answer = TypeVar("Answer")
+from controller.errors import ControllerError, LinkError
 
 APART_TICKS: Final = 2  # by which PLLs on one oscillator may differ
 WATCHED_S: Final = 1.0  # from one look at the last trigger to the next, while something is played
@@ -53,7 +51,7 @@ class WideSession(Session):
         self._triggered = False  # since then
         self._emissions: list[int] = []  # of each when they last were at rest; empty: not known
         self._all_asked: ControllerError | None = None  # the error that was raised when all had been asked last
-        self._of = [_Named(number) for number in range(len(boards))]
+        self._of = [NamedFpga(number) for number in range(len(boards))]
         super().__init__(links, boards[0], build_hash, now_s, bring_up=bring_up)
 
     @property
@@ -72,9 +70,7 @@ class WideSession(Session):
         Raises LinkError if the trigger line does not reach one of them.
         """
         others_first = [*self._of[1:], self._of[0]]  # then none has a fault of before
-        _, failed = self._from_all([*[one.bring_up for one in self._others], super().bring_up], others_first)
-        if failed:
-            raise min(failed, key=_rank)
+        answers_of_all(others_first, [*[one.bring_up for one in self._others], super().bring_up])
         self.compare_ticks()
 
     def arm(self) -> float:
@@ -90,10 +86,7 @@ class WideSession(Session):
 
     def disarm(self) -> float:
         """As in `Session`, of all FPGAs, also if one of them does not answer; when the last ramp ends."""
-        ends_s, failed = self._from_all([super().disarm, *[one.disarm for one in self._others]])
-        if failed:
-            raise min(failed, key=_rank)
-        self.ramp_end_s = max(ends_s)
+        self.ramp_end_s = max(answers_of_all(self._of, [super().disarm, *[one.disarm for one in self._others]]))
         return self.ramp_end_s
 
     def off(self) -> None:
@@ -107,9 +100,9 @@ class WideSession(Session):
 
         Raises OutOfStep if they have played different numbers of emissions, or do not count the ticks of one clock.
         """
-        statuses, failed = self._from_all([super().heartbeat, *[one.heartbeat for one in self._others]])
+        statuses, failed = ask_all(self._of, [super().heartbeat, *[one.heartbeat for one in self._others]])
         if failed:
-            self._all_asked = min(failed, key=_rank)
+            self._all_asked = min(failed, key=rank)
             raise self._all_asked
         state = statuses[0].state
         for status in statuses[1:]:
@@ -123,8 +116,8 @@ class WideSession(Session):
         """As in `Supervision`: all FPGAs are asked, before a fault of another than the one that was at work is cleared."""
         if error is self._all_asked or not self.on_anywhere:
             return error
-        _, failed = self._from_all([super().heartbeat, *[one.heartbeat for one in self._others]])
-        return min([error, *failed], key=_rank)
+        _, failed = ask_all(self._of, [super().heartbeat, *[one.heartbeat for one in self._others]])
+        return min([error, *failed], key=rank)
 
     def play(self, play: Play, *, stop: bool) -> None:
         """As in `Session`, on all FPGAs, or none."""
@@ -194,20 +187,6 @@ class WideSession(Session):
             ticks.append(one.exchange.read(Register.TRIGGER_TIME_HIGH) << 32 | low)
         self.ahead_ticks = [tick - ticks[0] for tick in ticks[1:]]
 
-    def _from_all(
-        self, asks: Sequence[Callable[[], Answer]], of: Sequence[_Named] = ()
-    ) -> tuple[list[Answer], list[LinkError | FaultError]]:
-        """What each FPGA answers, in their order unless `of` says another, and the errors of those that do not."""
-        answers: list[Answer] = []
-        failed: list[LinkError | FaultError] = []
-        for named, ask in zip(of or self._of, asks, strict=True):
-            try:
-                with named:
-                    answers.append(ask())
-            except (LinkError, FaultError) as error:
-                failed.append(error)
-        return answers, failed
-
     def _upload_others(self, slot: int, parts: Sequence[Waveform]) -> None:
         for named, one, part in zip(self._of[1:], self._others, parts, strict=True):
             with named:
@@ -244,9 +223,7 @@ class WideSession(Session):
         if not self._triggered or now_s < self._looked_s + WATCHED_S:
             return
         self._triggered, self._looked_s = False, now_s
-        lows, failed = self._from_all([partial(one.exchange.read, Register.TRIGGER_TIME_LOW) for one in self.of_each])
-        if failed:
-            raise min(failed, key=_rank)
+        lows = answers_of_all(self._of, [partial(one.exchange.read, Register.TRIGGER_TIME_LOW) for one in self.of_each])
         for number, (low, ahead_ticks) in enumerate(zip(lows[1:], self.ahead_ticks, strict=True), 1):
             more = (low - lows[0] - ahead_ticks + (1 << 31)) % (1 << 32) - (1 << 31)
             if abs(more) > APART_TICKS:
@@ -262,29 +239,3 @@ class WideSession(Session):
                 self._emissions = []
                 raise OutOfStep(f"the FPGAs have played {', '.join(map(str, had))} emissions where all were to play the same")
         self._emissions = emissions
-
-
-def _rank(error: ControllerError) -> int:
-    """Place of an error among those of all FPGAs: what stays and a fault of its own first, then an error of the link; what others
-    cause last.
-
-    An FPGA that hears nothing while the host waits for another is HOST_SILENT; NO_PERMIT is what the wire makes of either.
-    """
-    if not isinstance(error, FaultError):
-        return 0 if isinstance(error, IncompatibleFpga) else 1
-    others = Fault(error.faults) & ~Fault.NO_PERMIT
-    return 3 if error.faults == Fault.NO_PERMIT else 2 if others == Fault.HOST_SILENT else 0
-
-
-class _Named:
-    """Says of which FPGA an error is that comes from within."""
-
-    def __init__(self, number: int) -> None:
-        self._of = f"FPGA {number}"
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        if isinstance(error, ControllerError) and not str(error).startswith("FPGA "):
-            error.args = (f"{self._of}: {error}", *error.args[1:])

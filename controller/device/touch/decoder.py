@@ -42,7 +42,6 @@ from controller.device.touch.plausibility import Plausibility
 from controller.device.touch.source import Counts, TouchSample
 
 OTHER_AXES: Final = frozenset({ABS_MT_SLOT, ABS_MT_TOUCH_MAJOR, ABS_MT_TRACKING_ID, ABS_MT_DISTANCE, ABS_MT_TOOL_TYPE})
-MAX_PLAYED: Final = 10
 MAX_SLOTS: Final = 256
 MAX_UNNAMED: Final = 32  # contacts of a report that have no tracking id
 
@@ -84,12 +83,7 @@ class Decoder:
         self.touched = False
         self.due_s = inf  # when to call `overdue` unless events are fed before; inf: never
         self._plausibility: Plausibility = Plausibility(
-            axes,
-            MAX_PLAYED,
-            tells_all=self._is_a,
-            counts=self.counts,
-            warnings=self.warnings,
-            after=after._plausibility if after else None,
+            axes, tells_all=self._is_a, counts=self.counts, warnings=self.warnings, after=after._plausibility if after else None
         )
         self._serials = count(FIRST_SERIAL)
         self._slot = slot
@@ -134,7 +128,9 @@ class Decoder:
                     self._dropping = True
                     self.warnings["dropped"] += 1
             elif kind == EV_KEY and code == BTN_TOUCH and not self._dropping:
-                self._button(touching=value != 0)
+                if self._is_single:
+                    self._identify(self._current, 0 if value else NO_CONTACT)
+                self._touching = value != 0
             current = self._current
         return samples
 
@@ -145,7 +141,7 @@ class Decoder:
         self._replaced.clear()
         self._packets.clear()
         self._touching = None
-        self._select(self._slot)
+        self._current = self._contact_of(self._slot)
         released = tuple([self._plausibility.released(contact, time_s) for contact in fingers])
         self._plausibility.forget()
         self.due_s = inf
@@ -166,12 +162,9 @@ class Decoder:
     def _axis(self, code: int, value: int) -> None:
         """One of `OTHER_AXES`."""
         if code == ABS_MT_SLOT:
+            self._slot = value
             contact = self._slots.get(value)
-            if contact is None:
-                self._select(value)
-            else:
-                self._slot = value
-                self._current = contact
+            self._current = self._contact_of(value) if contact is None else contact
             return
         current = self._current
         if code == ABS_MT_TOUCH_MAJOR:
@@ -189,15 +182,6 @@ class Decoder:
             current.hovers, current.settled = value > 0, ASK
         elif code == ABS_MT_TOOL_TYPE:
             current.tool_palm, current.settled = value == MT_TOOL_PALM, ASK
-
-    def _button(self, *, touching: bool) -> None:
-        if self._is_single:
-            self._identify(self._current, 0 if touching else NO_CONTACT)
-        self._touching = touching
-
-    def _select(self, slot: int) -> None:
-        self._slot = slot
-        self._current = self._contact_of(slot)
 
     def _contact_of(self, slot: int) -> Contact:
         """Contact of a slot; a detached one if no device has such a slot."""

@@ -2,49 +2,34 @@
 
 A position that a panel reports is a claim. Each is counted (`Counts.points`), and is exactly one of these:
 
-- More than `EDGE_M` outside the axes, or in a rectangle of `touch.no_finger_mm`: no finger. A contact that begins
-  there waits until it is reported elsewhere. A finger that is reported there keeps its last place for one report, and is released
-  by the next.
-- A step that no hand makes from one report to the next (`hand_steps.py`): held back until the next report. If that
-  lies within reach of the last place, the position was an outlier; if it lies near the new one, or goes on at that speed, it is
-  believed. A contact that begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means
-  what it said.
+- No place of a finger (`panel_places.py`). A contact that begins there waits until it is reported elsewhere. A finger that is
+  reported there keeps its last place for one report, and is released by the next.
+- A step that no hand makes from one report to the next (`hand_steps.py`): held back until the next report. If that lies within
+  reach of the last place, the position was an outlier; if it lies near the new one, or goes on at that speed, it is believed. A
+  contact that begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means what it said.
 - A contact beyond the ten that are played.
-- Believed: it becomes a touch sample. Positions up to `EDGE_M` outside the axes are clamped to them.
+- Believed: it becomes a touch sample.
 
 A palm, by tool or by size, stays one until it is lifted, and its positions are no claims. A panel that repeats its reports while
-it is touched, and falls silent, has no finger (`Plausibility.overdue`).
-
-Times are measured in the panel's own report period (`reports.PanelHabits`).
+it is touched, and falls silent, has no finger (`Plausibility.overdue`). Times are measured in the panel's own report period.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from math import inf, nan
 from typing import Final
 
 from controller.device.touch.associate import ASK, DOWN, NO_CONTACT, UNKNOWN, UP, Contact
-from controller.device.touch.axes import OFF_M, PanelAxes
+from controller.device.touch.axes import PanelAxes
 from controller.device.touch.hand_steps import goes_on, moving_s, reaches
+from controller.device.touch.panel_places import PanelPlaces
 from controller.device.touch.reports import PanelHabits, ReportRate
 from controller.device.touch.source import Counts, TouchSample, touch_sample
 
-EDGE_M: Final = 5e-3  # half a fingertip: one that is centred farther outside does not touch the panel's outermost electrodes
+MAX_PLAYED: Final = 10  # fingers that are played at once; a further one is refused until it is lifted
 CONFIRMING_PERIODS: Final = 1.5  # without a report in this time, a position held back is where the finger rests
-
-KINDS: Final = ("far_outside", "no_finger", "too_fast", "more_than_played", "fallen_silent")  # of `reports.WARNINGS`
-
-
-def figures(counts: Counts, warnings: Mapping[str, int]) -> dict[str, int]:
-    """Figures of the stage, for JSON.
-
-    `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step that
-    no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are fingers.
-    """
-    found = {"points": counts.points, "believed": counts.believed, "held": counts.held, "confirmed": counts.confirmed}
-    return found | {kind: warnings.get(kind, 0) for kind in KINDS}
 
 
 class Plausibility:
@@ -53,7 +38,6 @@ class Plausibility:
     def __init__(
         self,
         axes: PanelAxes,  # of the device; they give the board's [touch], too
-        max_played: int,  # fingers that are played at once; a further one is refused until it is lifted
         *,
         tells_all: bool,  # whether each report lists all contacts (protocol A): then it repeats itself while the panel is touched
         counts: Counts,
@@ -65,16 +49,10 @@ class Plausibility:
         self._next_finger: int = after._next_finger if after else 0
         self._counts = counts
         self._warnings = warnings
-        self._axes = axes
-        self._limits: tuple[float, float, float, float] = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
+        self._places = PanelPlaces(axes, counts, warnings)
         self._from_axes = axes.from_axes
-        x_unit_m, y_unit_m = axes.unit_m
-        x_edge, y_edge = EDGE_M / x_unit_m if x_unit_m else inf, EDGE_M / y_unit_m if y_unit_m else inf
-        self._far = (axes.x.minimum - x_edge, axes.x.maximum + x_edge, axes.y.minimum - y_edge, axes.y.maximum + y_edge)
-        self._no_finger_m = axes.settings.no_finger_m
         self._plain = axes.plain()
         self._max_size_m = axes.settings.max_size_m
-        self._max_played = max_played
         self._played = 0
         self._habits: PanelHabits = PanelHabits(after._habits.rate if after else ReportRate(), tells_all=tells_all)
         self._number = 0  # of the last report
@@ -91,8 +69,7 @@ class Plausibility:
         samples: list[TouchSample] = []
         changed: list[Contact] = []
         if replaced:
-            for contact in replaced:
-                samples.append(self.released(contact, time_s))
+            samples += [self.released(contact, time_s) for contact in replaced]
             replaced.clear()
         counts = self._counts
         down, moved = 0, False
@@ -101,11 +78,8 @@ class Plausibility:
             if (settled != DOWN or hovering) and (settled == UP or not self._touches(contact, time_s, samples, hovering=hovering)):
                 continue
             down += 1
-            if contact.moved or contact.finger is None or contact.held:
-                if contact.palm:
-                    continue
-                if contact.moved:
-                    moved = True
+            if not contact.palm and (contact.moved or contact.finger is None or contact.held):
+                moved = moved or contact.moved
                 changed.append(contact)
         self._number += 1
         self._confirm_s = inf
@@ -143,11 +117,9 @@ class Plausibility:
             contact.palm = True
             self._counts.palms += 1
         contact.settled = DOWN if contact.counted and not contact.palm else ASK
-        if contact.palm:
-            if contact.finger is not None:
-                contact.size_m = inf
-                samples.append(self.released(contact, time_s))
-            contact.refused = False
+        if contact.palm and contact.finger is not None:
+            contact.size_m = inf
+            samples.append(self.released(contact, time_s))
         return True
 
     def overdue(self, contacts: Iterable[Contact], time_s: float) -> tuple[TouchSample, ...]:
@@ -207,7 +179,7 @@ class Plausibility:
             x_m = x_by_x * x + x_by_y * y + x_at_0
             y_m = y_by_x * x + y_by_y * y + y_at_0
         else:
-            place = self._position_m(x, y)
+            place = self._places.place_m(x, y)
             if place is None:
                 if contact.held:
                     samples.append(self.released(contact, time_s))
@@ -239,32 +211,9 @@ class Plausibility:
         contact.step_vx, contact.step_vy = off_x_m / step_s, off_y_m / step_s
         self._believe(contact, x_m, y_m, time_s, samples)
 
-    def _position_m(self, x: int, y: int) -> tuple[float, float] | None:
-        """Place on the plate of a raw position; None, which is counted, if it is no place of a finger."""
-        x_low, x_high, y_low, y_high = self._limits
-        if not (x_low <= x <= x_high and y_low <= y <= y_high):
-            x_low, x_high, y_low, y_high = self._far
-            if not (x_low <= x <= x_high and y_low <= y <= y_high):
-                self._warnings["far_outside"] += 1
-                return None
-            self._warnings["outside_axes"] += 1
-            x, y = self._axes.clamp(x, y)
-        length_m, width_m = self._axes.plate_m
-        x_m, y_m = self._axes.mapped_m(x, y)
-        if not (0.0 <= x_m <= length_m and 0.0 <= y_m <= width_m):
-            self._counts.off_plate += not (-OFF_M <= x_m <= length_m + OFF_M and -OFF_M <= y_m <= width_m + OFF_M)
-            x_m = 0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m
-            y_m = 0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m
-        if self._no_finger_m:
-            for left_m, low_m, right_m, high_m in self._no_finger_m:
-                if left_m <= x_m <= right_m and low_m <= y_m <= high_m:
-                    self._warnings["no_finger"] += 1
-                    return None
-        return x_m, y_m
-
     def _begin(self, contact: Contact, x_m: float, y_m: float, time_s: float, samples: list[TouchSample]) -> None:
         """Begin a finger where a contact is, unless as many as are played are down."""
-        if self._played == self._max_played:
+        if self._played == MAX_PLAYED:
             self._warnings["more_than_played"] += 1
             contact.refused = True
             return
@@ -279,8 +228,7 @@ class Plausibility:
         """Append a sample of a finger at this place."""
         contact.held = 0
         contact.stepped = self._number
-        contact.x_m = x_m
-        contact.y_m = y_m
+        contact.x_m, contact.y_m = x_m, y_m
         contact.size_m = size_m = contact.width_m
         finger = contact.finger
         assert finger is not None

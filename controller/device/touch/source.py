@@ -8,12 +8,14 @@ then calls `read`.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Final, NamedTuple, Protocol
 
 from controller.device.board.touch_panels import TouchPanel
+
+LEFT_OUT: Final = ("far_outside", "no_finger", "too_fast", "more_than_played", "fallen_silent")  # of `reports.WARNINGS`
 
 
 class TouchSample(NamedTuple):
@@ -43,7 +45,7 @@ class Counts:
     reports: int = 0  # SYN_REPORTs with at least one contact down
     contacts: int = 0  # contacts that began
     max_fingers: int = 0  # most contacts down in one report
-    points: int = 0  # positions of contacts that are no palms; what became of them says `plausibility.figures`
+    points: int = 0  # positions of contacts that are no palms; what became of them says `plausibility`
     believed: int = 0  # of these, those that became touch samples at once
     held: int = 0  # held, confirmed: of these, those that no hand reaches so soon, and of them those that were right all the same
     confirmed: int = 0
@@ -55,6 +57,15 @@ class Counts:
     def refused(self) -> int:
         """Positions that were no finger's."""
         return self.points - self.believed - self.confirmed
+
+    def plausibility(self, warnings: Mapping[str, int]) -> dict[str, int]:
+        """Figures of what became of the positions, for JSON, with the `warnings` of `LEFT_OUT`.
+
+        `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step
+        that no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are fingers.
+        """
+        found = {"points": self.points, "believed": self.believed, "held": self.held, "confirmed": self.confirmed}
+        return found | {kind: warnings.get(kind, 0) for kind in LEFT_OUT}
 
 
 @dataclass(slots=True)

@@ -4,66 +4,28 @@ States of a contact:
 
 - It waits until its `confirm_reports`-th report, or until the time in which that many reports would have shown its release; a
   suspect (`ghost_guard.py`) waits until it is cleared. Then it is a finger; its first sample has the time of this decision.
-- A lost finger is kept for `BRIDGE_PERIODS`; a contact that begins near its predicted position meanwhile is the same finger.
-  A release therefore reaches the loop that much later, with the time at which the panel reported it. One that has become a palm
-  does not wait.
-- The period is the panel's own. Until it is measured, a finger that is lost soon after a report is taken to have been lost by the
-  next, as late as it may be on a panel of `SLOW_PERIOD_S`; one that was released and is back sooner than any hand shows the period.
+- A lost finger may be found again (`lost_fingers.py`). A release therefore reaches the loop that much later, with the time at
+  which the panel reported it. One that has become a palm does not wait.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
-from math import hypot, inf
+from dataclasses import asdict
+from math import inf
 from typing import Any, Final
 
 from controller.device.board.touch_panels import TouchPanel
-from controller.device.touch import plausibility
 from controller.device.touch.ghost_guard import GhostGuard, QuietBudget
+from controller.device.touch.lost_fingers import LostFingers
 from controller.device.touch.prediction import MAX_INTERVAL_S, SILENT_PERIODS, Motion
-from controller.device.touch.reports import MAX_PERIOD_S, ReportRate
+from controller.device.touch.reports import ReportRate
 from controller.device.touch.source import Counts, Heard, TouchSample, TouchSource
+from controller.device.touch.tracked_contact import TrackedContact, TrackerCounts
 
-BRIDGE_RADIUS_M: Final = 5e-3  # from its predicted position, at least
-BRIDGE_SPEED: Final = 0.25  # m/s: by so much its velocity may have been unknown; on a slow panel that is farther
-BRIDGE_SHARE: Final = 0.5  # of the way from its last report: the same of a fast finger
-BRIDGE_PERIODS: Final = 1.5  # the panel finds it one period after it has reported the loss
-SLOW_PERIOD_S: Final = 30e-3  # it takes 45 ms at most to come back: nobody taps again in less than 50
-UNKNOWN_LOSSES: Final = 3  # after this many, a panel without a measured period reports taps that do not move, and loses none
 MISSED_REPORT_PERIODS: Final = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
 CONFIRMING_REPORTS: Final = 2
-
-
-@dataclass(slots=True)
-class TrackerCounts:
-    """Contacts that were not simply fingers."""
-
-    held_back: int = 0  # suspects
-    ghosts: int = 0  # suspects released before they were cleared
-    flickers: int = 0  # contacts released before `confirm_reports` reports
-    bridged: int = 0  # fingers lost and found again
-    listened_s: float = 0.0  # time in which emissions were held back to judge suspects
-    longest_hold_s: float = 0.0  # longest time from the first report of a suspect to its first sample
-    # Longest time from first report to release of a ghost; if it is close to `ghost_ms`, that is too short
-    longest_ghost_s: float = 0.0
-
-
-class _Contact:
-    """One contact of the source: waiting or played."""
-
-    __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "reports", "size_m", "suspect")
-
-    def __init__(self, finger: int, motion: Motion, *, suspect: bool) -> None:
-        self.finger = finger  # number in the loop's samples: the source's number of its first contact
-        self.motion = motion
-        self.first_s = motion.time_s
-        self.reports = 1
-        self.size_m = 0.0
-        self.suspect = suspect
-        self.played = False
-        self.lost_s = inf  # time of its release by the panel
 
 
 class Tracker:
@@ -92,12 +54,10 @@ class Tracker:
         self._ghostly = settings.ghost_s > 0
         self._guard = GhostGuard(settings.ghost_s)
         self._quiet = QuietBudget(settings.ghost_s)
-        self._contacts: dict[int, _Contact] = {}  # by the source's number
-        self._fingers: dict[int, _Contact] = {}  # played, by number in the loop's samples
-        self._released: dict[int, _Contact] = {}  # by the last read: their release effects are decided after it
-        self._lost: list[_Contact] = []
-        self._losses = 0  # while the period is not measured
-        self._gone: _Contact | None = None  # the finger that was released last
+        self._contacts: dict[int, TrackedContact] = {}  # by the source's number
+        self._fingers: dict[int, TrackedContact] = {}  # played, by number in the loop's samples
+        self._released: dict[int, TrackedContact] = {}  # by the last read: their release effects are decided after it
+        self._lost = LostFingers(self.rate)
         self._devices = source.counts.devices
         self._known_s = -inf  # time up to which all reports have been taken
         self._due_s = inf  # when a decision is due without a report
@@ -108,12 +68,12 @@ class Tracker:
         return self._source.warnings
 
     def figures(self) -> dict[str, Any]:
-        """`TrackerCounts`, report period and jitter in ms (None before the second report), `plausibility.figures`; for JSON."""
+        """`TrackerCounts`, report period and jitter in ms (None before the second report), `Counts.plausibility`; for JSON."""
         median_s, jitter_s = self.rate.median_s, self.rate.jitter_s
         self.tracking.listened_s = round(self._quiet.total_s, 6)
         return asdict(self.tracking) | {
             "palms": self.counts.palms,
-            "plausibility": plausibility.figures(self.counts, self._source.warnings),
+            "plausibility": self.counts.plausibility(self._source.warnings),
             "report_period_ms": None if median_s is None else round(median_s * 1e3, 3),
             "report_jitter_ms": None if jitter_s is None else round(jitter_s * 1e3, 3),
         }
@@ -139,8 +99,7 @@ class Tracker:
             return ()
         if self._devices != self.counts.devices:  # it may be another panel
             self._devices = self.counts.devices
-            self._losses = 0
-            self.rate.restart()
+            self._lost.restart()
         if touched:
             self.rate.report(known_s)
         out: list[TouchSample] = []
@@ -233,22 +192,17 @@ class Tracker:
         if contact.played:
             out.append(sample if contact.finger == number else TouchSample(contact.finger, x_m, y_m, time_s, True, size_m))
 
-    def _begin(self, sample: TouchSample) -> _Contact:
+    def _begin(self, sample: TouchSample) -> TrackedContact:
         """Contact for a new number of the source: a lost finger found again, or a contact that waits."""
         finger, x_m, y_m, time_s, _, size_m = sample
-        found = self._found_again(x_m, y_m, time_s) if self._lost else None
+        found = self._lost.found_again(x_m, y_m, time_s)
         if found is not None:
-            self._lost.remove(found)
-            self.rate.interval(time_s - found.lost_s)
-            found.lost_s = inf
             self._contacts[finger] = found
             self.tracking.bridged += 1
             if self._bridged is not None:
                 self._bridged(found.finger, finger)
             return found
-        if not self.rate.measured and self._gone is not None:
-            self._learn(self._gone, x_m, y_m, time_s)
-        contact = _Contact(finger, Motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
+        contact = TrackedContact(finger, Motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
         contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
         self._due_s = -inf  # it is decided now, or from when on it waits
@@ -256,39 +210,15 @@ class Tracker:
         self._contacts[finger] = contact
         return contact
 
-    def _found_again(self, x_m: float, y_m: float, time_s: float) -> _Contact | None:
-        """The lost finger to whose predicted position a new contact is nearest, for how far it may be off it."""
-        found, nearest = None, 1.0
-        for lost in self._lost:
-            motion = lost.motion
-            since_s = min(time_s - motion.time_s, motion.pause_s)
-            way_x_m, way_y_m = motion.vx * since_s, motion.vy * since_s
-            off_m = hypot(x_m - motion.x_m - way_x_m, y_m - motion.y_m - way_y_m)
-            share = off_m / max(BRIDGE_RADIUS_M, BRIDGE_SPEED * since_s, BRIDGE_SHARE * hypot(way_x_m, way_y_m))
-            if share <= nearest and time_s <= self._bridged_until_s(lost):
-                found, nearest = lost, share
-        return found
-
-    def _learn(self, gone: _Contact, x_m: float, y_m: float, time_s: float) -> None:
-        """Learn the period from a finger that comes back sooner than any hand."""
-        back_s = time_s - gone.lost_s
-        if back_s <= BRIDGE_PERIODS * SLOW_PERIOD_S and hypot(x_m - gone.motion.x_m, y_m - gone.motion.y_m) <= BRIDGE_RADIUS_M:
-            self.rate.interval(back_s)
-
-    def _lift(self, contact: _Contact, time_s: float) -> None:
+    def _lift(self, contact: TrackedContact, time_s: float) -> None:
         if contact.played:
-            contact.lost_s = time_s
             self._due_s = -inf
-            self._lost.append(contact)
-            self._losses += not self.rate.measured
-        elif contact.suspect:
-            self.tracking.ghosts += 1
-            self.tracking.longest_ghost_s = max(self.tracking.longest_ghost_s, time_s - contact.first_s)
+            self._lost.add(contact, time_s)
         else:
-            self.tracking.flickers += 1
+            self.tracking.count_unplayed(contact, time_s)
 
-    def _release(self, contact: _Contact, time_s: float, out: list[TouchSample]) -> None:
-        self._released[contact.finger] = self._gone = self._fingers.pop(contact.finger)
+    def _release(self, contact: TrackedContact, time_s: float, out: list[TouchSample]) -> None:
+        self._released[contact.finger] = self._lost.gone = self._fingers.pop(contact.finger)
         out.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
 
     def _found_still(self, time_s: float) -> None:
@@ -302,13 +232,10 @@ class Tracker:
     def _decide(self, known_s: float, out: list[TouchSample]) -> None:
         """Begin contacts that have waited long enough and release lost fingers, as far as due by `known_s`."""
         self._due_s = inf
-        for lost in tuple(self._lost) if self._lost else ():
-            until_s = self._bridged_until_s(lost)
-            if known_s >= until_s:
-                self._lost.remove(lost)
+        if self._lost.kept:
+            for lost in self._lost.given_up(known_s):
                 self._release(lost, lost.lost_s, out)
-            else:
-                self._due_s = min(self._due_s, until_s)
+            self._due_s = self._lost.due_s
         for contact in self._contacts.values():
             if contact.played:
                 continue
@@ -319,11 +246,12 @@ class Tracker:
             contact.played = True
             self._fingers[contact.finger] = contact
             motion = contact.motion
-            out.append(TouchSample(contact.finger, motion.x_m, motion.y_m, max(due_s, motion.time_s), True, contact.size_m))
+            from_s = max(due_s, motion.time_s)
+            out.append(TouchSample(contact.finger, motion.x_m, motion.y_m, from_s, True, contact.size_m))
             if contact.suspect:
-                self.tracking.longest_hold_s = max(self.tracking.longest_hold_s, max(due_s, motion.time_s) - contact.first_s)
+                self.tracking.longest_hold_s = max(self.tracking.longest_hold_s, from_s - contact.first_s)
 
-    def _played_from_s(self, contact: _Contact) -> float:
+    def _played_from_s(self, contact: TrackedContact) -> float:
         """When a contact that waits becomes a finger without any further report."""
         due_s = contact.first_s
         if contact.reports < self._confirm_reports:
@@ -331,11 +259,3 @@ class Tracker:
         if contact.suspect:
             due_s = max(due_s, self._guard.cleared_s(contact.first_s))
         return due_s
-
-    def _bridged_until_s(self, lost: _Contact) -> float:
-        period_s = self.rate.period_s
-        if not self.rate.measured and self._losses <= UNKNOWN_LOSSES:
-            since_s = lost.lost_s - lost.motion.time_s
-            if since_s <= MAX_PERIOD_S:
-                period_s = max(period_s, min(since_s, SLOW_PERIOD_S))
-        return lost.lost_s + BRIDGE_PERIODS * period_s

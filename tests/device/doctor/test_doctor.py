@@ -27,7 +27,7 @@ from controller.device.doctor.doctor import look
 from controller.device.doctor.link_examination import arriving_sck_hz, evaluated_sck, examine_link
 from controller.device.fpga.bitstream import Identity, sealed
 from controller.device.fpga.build_parameters import BuildParameters
-from controller.device.fpga.links import spi_link
+from controller.device.fpga.links import spi_device
 from controller.device.fpga.session import Session
 from controller.device.service.drivers import bitstream_path
 from controller.device.touch.drivers import screen
@@ -139,7 +139,7 @@ def test_a_serial_port_that_is_not_there_is_one_line(board):
 
 @each_row(("bufsiz", "good", "text"), [(8192, True, "one message"), (4096, True, "two messages"), (4095, False, "8192")])
 def test_the_buffer_of_spidev_is_evaluated(board, monkeypatch, bufsiz, good, text):
-    monkeypatch.setattr(spi_link, "read_bufsiz", lambda: bufsiz)
+    monkeypatch.setattr(spi_device, "read_bufsiz", lambda: bufsiz)
     found = said(look(with_tables(board, link=SPI), VirtualClock().now_s), "spidev buffer")
     assert found[0] is good
     assert text in found[1]

@@ -8,7 +8,7 @@ import pytest
 from tables import each_row
 
 from controller.device.board.devices import LinkSettings
-from controller.device.fpga.links import spi_link
+from controller.device.fpga.links import spi_device, spi_link
 from controller.errors import LinkError
 
 SETTINGS = LinkSettings(
@@ -31,7 +31,7 @@ class SpiDev36:
 
 def opened(monkeypatch, device):
     """Bus and chip select for a device of board.toml."""
-    monkeypatch.setattr(spi_link.spidev, "SpiDev", SpiDev36)
+    monkeypatch.setattr(spi_device.spidev, "SpiDev", SpiDev36)
     with pytest.raises((Opened, LinkError)) as raised:
         spi_link.SpiLink(msgspec.structs.replace(SETTINGS, device=device), time.monotonic)
     return raised.value

@@ -12,8 +12,9 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
 from controller.device.touch.associate import assignment
 from controller.device.touch.axes import AxisRange, PanelAxes
-from controller.device.touch.decoder import MAX_PLAYED, MAX_SLOTS, MAX_UNNAMED, Decoder
+from controller.device.touch.decoder import MAX_SLOTS, MAX_UNNAMED, Decoder
 from controller.device.touch.event_codes import Protocol, protocol_of, protocol_of_device
+from controller.device.touch.plausibility import MAX_PLAYED
 
 BOARD = load_board(data_folder("boards") / "simulated")
 AXES = PanelAxes(BOARD, AxisRange(0, 2100), AxisRange(0, 1480))  # a tenth of a millimetre each

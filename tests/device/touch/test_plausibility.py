@@ -14,7 +14,7 @@ from controller.device.board.lookup import data_folder
 from controller.device.touch.axes import AxisRange, PanelAxes
 from controller.device.touch.decoder import Decoder
 from controller.device.touch.event_codes import Protocol
-from controller.device.touch.plausibility import EDGE_M, figures
+from controller.device.touch.panel_places import EDGE_M
 from controller.device.touch.reports import SHORTEST_PAUSE_S, describe_warnings
 
 BOARD = load_board(data_folder("boards") / "simulated")
@@ -59,7 +59,7 @@ class Panel:
 
     @property
     def figures(self):
-        return figures(self.decoder.counts, self.decoder.warnings)
+        return self.decoder.counts.plausibility(self.decoder.warnings)
 
     def counted(self, **expected):
         found = self.figures

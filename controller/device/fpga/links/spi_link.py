@@ -10,11 +10,8 @@ import contextlib
 import errno
 import fcntl
 import os
-import re
-import struct
 import time
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Final
 
 import spidev
@@ -22,25 +19,11 @@ import spidev
 from controller.device.board.devices import LinkSettings, divided_hz
 from controller.device.fpga.links.gpio_lines import GpioLines
 from controller.device.fpga.links.link_group import LinkGroup
+from controller.device.fpga.links.spi_device import open_device, read_bufsiz, set_speed
 from controller.device.fpga.links.spi_messages import SpiMessages
 from controller.errors import LinkError
 
-BUFSIZ: Final = Path("/sys/module/spidev/parameters/bufsiz")
-BUFSIZ_DEFAULT: Final = 4096
-RD_BITS_PER_WORD: Final = 0x80016B03
-RD_MAX_SPEED_HZ: Final = 0x80046B04
-RD_MODE32: Final = 0x80046B05
-MODE: Final = 0  # SCK idle low, sampled on its rising edge; most significant bit first, chip select active low
-BITS_PER_WORD: Final = 8
 REMOVED: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.EBADF})  # the device was removed
-
-
-def read_bufsiz() -> int:
-    """Largest message that spidev accepts, in bytes."""
-    try:
-        return int(BUFSIZ.read_text())
-    except (OSError, ValueError):
-        return BUFSIZ_DEFAULT
 
 
 class SpiLink:
@@ -56,9 +39,7 @@ class SpiLink:
         self.bytes_sent = 0
         self.wire_ns = 0  # wire_ns, blocked_ns: both are the time spent in the kernel, which returns after the last bit
         self.blocked_ns = 0
-        # actual SCK, computed from `settings.spi_source_hz` where that is given; otherwise the SCK that spidev was asked
-        # for
-        self.sck_hz = 0.0
+        self.sck_hz = 0.0  # actual SCK, computed from `settings.spi_source_hz` where that is given; otherwise what spidev says
         self.bufsiz = read_bufsiz()
         self._settings = settings
         self._asked_hz = settings.sck_hz
@@ -133,7 +114,7 @@ class SpiLink:
             self._spi = self._opened_again()
         self._asked_hz = sck_hz
         try:
-            self._set_speed(self._spi)
+            self._take_speed(set_speed(self._spi, sck_hz))
         except OSError as error:
             raise self._failure(error) from error
         return self.sck_hz
@@ -150,34 +131,8 @@ class SpiLink:
             self._spi = None
 
     def _opened(self) -> spidev.SpiDev:
-        """Open the device exclusively and read its settings back."""
-        device = self._settings.device
-        spi = spidev.SpiDev()
-        try:
-            spi.open(*_bus_and_select(device))
-        except OSError as error:
-            raise LinkError(_why_not_open(device, error)) from error
-        try:
-            fcntl.flock(spi.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)  # spidev itself does not refuse a second program
-            spi.lsbfirst = spi.cshigh = spi.threewire = spi.loop = spi.no_cs = False
-            spi.mode = MODE
-            spi.bits_per_word = BITS_PER_WORD
-            mode, bits = _read(spi, RD_MODE32, "=I"), _read(spi, RD_BITS_PER_WORD, "=B")
-            if mode != MODE or bits != BITS_PER_WORD:
-                raise LinkError(
-                    f"{device} stays in mode 0x{mode:X} with {bits} bits a word; the FPGA needs mode {MODE} with {BITS_PER_WORD}:"
-                    " look at the device tree's entry for it"
-                )
-            self._set_speed(spi)
-        except BlockingIOError as error:
-            spi.close()
-            raise LinkError(f"{device} is in use by another haptic-panel: end it first") from error
-        except OSError as error:
-            spi.close()
-            raise LinkError(f"{device} cannot be set to mode {MODE}, {BITS_PER_WORD} bits: {error.strerror}") from error
-        except LinkError:
-            spi.close()
-            raise
+        spi, said_hz = open_device(self._settings.device, self._asked_hz)
+        self._take_speed(said_hz)
         return spi
 
     def _opened_again(self) -> spidev.SpiDev:
@@ -194,9 +149,7 @@ class SpiLink:
         device = self._settings.device
         return f"{device} was removed: its driver was unbound, or its adapter unplugged; it is opened again when it is back"
 
-    def _set_speed(self, spi: spidev.SpiDev) -> None:
-        spi.max_speed_hz = self._asked_hz
-        said_hz = _read(spi, RD_MAX_SPEED_HZ, "=I")
+    def _take_speed(self, said_hz: int) -> None:
         source_hz = self._settings.spi_source_hz
         self.sck_hz = divided_hz(source_hz, said_hz) if source_hz else float(said_hz)
 
@@ -242,27 +195,3 @@ def open_spi_links(settings: LinkSettings, of_each: Sequence[LinkSettings], now_
         lines.begin()
         opened.pop_all()
     return LinkGroup(list(links.values()))
-
-
-def _bus_and_select(device: str) -> tuple[int, int]:
-    """Bus and chip select of a device, of which links may be given: python3-spidev 3.6, which is Debian's, opens no path."""
-    path = os.path.realpath(device)
-    if numbers := re.fullmatch(r"/dev/spidev(\d+)\.(\d+)", path):
-        return int(numbers[1]), int(numbers[2])
-    os.stat(path)  # noqa: PTH116 - not there: the same error as of an open
-    raise LinkError(f"{device} is {path}, which is no device of spidev: give /dev/spidevB.C, or a link to it")
-
-
-def _read(spi: spidev.SpiDev, request: int, layout: str) -> int:
-    """Read one of spidev's settings from the kernel."""
-    value: int = struct.unpack(layout, fcntl.ioctl(spi.fileno(), request, bytes(struct.calcsize(layout))))[0]
-    return value
-
-
-def _why_not_open(device: str, error: OSError) -> str:
-    if error.errno in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
-        there = ", ".join(sorted(str(path) for path in Path("/dev").glob("spidev*"))) or "none"
-        return f"there is no {device} (there are: {there}): switch SPI on, on a Raspberry Pi by dtparam=spi=on in config.txt"
-    if error.errno in (errno.EACCES, errno.EPERM):
-        return f"{device} may not be opened by this user: add it to the group that owns the device (on Debian: spi)"
-    return f"{device} could not be opened: {error.strerror or error}"
