@@ -12,7 +12,7 @@ from controller.commands.common.output import picture_path, show
 from controller.device.board.board import Board, load_board
 from controller.device.board.descriptions import unit_of
 from controller.device.board.lookup import find_board
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
 from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
 from controller.errors import ConfigError

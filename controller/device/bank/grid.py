@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from controller.arrays import Floats
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.errors import ConfigError
 
 TO_WHOLE: Final = 1.5 * 2**52  # added and taken away it leaves the nearest whole number, as `round` does, in two additions

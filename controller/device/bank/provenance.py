@@ -7,7 +7,7 @@ from typing import Any, Literal, Self
 
 import msgspec
 
-from controller.device.board.board import sha256
+from controller.device.board.digest import sha256
 
 # Of the plate model (physics/) and of what is kept of it, by any way of making words. Raised whenever a response that it computes
 # changes by more than rounding; a bank of another version is built again. tests/workshop/physics/test_model_version.py compares

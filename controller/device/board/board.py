@@ -9,9 +9,7 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Collection
-from contextlib import suppress
 from functools import cache, reduce
-from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any, Self, cast
 
@@ -19,10 +17,12 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
+from controller.device.board.digest import sha256
 from controller.device.board.lookup import board_places, fpga_files, in_system_folder
-from controller.device.board.panel import CHANNELS, Actuator, AssumedFinger, BankSettings, Compose, Driver, Limits, Plate, Waveform
-from controller.device.board.parts import Parts, followed
-from controller.device.board.patches import Patches
+from controller.device.board.panel import CHANNELS, Actuator, AssumedFinger, BankSettings, Compose, Driver, Limits, Waveform
+from controller.device.board.plate.parts import Parts, followed
+from controller.device.board.plate.patches import Patches
+from controller.device.board.plate.plate import Plate
 from controller.device.board.records import Record, as_record, read_tables
 from controller.device.board.relations.checked import judge
 from controller.device.board.relations.relation import Relation
@@ -31,7 +31,6 @@ from controller.errors import ConfigError
 
 # Where left out, these keys of plate and waveform are not part of the digest
 LATER_KEYS = {"layers": (), "damping": None, "slope": 0.0, "drift_percent": 0.0}
-SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
 
 
 class Board(Record, frozen=True):
@@ -127,11 +126,9 @@ class Board(Record, frozen=True):
         own = tuple(
             msgspec.structs.replace(a, channel=a.channel - first) for a in self.actuators if first <= a.channel < first + CHANNELS
         )
-        its, link = self.link.fpga[number], self.link
-        device, configured = its.device or link.device, its.configured_line or link.configured_line
-        link, gateware = msgspec.structs.replace(link, device=device, configured_line=configured, fpga=()), self.gateware
+        link, gateware = self.link.of_fpga(number), self.gateware
         if gateware is not None:
-            load = tuple(word.replace("{cable}", its.cable) for word in gateware.load)
+            load = tuple(word.replace("{cable}", self.link.fpga[number].cable) for word in gateware.load)
             file = str(fpga_files(Path(self.bitstream), number + 1)[number])
             gateware = msgspec.structs.replace(gateware, load=load, bitstream=file)
         patches = self.patches and self.patches.with_places(self.plate, self.actuators)  # those of all are on the plate
@@ -180,14 +177,6 @@ class Board(Record, frozen=True):
         )
         tables = (plate, self.actuators, self.driver, waveform, *filter(None, (self.patches, self.finger)))
         return sha256(msgspec.json.encode(tables))  # keys in the order of the records
-
-
-def sha256(data: bytes) -> bytes:
-    """Digest of `data`, without loading OpenSSL where Python has its own."""
-    for name in SHA256:
-        with suppress(ImportError):
-            return bytes(import_module(name).sha256(data).digest())
-    raise AssertionError("every Python has hashlib")
 
 
 def load_board(path: Path, without: Collection[Relation] = ()) -> Board:
@@ -244,19 +233,12 @@ def board_file(panels: tuple[type[TouchPanel], ...]) -> type[Board]:
     """The record of a board.toml whose touch panel is one of these."""
     own: dict[str, Any] = {"touch": reduce(operator.or_, panels)}
     as_it_is: Any = msgspec.field
-    made = msgspec.defstruct(
-        "Board",
-        [  # all of them, as one that is declared again goes behind the others
-            (one.name, own.get(one.name, one.type), as_it_is(default=one.default, default_factory=one.default_factory))
-            for one in msgspec.structs.fields(Board)
-        ],
-        bases=(Board,),
-        namespace={"__doc__": Board.__doc__},
-        module=__name__,
-        frozen=True,
-        kw_only=True,
-        forbid_unknown_fields=True,
-    )
+    fields = [  # all of them, as one that is declared again goes behind the others
+        (one.name, own.get(one.name, one.type), as_it_is(default=one.default, default_factory=one.default_factory))
+        for one in msgspec.structs.fields(Board)
+    ]
+    namespace = {"__doc__": Board.__doc__}
+    made = msgspec.defstruct("Board", fields, bases=(Board,), namespace=namespace, module=__name__, frozen=True, kw_only=True)
     return cast(type[Board], made)
 
 

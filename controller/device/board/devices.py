@@ -6,8 +6,9 @@ GPIO chips by label, lines by name or, where they have none, by number.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, Self
 
+import msgspec
 from msgspec import Meta
 
 from controller.device.board.records import Record
@@ -111,6 +112,12 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     def configured_lines(self) -> tuple[str, ...]:
         """Lines that say whether FPGAs are configured: one of all, or one of each."""
         return tuple(line for line in (self.configured_line, *(one.configured_line for one in self.fpga)) if line)
+
+    def of_fpga(self, number: int) -> Self:
+        """The link to one of several FPGAs."""
+        own = self.fpga[number]
+        device, configured = own.device or self.device, own.configured_line or self.configured_line
+        return msgspec.structs.replace(self, device=device, configured_line=configured, fpga=())
 
     def wire_s(self, size_bytes: int) -> float:
         """Time that bytes take on the wire, in s, without the pauses between frames."""

@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 from typing import Final
 
-from controller.device.board.board import Board, sha256
+from controller.device.board.board import Board
+from controller.device.board.digest import sha256
 from controller.regular_file import read_regular
 
 MACHINE_ID = Path("/etc/machine-id")

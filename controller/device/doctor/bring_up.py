@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from controller.clocks import Clock
 from controller.device.board.board import Board
-from controller.device.board.patches import discs
+from controller.device.board.plate.patches import discs
 from controller.device.doctor.bit_errors import BitErrors, bit_errors
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.frames import ALL_CHANNELS, Play

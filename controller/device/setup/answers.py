@@ -9,8 +9,8 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 from msgspec import Meta
 
-from controller.device.board.panel import Plate
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
+from controller.device.board.plate.plate import Plate
 from controller.device.board.records import Record, read_tables
 from controller.device.board.touch_panels import touch_record
 

@@ -17,7 +17,7 @@ from typing import Any, Final
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import data_folder
 from controller.device.board.panel import Driver, Waveform
-from controller.device.board.parts import Parts, followed
+from controller.device.board.plate.parts import Parts, followed
 from controller.device.board.records import as_record, read_tables
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.board.relations.stage_heat import worst_edge_j

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
 from controller.errors import ConfigError
 
 Place = tuple[float, float]  # x and y in mm

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from controller.device.board.board import Board
-from controller.device.board.patches import discs
+from controller.device.board.plate.patches import discs
 
 Place = tuple[float, float]  # x and y on the plate
 

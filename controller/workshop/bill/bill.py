@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 
 from controller.device.board.board import Board
 from controller.device.board.devices import LinkSettings
-from controller.device.board.patches import discs
+from controller.device.board.plate.patches import discs
 from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.device.board.touch_panels import I2cTouch, SerialTouch
 from controller.workshop.bill.circuit import Component, circuit

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 
 from controller.device.board.board import Board
-from controller.device.board.parts import made
-from controller.device.board.patches import discs
+from controller.device.board.plate.parts import made
+from controller.device.board.plate.patches import discs
 from controller.device.board.records import read_tables
 from controller.workshop.bill.elements import Element, Subcircuit, stage_folder, subcircuit
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from controller.arrays import Floats
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import MindlinPlate
 
 

@@ -17,7 +17,8 @@ from msgspec import Meta
 
 from controller.arrays import Floats
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS, FPGAS_MAX, Actuator, Driver, Plate
+from controller.device.board.panel import CHANNELS, FPGAS_MAX, Actuator, Driver
+from controller.device.board.plate.plate import Plate
 from controller.device.board.records import Record, as_record, load_toml
 from controller.device.board.relations.panel import PLACES
 from controller.device.fpga.build_parameters import BuildParameters

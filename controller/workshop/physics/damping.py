@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from controller.arrays import Floats
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.retuned import retuned

@@ -16,7 +16,8 @@ from scipy.signal import czt
 from scipy.special import j0, k0, y0
 
 from controller.arrays import Floats
-from controller.device.board.panel import Driver, Plate
+from controller.device.board.panel import Driver
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.physics.design.design import characteristic_time_s, one_bit_share, point_impedance_kg_s
 from controller.workshop.physics.felt import AROUND_S, SKIN_S, FeltLoad, felt_history

@@ -19,8 +19,9 @@ from numpy.typing import ArrayLike, DTypeLike
 from scipy.linalg import eigh
 
 from controller.arrays import Floats, Reals
-from controller.device.board.panel import Actuator, Plate
-from controller.device.board.patches import Patch, Patches
+from controller.device.board.panel import Actuator
+from controller.device.board.plate.patches import Patch, Patches
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
 from controller.errors import ConfigError
 from controller.workshop.physics.modes.modes import Modes, TensorFactors

@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike
 
 from controller.arrays import Floats
 from controller.device.board.board import Board
-from controller.device.board.layers import laminate
-from controller.device.board.panel import Plate
-from controller.device.board.parts import Parts
+from controller.device.board.plate.layers import laminate
+from controller.device.board.plate.parts import Parts
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.modes.modes import Modes
 

@@ -9,7 +9,7 @@ import msgspec
 
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.device.board.records import as_record
 from controller.device.board.relations.panel import PLACES
 from controller.errors import ConfigError

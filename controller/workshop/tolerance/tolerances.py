@@ -11,8 +11,9 @@ from msgspec import Meta
 
 from controller.arrays import Floats
 from controller.device.board.board import Board
-from controller.device.board.panel import CHANNELS, Plate
-from controller.device.board.patches import discs
+from controller.device.board.panel import CHANNELS
+from controller.device.board.plate.patches import discs
+from controller.device.board.plate.plate import Plate
 from controller.device.board.records import Record
 from controller.device.board.relations.panel import PLACES
 from controller.errors import ConfigError

@@ -20,7 +20,7 @@ from controller.arrays import Floats
 from controller.device.bank.file_format import creator
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
-from controller.device.board.panel import Edges, Foam
+from controller.device.board.plate.plate import Edges, Foam
 from controller.workshop.bank_builder.said_amplitude import PLACES, foreseen_um, over_places
 from controller.workshop.calibration.interpolate import interpolate
 from controller.workshop.calibration.learned import LearnedResponses

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device.bank.grid import Grid
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.errors import ConfigError
 
 

@@ -10,7 +10,7 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Damping
+from controller.device.board.plate.plate import Damping
 from controller.device.scene.scene_file import find_scene
 from controller.device.service.drivers import recording_path
 from controller.errors import ConfigError

@@ -7,8 +7,8 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.parts import BRASS, E12, E24, GLUE, Disc, Parts, catalogue, followed, made
-from controller.device.board.patches import Patches
+from controller.device.board.plate.parts import BRASS, E12, E24, GLUE, Disc, Parts, catalogue, followed, made
+from controller.device.board.plate.patches import Patches
 from controller.device.board.relations.checked import judge
 from controller.errors import ConfigError
 

@@ -8,7 +8,7 @@ from tables import each_row
 from controller.device.board.board import as_board, board_file
 from controller.device.board.descriptions import described, type_info, unit_of
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import OF_LAYERS
+from controller.device.board.plate.plate import OF_LAYERS
 from controller.device.board.records import Record, read_tables
 from controller.device.board.relations.checked import RELATIONS, judge
 from controller.device.board.touch_panels import touch_records

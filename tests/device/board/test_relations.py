@@ -15,8 +15,9 @@ from controller.device.bank.grid import Grid
 from controller.device.board.board import load_board
 from controller.device.board.devices import ApplicationSocket, LinkedFpga, Temperature
 from controller.device.board.lookup import data_folder, find_board
-from controller.device.board.panel import Compose, Damping, DecayAt
-from controller.device.board.patches import Patches
+from controller.device.board.panel import Compose
+from controller.device.board.plate.patches import Patches
+from controller.device.board.plate.plate import Damping, DecayAt
 from controller.device.board.relations.bank import BANK_BYTES
 from controller.device.board.relations.bending_waves import bending_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.device.board.relations.checked import RELATIONS, judge

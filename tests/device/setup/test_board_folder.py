@@ -12,7 +12,7 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
-from controller.device.board.parts import catalogue
+from controller.device.board.plate.parts import catalogue
 from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
 from controller.device.board.relations.checked import judge

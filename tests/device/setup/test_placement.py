@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
 from controller.device.setup.placement import APART_MM, actuators_around, centres_around
 from controller.errors import ConfigError
 

@@ -13,7 +13,7 @@ import pytest
 from controller.cli import main
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder, find_board
-from controller.device.board.parts import followed
+from controller.device.board.plate.parts import followed
 from controller.workshop.bill.bill import bill, supply_w
 from controller.workshop.bill.circuit import circuit
 from controller.workshop.bill.kicad import kicad_netlist

@@ -6,7 +6,7 @@ import pytest
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Damping, DecayAt, Foam
+from controller.device.board.plate.plate import Damping, DecayAt, Foam
 from controller.workshop.physics.damping import damped, decay_rates, foam_strips, strip_share
 from controller.workshop.physics.modes.closed_form import SimplySupported
 from controller.workshop.physics.modes.ritz_modes import RitzModes

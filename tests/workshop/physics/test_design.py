@@ -12,10 +12,10 @@ from scipy.special import jv
 from tables import each_row
 
 from controller.device.board.board import load_board
-from controller.device.board.layers import PlateLayer
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Damping, Foam, Plate
-from controller.device.board.parts import Parts
+from controller.device.board.plate.layers import PlateLayer
+from controller.device.board.plate.parts import Parts
+from controller.device.board.plate.plate import Damping, Foam, Plate
 from controller.device.board.relations.bending_waves import (
     bending_stiffness,
     kirchhoff_wavelength_m,

@@ -8,9 +8,9 @@ from tables import each_row
 from workshop.physics.lamb import layered_a0, rayleigh_lamb_a0
 
 from controller.device.board.board import load_board
-from controller.device.board.layers import MOST_SHEAR, PlateLayer, laminate, softest
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Plate
+from controller.device.board.plate.layers import MOST_SHEAR, PlateLayer, laminate, softest
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import MindlinPlate, bending_stiffness, bending_wavelength_m
 from controller.errors import ConfigError
 from controller.workshop.physics.field import FocusScale

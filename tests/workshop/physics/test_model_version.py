@@ -15,7 +15,8 @@ from tables import each_row
 from controller.device.bank.provenance import MODEL_VERSION
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import AssumedFinger, Edges
+from controller.device.board.panel import AssumedFinger
+from controller.device.board.plate.plate import Edges
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.loaded_responses import words_source
 

@@ -8,8 +8,9 @@ import pytest
 from small_plate import WHOLE, small_board
 from tables import each_row
 
-from controller.device.board.panel import Actuator, Damping
-from controller.device.board.patches import Patch, Patches
+from controller.device.board.panel import Actuator
+from controller.device.board.plate.patches import Patch, Patches
+from controller.device.board.plate.plate import Damping
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.device.board.relations.checked import judge
 from controller.errors import ConfigError

@@ -10,7 +10,8 @@ from controller.cli import main
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Actuator, Plate
+from controller.device.board.panel import Actuator
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.device.board.relations.checked import RELATIONS
 from controller.errors import ConfigError

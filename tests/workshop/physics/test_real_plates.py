@@ -10,7 +10,7 @@ from small_plate import WHOLE
 from controller.cli import main
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
-from controller.device.board.panel import Foam
+from controller.device.board.plate.plate import Foam
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.benchmark.focus.focus_figures import emit

@@ -13,7 +13,8 @@ from workshop.physics.levy import levy_wavenumbers
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Actuator, Edges, Foam
+from controller.device.board.panel import Actuator
+from controller.device.board.plate.plate import Edges, Foam
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.errors import ConfigError
 from controller.workshop.physics.focusing import focus

@@ -7,8 +7,8 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.board.panel import Plate
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.workshop.benchmark.focus.focus_emission import emission_at
 from controller.workshop.physics.design.design_figures import design_figures

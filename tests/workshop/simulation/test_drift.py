@@ -15,7 +15,7 @@ from controller.clocks import VirtualClock
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import Temperature
-from controller.device.board.patches import Patches
+from controller.device.board.plate.patches import Patches
 from controller.device.scene.scene import load_scene
 from controller.device.service import run as service_run
 from controller.device.service import temperature

@@ -21,8 +21,8 @@ from controller.device.board.board import load_board
 from controller.device.board.devices import LinkedFpga
 from controller.device.board.lookup import find_board, fpga_files
 from controller.device.board.panel import Compose
-from controller.device.board.patches import Patches
 from controller.device.board.paths import bank_path
+from controller.device.board.plate.patches import Patches
 from controller.device.fpga.frames import parted
 from controller.device.scene.scene import load_scene
 from controller.device.service.drivers import open_session

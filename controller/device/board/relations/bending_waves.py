@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
-from controller.device.board.layers import laminate
-from controller.device.board.panel import Plate
+from controller.device.board.plate.layers import laminate
+from controller.device.board.plate.plate import Plate
 
 if TYPE_CHECKING:
     import numpy as np

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from controller.device.board.panel import CHANNELS, FPGAS_MAX
-from controller.device.board.patches import TOUCHING_MM, discs
+from controller.device.board.plate.patches import TOUCHING_MM, discs
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.board.relations.relation import refuses, warns
 from controller.device.board.relations.stage_heat import passed

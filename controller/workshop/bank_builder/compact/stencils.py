@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from controller.arrays import Floats
 from controller.device.bank.grid import Grid
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.kernel import compact_twin
 from controller.workshop.bank_builder.compact.pulses import ROUNDING_NOISE

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from controller.arrays import Floats
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
 from controller.workshop.benchmark.focus.focus_figures import Figures, emit, random_points, spread
 from controller.workshop.benchmark.focus.sound_figures import sound_figures

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.stats.qmc import Halton
 
 from controller.arrays import Floats
-from controller.device.board.panel import Foam
+from controller.device.board.plate.plate import Foam
 from controller.device.board.relations.bending_waves import mindlin_shift
 from controller.device.touch.prediction import Motion
 from controller.workshop.benchmark.focus.focus_figures import emit

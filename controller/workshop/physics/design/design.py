@@ -5,7 +5,7 @@ Numbers of equations are those of Hudin, Lozada, Hayward, IEEE Trans. Haptics 8(
 
 import math
 
-from controller.device.board.panel import Plate
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 
 

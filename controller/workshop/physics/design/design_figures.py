@@ -11,8 +11,8 @@ import msgspec
 import numpy as np
 
 from controller.device.board.board import Board
-from controller.device.board.panel import Plate
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import kirchhoff_wavelength_m, mindlin_shift, mindlin_wavelength_m
 from controller.errors import ConfigError
 from controller.workshop.physics.design import design

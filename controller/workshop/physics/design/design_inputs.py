@@ -7,8 +7,8 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.board import Board
-from controller.device.board.panel import OF_LAYERS, Plate
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
+from controller.device.board.plate.plate import OF_LAYERS, Plate
 from controller.device.board.records import Record, as_record
 from controller.errors import ConfigError
 from controller.workshop.physics.design.from_parts import from_parts

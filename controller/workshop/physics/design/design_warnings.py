@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 from typing import Any
 
-from controller.device.board.panel import CHANNELS, Plate
+from controller.device.board.panel import CHANNELS
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.plate import FEWEST_MODES, FEWEST_WAVES, LONGEST_DECAYS, THICKEST
 from controller.workshop.physics.design.design import energy_j
 from controller.workshop.physics.stress import stress_warnings

@@ -8,7 +8,7 @@ import msgspec
 
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
-from controller.device.board.parts import Parts, catalogue
+from controller.device.board.plate.parts import Parts, catalogue
 from controller.errors import ConfigError
 from controller.workshop.physics.design.design_figures import design_figures
 from controller.workshop.physics.design.design_inputs import inputs_of

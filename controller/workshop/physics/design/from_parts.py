@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from typing import Final
 
 from controller.device.board.board import Board
-from controller.device.board.panel import Plate
-from controller.device.board.parts import Parts, inductance_h, resistance_ohm
+from controller.device.board.plate.parts import Parts, inductance_h, resistance_ohm
+from controller.device.board.plate.plate import Plate
 
 FOLLOWING: Final = ("size_mm", "capacitance_f", "inductance_h", "resistance_ohm", "moment_n_per_v")
 ASSUMED: Final = Parts(disc="7BB-12-9")  # of a board without [parts]: the paper's

@@ -10,7 +10,7 @@ import msgspec
 
 from controller.device.board.board import Board
 from controller.device.board.panel import Driver
-from controller.device.board.parts import Parts
+from controller.device.board.plate.parts import Parts
 from controller.device.board.relations.stage_heat import worst_edge_j
 from controller.errors import ConfigError
 from controller.workshop.physics.design.design_inputs import DesignInputs, inputs_of, plate_of

@@ -9,7 +9,8 @@ import numpy as np
 from scipy.integrate import trapezoid
 
 from controller.arrays import Floats
-from controller.device.board.panel import Driver, Plate
+from controller.device.board.panel import Driver
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import kirchhoff_wavelength_m
 from controller.workshop.physics.design.design_inputs import DesignInputs
 from controller.workshop.physics.focal_spectrum import FocalSpectrum

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.arrays import Floats, Reals
-from controller.device.board.panel import Actuator, Plate
+from controller.device.board.panel import Actuator
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_stiffness
 from controller.errors import ConfigError
 from controller.workshop.physics.modes.modes import by_factor

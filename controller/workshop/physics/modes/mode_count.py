@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from controller.device.board.panel import Support
+from controller.device.board.plate.plate import Support
 
 
 @cache

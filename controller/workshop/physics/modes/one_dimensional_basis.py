@@ -17,7 +17,7 @@ from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 
 from controller.arrays import Floats
-from controller.device.board.panel import Support
+from controller.device.board.plate.plate import Support
 
 Parity = Literal["even", "odd"]
 

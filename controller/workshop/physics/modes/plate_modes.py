@@ -7,8 +7,8 @@ import msgspec
 import numpy as np
 
 from controller.device.board.board import Board
-from controller.device.board.panel import Plate
-from controller.device.board.patches import Patch, Patches
+from controller.device.board.plate.patches import Patch, Patches
+from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import MindlinPlate
 from controller.errors import ConfigError
 from controller.workshop.physics.damping import damped

@@ -16,7 +16,7 @@ from itertools import product
 import numpy as np
 
 from controller.arrays import Floats
-from controller.device.board.panel import Support
+from controller.device.board.plate.plate import Support
 from controller.errors import ConfigError
 from controller.workshop.physics.modes.mode_count import mode_count
 from controller.workshop.physics.modes.one_dimensional_basis import (

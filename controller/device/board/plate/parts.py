@@ -16,8 +16,9 @@ from typing import Annotated, Any, Final
 
 from msgspec import Meta
 
-from controller.device.board.layers import Laminate, PlateLayer, laminate
-from controller.device.board.panel import Plate, Waveform
+from controller.device.board.panel import Waveform
+from controller.device.board.plate.layers import Laminate, PlateLayer, laminate
+from controller.device.board.plate.plate import Plate
 from controller.device.board.records import Record, as_record, read_tables
 from controller.device.board.relations.bending_waves import bending_stiffness
 

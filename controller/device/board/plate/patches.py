@@ -8,7 +8,8 @@ from typing import Annotated, Literal, NamedTuple, Self
 import msgspec
 from msgspec import Meta
 
-from controller.device.board.panel import Actuator, Plate
+from controller.device.board.panel import Actuator
+from controller.device.board.plate.plate import Plate
 from controller.device.board.records import PlaceMm, Record, left_out
 
 TOUCHING_MM = 1e-6  # patches may share an edge: neither place nor size is a binary fraction

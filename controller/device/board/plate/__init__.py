@@ -1,0 +1,1 @@
+"""What a plate is made of, how it is held and damped, and the piezo discs on it."""
