@@ -35,6 +35,16 @@ new_emission: Final[Callable[[_Fields], Emission]] = partial(tuple.__new__, Emis
 """An `Emission` of a tuple of all its fields, at a third of the instructions: without the function that its class has for it."""
 
 
+def stronger(one: Emission, other: Emission) -> Emission:
+    """The stronger of two emissions for one finger at one time, with the pulse of the train that has one."""
+    strong, weak = (one, other) if one.amplitude >= other.amplitude else (other, one)
+    if strong.period_s == 0.0 and weak.period_s:
+        strong = strong._replace(pulse=weak.pulse, period_s=weak.period_s)
+    if weak.alternate or weak.nulled:
+        strong = strong._replace(alternate=strong.alternate or weak.alternate, nulled=strong.nulled or weak.nulled)
+    return strong
+
+
 def emitter_emission(emitter: FixedEmitter, start_s: FpgaTime, pulse: int) -> Emission:
     """Emission number `pulse` of a fixed emitter that plays since `start_s`."""
     period_s = 1 / emitter.rate_hz

@@ -21,7 +21,7 @@ from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.device.scene.clips import ClientEffect
-from controller.device.scene.emission import Emission, new_emission
+from controller.device.scene.emission import Emission, new_emission, stronger
 from controller.device.scene.progress import DistanceProgress, GridProgress
 from controller.device.scene.region_lookup import OUTSIDE
 from controller.device.scene.scene import Scene
@@ -30,10 +30,6 @@ from controller.errors import ConfigError
 
 NO_CROSSING = (math.inf, 0.0)
 COMMAND: Final = -1  # in place of a region, for a train that a command started
-
-
-class UnknownEffect(ConfigError):
-    """A command names an effect that it cannot play."""
 
 
 class ActiveEffects:
@@ -50,8 +46,7 @@ class ActiveEffects:
         self._scene = scene
         self.owner = owner
         self.finger = owner if isinstance(owner, int) else None  # none for a command at a point
-        self.x_m = x_m
-        self.y_m = y_m
+        self.x_m, self.y_m = x_m, y_m
         self.region = OUTSIDE  # index in the scene, or OUTSIDE
         self.next_s = FPGA_NEVER  # when the next pulse of a train is due; inf: no train is active
         self.period_s = math.inf  # least time from pulse to pulse of its trains; inf: none has several
@@ -117,15 +112,14 @@ class ActiveEffects:
         """A command plays an effect of the scene, by its name, or one that a client has sent; returns what is due now.
 
         `amplitude` is `MIN_AMPLITUDE` to 1, times the effect's own; a product below `MIN_AMPLITUDE` is played at that. `ticket` is
-        returned on the first emission. Raises UnknownEffect if there is no effect of this name, or only a moving finger or a fixed
+        returned on the first emission. Raises ConfigError if there is no effect of this name, or only a moving finger or a fixed
         emitter can have it.
         """
         if isinstance(effect, str):
-            train = self._scene.effects.get(effect)
-            if train is None:
+            if effect not in self._scene.effects:
                 playable = ", ".join(sorted(self._scene.effects))
-                raise UnknownEffect(f"no effect {effect!r} that a command can play; there are: {playable}")
-            name = effect
+                raise ConfigError(f"no effect {effect!r} that a command can play; there are: {playable}")
+            name, train = effect, self._scene.effects[effect]
         else:
             name, train = effect
         self._add(ActiveTrain(train, time_s, COMMAND, ends_on_leave=False, gain=amplitude, effect=name, ticket=ticket))
@@ -146,7 +140,7 @@ class ActiveEffects:
                 emissions.append(emission)
         self._set_trains([train for train in self._trains if not train.over])
         if len(emissions) > 1:
-            emissions.sort(key=_time_s)
+            emissions.sort(key=lambda emission: emission.time_s)
         return tuple(emissions)
 
     def shift(self, first_s: FpgaTime, start_s: FpgaTime) -> None:
@@ -176,10 +170,13 @@ class ActiveEffects:
         index = OUTSIDE if self.finger is None else scene.lookup.at(self.x_m, self.y_m)
         if self._trains:
             self._set_trains([train for train in self._trains if _goes_on(train, before, scene, index)])
-        if OUTSIDE not in (left, index) and self.progress and _shift(before, left, scene, index, self.progress):
-            self.region = index
-        else:
+        moved_m = scene.moved_m(before, left, index) if OUTSIDE not in (left, index) and self.progress else None
+        if moved_m is None:
             self._begin_spacings(index)
+            return
+        self.region = index
+        for progress in self.progress:
+            progress.shift(*moved_m)
 
     def next_crossing(self, x: float, y: float) -> tuple[float, float]:
         """Distance in m to the next emission of a spacing, and its amplitude, if the finger moves along the unit vector (x, y)."""
@@ -214,7 +211,7 @@ class ActiveEffects:
             if active.pulse < train.pulses:  # not over
                 self._add(active)
             if first is not None:
-                strongest = first if strongest is None else _strongest(strongest, first)
+                strongest = first if strongest is None else stronger(strongest, first)
         return strongest
 
     def _pulse(self, train: ActiveTrain, until_s: FpgaTime) -> Emission | None:
@@ -247,41 +244,9 @@ def _goes_on(train: ActiveTrain, before: Scene, scene: Scene, index: int) -> boo
     """Whether a train goes on under other layers, where its finger is in the region `index`; it learns its region's new index."""
     if train.region == COMMAND:
         return True
-    layer, number = before.place_of(train.region)
-    train.region = scene.same_region(layer, before.regions[train.region].name, number)
+    train.region = scene.same_region(before, train.region)
     return train.region != OUTSIDE and (train.region == index or not train.ends_on_leave)
-
-
-def _shift(before: Scene, left: int, scene: Scene, index: int, all_progress: tuple[DistanceProgress | GridProgress, ...]) -> bool:
-    """Have a finger's progress follow its region to where that lies now; False: it is another region, or other spacings."""
-    was, number = before.place_of(left)
-    now, _ = scene.place_of(index)
-    if scene.same_region(was, before.regions[left].name, number) != index:
-        return False
-    if before.regions[left].spacings != scene.regions[index].spacings:
-        return False
-    if was is not None and now is not None and was.placement != now.placement:
-        if was.placement.scale != now.placement.scale:
-            return False
-        x_m, y_m = now.placement.x_m - was.placement.x_m, now.placement.y_m - was.placement.y_m
-        for progress in all_progress:
-            progress.shift(x_m, y_m)
-    return True
-
-
-def _strongest(one: Emission, other: Emission) -> Emission:
-    """The stronger of two emissions for one finger at one time, with the pulse of the train that has one."""
-    strong, weak = (one, other) if one.amplitude >= other.amplitude else (other, one)
-    if strong.period_s == 0.0 and weak.period_s:
-        strong = strong._replace(pulse=weak.pulse, period_s=weak.period_s)
-    if weak.alternate or weak.nulled:
-        strong = strong._replace(alternate=strong.alternate or weak.alternate, nulled=strong.nulled or weak.nulled)
-    return strong
 
 
 def _at_most_one(emission: Emission | None) -> tuple[Emission, ...]:
     return () if emission is None else (emission,)
-
-
-def _time_s(emission: Emission) -> FpgaTime:
-    return emission.time_s

@@ -166,14 +166,27 @@ class Scene:
             region -= len(layer.regions)
         return None, region
 
-    def same_region(self, layer: Layer | None, name: str, index: int) -> int:
-        """Index here of a region that had `index` in another stack over the same scene, or OUTSIDE: known by its owner and name."""
+    def same_region(self, before: Self, index: int) -> int:
+        """Index here of a region that has `index` in another stack over the same scene, or OUTSIDE: known by its owner and name."""
+        layer, number = before.place_of(index)
         first = 0
         for other in self.layers:
             if layer is not None and other.owner == layer.owner:
+                name = layer.regions[number].name
                 return next((first + at for at, region in enumerate(other.regions) if region.name == name), OUTSIDE)
             first += len(other.regions)
-        return first + index if layer is None else OUTSIDE
+        return first + number if layer is None else OUTSIDE
+
+    def moved_m(self, before: Self, was: int, now: int) -> tuple[float, float] | None:
+        """By how much a region has moved from another stack to this one; None: it is another region, or its spacings are others."""
+        if self.same_region(before, was) != now or before.regions[was].spacings != self.regions[now].spacings:
+            return None
+        (old, _), (new, _) = before.place_of(was), self.place_of(now)
+        if old is None or new is None:
+            return 0.0, 0.0
+        if old.placement.scale != new.placement.scale:
+            return None
+        return new.placement.x_m - old.placement.x_m, new.placement.y_m - old.placement.y_m
 
     def named(self, owner: int, name: str) -> int:
         """Index of the region of a name: of the layer of this owner, else of the scene without layers.
