@@ -9,7 +9,7 @@ from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import Connection
 from controller.device.application_socket.protocol.client_messages import Id
 from controller.device.application_socket.tickets import FULL, Tickets, Waiting
-from controller.device.loop.scheduler import MAX_WAITING_COMMANDS
+from controller.device.loop.playing.due_emissions import MAX_WAITING_COMMANDS
 
 WAITING_PER_CLIENT = 64
 

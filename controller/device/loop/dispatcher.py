@@ -12,6 +12,7 @@ from typing import Final
 from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
 from controller.device.loop.commands import Outcome
 from controller.device.loop.context import LoopContext
+from controller.device.loop.playing.next_focus import next_focus
 from controller.device.loop.playing.playback import Playback
 from controller.device.loop.playing.records import ENDLESS, Accepted, Batch, Turn
 from controller.device.loop.scheduler import Scheduler
@@ -137,7 +138,7 @@ class Dispatcher:
         scheduler, occupancy = self._scheduler, self._occupancy
         waited = self._delayed
         within_s = NEVER if waited else occupancy.duration_s  # what waited for silence is due at the same time
-        emissions = scheduler.next_batch(within_s, turn.fpga_s)
+        emissions = scheduler.queue.next_batch(within_s, turn.fpga_s)
         self._delayed = False
         period_s = scheduler.emitters.common_period_s
         if period_s is not None and all(emission.owner == emission.region for emission in emissions):
@@ -168,7 +169,7 @@ class Dispatcher:
             became = playback.prepare(batch, turn.started_ns)
         except ControllerError:  # these emissions are lost; what sounds ends with the outputs
             self._counters.skipped.outputs_off += len(emissions)
-            self._scheduler.discarded(emissions, Outcome.REFUSED, self._clock_estimate.fpga_s(self._clock.now_s()))
+            self._scheduler.queue.discarded(emissions, Outcome.REFUSED, self._clock_estimate.fpga_s(self._clock.now_s()))
             raise
         if isinstance(became, Accepted):
             if turn.report_ns >= 0:
@@ -179,7 +180,7 @@ class Dispatcher:
         if repeating and not self._occupancy.repeating:
             now_s = self._clock.now_s()
             self._source.emitted(now_s, now_s)
-        self._scheduler.discarded(emissions, became, self._clock_estimate.fpga_s(self._clock.now_s()))
+        self._scheduler.queue.discarded(emissions, became, self._clock_estimate.fpga_s(self._clock.now_s()))
         return False
 
     def _send_ahead(self, turn: Turn) -> None:
@@ -187,7 +188,8 @@ class Dispatcher:
         finger = self._moving
         assert finger is not None
         focus_after_s = self._occupancy.duration_s + RESIDENT_START_S
-        wanted = self._scheduler.predict(finger, self._source.predict, self._moved_s, self._source.report_s, focus_after_s)
+        effects, scene, source = self._scheduler.active_effects, self._scheduler.scene, self._source
+        wanted = next_focus(effects, scene, finger, source.predict, self._moved_s, source.report_s, focus_after_s)
         if wanted is not None and self._session.wire_free_s() > turn.now_s:
             return
         self._moving = None
@@ -197,4 +199,4 @@ class Dispatcher:
         timing = self._timing
         if next_s - timing.lead_s > turn.now_s + max(PREFETCH_SLACK_S, timing.upload.promised_s):
             steady = self._source.missed_m(finger) <= self._sender.selection.reuse_m
-            self._sender.prefetch(finger, *wanted, steady=steady, fingers=self._scheduler.fingers)
+            self._sender.prefetch(finger, *wanted, steady=steady, fingers=self._scheduler.fingers_down())

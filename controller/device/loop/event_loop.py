@@ -7,7 +7,6 @@ the dispatcher hand it to the FPGA. The longest blocking call without a fault is
 
 from __future__ import annotations
 
-import selectors
 import signal
 import time
 from collections.abc import Callable
@@ -24,6 +23,7 @@ from controller.device.loop.playing.playback import Playback
 from controller.device.loop.playing.records import Turn
 from controller.device.loop.runtime import no_garbage_collection
 from controller.device.loop.scene_source import SceneChange
+from controller.device.loop.scene_takeover import SceneTakeover
 from controller.device.loop.scheduler import Scheduler
 from controller.device.loop.trace_ring import LATE_S
 from controller.device.loop.watched_files import NotingSelector, WatchedFiles
@@ -53,7 +53,6 @@ class EventLoop:
         self._source = context.source
         self._silence = context.silence
         self._clock_estimate = context.clock_estimate
-        self._counters = context.counters
         self._trace = context.trace
         self._scheduler = scheduler
         self._playback = playback
@@ -67,11 +66,12 @@ class EventLoop:
         self._no_command = False
         self._progress = watch.progress
         self._emission_started = watch.emission_started
-        self._scene_changed = watch.scene_changed
         self._spare = watch.spare
         self.outputs = Outputs(context)
-        self._emissions = context.emissions
         self._layers = Layers(scheduler, context.layers, commands)
+        self._takeover: SceneTakeover | None = None
+        if change is not None:
+            self._takeover = SceneTakeover(context, scheduler, playback, self._layers, change, commands, watch.scene_changed)
         # What commands may ask of this loop
         self.control = PanelControl(context, self.outputs, scheduler, playback.timing, self._layers, change)
         self._wakeup: Wakeup | None = None
@@ -144,7 +144,7 @@ class EventLoop:
                         if self._progress is not None:  # the next turn may arm already
                             self._progress(next_s)
             finally:
-                self._switch_off()
+                self.outputs.switch_off()
 
     def _explain(self) -> None:
         """Have the trace written."""
@@ -178,24 +178,6 @@ class EventLoop:
             files.watch("change", self._change.fileno())
         files.watch("layers", self._layers.fileno())
 
-    def _switch_off(self) -> None:
-        """Disarm, and wait until the outputs are off: with heartbeats while the FPGA answers, without any if it does not.
-
-        Raises ControllerError if the FPGA reports a fault that the host must not clear; the outputs are off then, too.
-        """
-        outputs, clock = self.outputs, self._clock
-        with selectors.DefaultSelector() as nothing:  # neither touches nor signals end this
-            try:
-                outputs.disarm()
-                while not outputs.ramped_down(clock.now_s()):
-                    clock.wait(nothing, outputs.next_s())
-            except (LinkError, FaultError) as error:
-                try:
-                    outputs.failed(error, clock.now_s())
-                finally:
-                    while outputs.may_be_on:
-                        clock.wait(nothing, outputs.off_by_s)
-
     def _turn(self) -> float | None:
         """Do what is due now; host time of the next turn, or None when all of a replay is played."""
         started_ns = time.perf_counter_ns()
@@ -207,8 +189,10 @@ class EventLoop:
         report_ns, finger = self._read(now_s)
         if self._commands is not None and not (self._no_command and self._commands.next_time_s() > now_s):
             self._commands.serve(now_s, self.control)
-        if self._change is not None:
-            self._change_scene(now_s)
+        if self._takeover is not None:
+            if self._reload:
+                self._begin_reload()
+            self._takeover.turn(now_s)
         if self._layers.pending:
             self._layers.turn(now_s)
         fpga_s = now_s + self._clock_estimate.offset_s
@@ -250,6 +234,14 @@ class EventLoop:
             return True
         return False
 
+    def _begin_reload(self) -> None:
+        """Have the scene read again, as a signal asked for it."""
+        assert self._change is not None
+        self._reload = False
+        if self._wakeup is not None:
+            self._wakeup.clear()
+        self._change.begin(None, 0)
+
     def _read(self, now_s: float) -> tuple[int, int | None]:
         """Read at most one touch report: its age in ns, -1 without one, and the finger that it moved."""
         samples = self._source.read(now_s)
@@ -265,47 +257,6 @@ class EventLoop:
         if self._commands is not None:
             self._commands.touches(samples)
         return round((now_s - samples[0].time_s) * 1e9), finger
-
-    def _change_scene(self, now_s: float) -> None:
-        """Have a scene prepared if a signal asked for it; take over one that is prepared."""
-        change = self._change
-        assert change is not None
-        if self._reload:
-            self._reload = False
-            if self._wakeup is not None:
-                self._wakeup.clear()
-            change.begin(None, 0)
-        prepared = change.take()
-        if prepared is None:
-            return
-        if prepared.saves:
-            if self._commands is not None:
-                self._commands.loaded(prepared.ticket, prepared.reason)
-            return
-        if prepared.scene is not None:
-            if prepared.selection is not None:
-                self._playback.sender.change_bank(prepared.selection)
-                self._emissions.expected = prepared.expected
-            self._scheduler.change_scene(self._layers.over(prepared.scene), self._clock_estimate.fpga_s(now_s))
-            self._playback.sender.pin([(emitter.x_m, emitter.y_m, emitter.amplitude) for emitter in prepared.scene.emitters])
-            self._counters.scenes_loaded += 1
-            if self._commands is not None:
-                self._commands.scene_changed()
-        else:
-            self._counters.scenes_refused += 1
-            self._counters.scene_refused = prepared.reason
-        if not prepared.ticket:
-            self._counters.reloads += 1
-            self._counters.reload_refused = prepared.reason
-        if self._scene_changed is not None:
-            self._scene_changed(prepared)
-        if prepared.ticket and self._commands is not None:
-            self._commands.loaded(prepared.ticket, prepared.reason)
-        if (
-            prepared.scene is not None and self._playback.occupancy.repeating
-        ):  # the fixed emitters of the scene before; last, as the link may fail
-            self._playback.stop()
-            self._source.emitted(now_s, now_s)
 
     def _next_s(self, now_s: float) -> float | None:
         """Host time of the next turn; None at the end of a replay."""

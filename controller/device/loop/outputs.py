@@ -9,6 +9,8 @@ nothing but ramps: it arms later each time, and never gives up.
 
 from __future__ import annotations
 
+import selectors
+
 from controller.clocks import NEVER
 from controller.device.board.panel_state import PanelState
 from controller.device.fpga.exchange import HostSilent
@@ -16,7 +18,7 @@ from controller.device.fpga.recovery import Recovery
 from controller.device.fpga.registers import Fault
 from controller.device.fpga.supervision import StillOn
 from controller.device.loop.context import LoopContext
-from controller.errors import ControllerError, FaultError
+from controller.errors import ControllerError, FaultError, LinkError
 
 STALL_PAUSE_S = 0.5  # before arming after the second stall in a row; doubled with each further one
 STALL_PAUSE_MAX_S = 8.0
@@ -32,9 +34,9 @@ class Outputs:
 
     def __init__(self, context: LoopContext) -> None:
         self.on = False  # armed, and the ramp has ended: the FPGA accepts plays
-        # The outputs are being armed for a touch or command, which waits for them
-        # disarmed, and no status has said yet that the outputs are off
-        self.idle = self.waking = self.ramping_down = False  # ramped down since nothing is touched; nothing is sent until `wake`
+        self.idle = False  # ramped down since nothing is touched; nothing is sent until `wake`
+        self.waking = False  # being armed for a touch or command, which waits for them
+        self.ramping_down = False  # disarmed, and no status has said yet that they are off
         self._down_s = 0.0  # end of the last ramp down
         self._woken_s = -NEVER
         self._session = context.session
@@ -210,6 +212,24 @@ class Outputs:
             raise StillOn(f"the FPGA still has its outputs on {OFF_LATE_S * 1e3:g} ms after the end of their ramp to 0 V")
         self.ramping_down = self._session.on_anywhere
         return not self.ramping_down
+
+    def switch_off(self) -> None:
+        """Disarm, and wait until the outputs are off: with heartbeats while the FPGA answers, without any if it does not.
+
+        Raises ControllerError if the FPGA reports a fault that the host must not clear; the outputs are off then, too.
+        """
+        clock = self._clock
+        with selectors.DefaultSelector() as nothing:  # neither touches nor signals end this
+            try:
+                self.disarm()
+                while not self.ramped_down(clock.now_s()):
+                    clock.wait(nothing, self.next_s())
+            except (LinkError, FaultError) as error:
+                try:
+                    self.failed(error, clock.now_s())
+                finally:
+                    while self.may_be_on:
+                        clock.wait(nothing, self.off_by_s)
 
     def _heartbeat(self) -> None:
         before_s = self._clock.now_s()

@@ -21,7 +21,7 @@ from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.board.panel import CHANNELS, FPGAS_MAX
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.loop.commands import Outcome
-from controller.device.loop.scheduler import MAX_WAITING_COMMANDS
+from controller.device.loop.playing.due_emissions import MAX_WAITING_COMMANDS
 from controller.errors import ControllerError
 
 PLAY_GROUP, OPERATE_GROUP = [group for group in grp.getgrall() if group.gr_gid not in (0, os.getegid(), 65534)][:2]

@@ -10,7 +10,7 @@ import pytest
 
 from controller.device.application_socket.peers import Peer, Rights
 from controller.device.board.devices import LOOK_GROUP, ApplicationSocket
-from controller.device.loop.scheduler import MAX_WAITING_COMMANDS
+from controller.device.loop.playing.due_emissions import MAX_WAITING_COMMANDS
 from controller.device.service.metrics_server import MetricsServer
 from controller.device.service.prometheus import PanelCollector, PanelFigures, registry
 from controller.errors import ControllerError

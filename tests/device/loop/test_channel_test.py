@@ -88,7 +88,8 @@ def run(board, bank_file, tmp_path, evemu_text):
             context = LoopContext(board, clock, open_session(link, board, clock.now_s), source)
             scene = load_scene(tmp_path / "s.toml", board)
             assembly = assemble(context, scene, bank, played=played.append, watch=Watch(progress))
-            assembly.loop._scheduler._outcomes = lambda ticket, outcome, _: outcomes.append((ticket, outcome.value))
+            scheduler = assembly.loop._scheduler
+            scheduler._outcomes = scheduler.queue._outcomes = lambda ticket, outcome, _: outcomes.append((ticket, outcome.value))
             assembly.loop.run()
             link.close()
         return link.take_capture(), assembly.counters, played, outcomes

@@ -24,6 +24,7 @@ from controller.device.board.panel_state import PanelState
 from controller.device.fpga.frames import FRAME_BYTES
 from controller.device.fpga.registers import State
 from controller.device.loop import context as loop_context
+from controller.device.loop import dispatcher
 from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.dispatcher import PREFETCH_SLACK_S
 from controller.device.loop.playing.occupancy import Repetition
@@ -492,7 +493,7 @@ def test_after_a_change_of_bank_nothing_of_the_former_is_played(board, bank_file
         change = Change(clock, PreparedScene(0, load_scene(tmp_path / "same.toml", board), another, expected=EXPECTED))
         link, counters, loop = loop_of(board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change)
         loop.run()
-        assert loop._emissions.expected is EXPECTED, "what is said of emissions is of the bank that is played"
+        assert loop.control.emissions.expected is EXPECTED, "what is said of emissions is of the bank that is played"
         link.close()
         assert loop._playback.sender.selection is another
     assert (counters.uploads, counters.resident) == (2, 1)
@@ -766,7 +767,7 @@ def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again
 
 
 @pytest.mark.interpreted
-def test_no_prefetch_delays_a_pulse(board, bank_file, tmp_path, evemu_text):
+def test_no_prefetch_delays_a_pulse(board, bank_file, tmp_path, evemu_text, monkeypatch):
     """A finger on a train, and one that moves on a texture."""
     halves = [
         region(name, f'shape = "rectangle"\nx_mm = {x_mm}\ny_mm = 5.0\nwidth_mm = 100.0\nheight_mm = 138.0', effect)
@@ -780,7 +781,7 @@ def test_no_prefetch_delays_a_pulse(board, bank_file, tmp_path, evemu_text):
         clock = VirtualClock()
         reports.append((1.0, {0: None, 1: None}))
         link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, "".join(halves), with_slots(board, 16))
-        prefetch, expected, ahead_s, wanted = loop._playback.sender.prefetch, loop._scheduler.predict, [], []
+        prefetch, expected, ahead_s, wanted = loop._playback.sender.prefetch, dispatcher.next_focus, [], []
 
         def noting(*how):
             wanted.append(expected(*how))
@@ -790,7 +791,8 @@ def test_no_prefetch_delays_a_pulse(board, bank_file, tmp_path, evemu_text):
             ahead_s.append(loop._clock_estimate.host_s(loop._scheduler.next_s()) - clock.now_s())
             return prefetch(*what, **more)
 
-        loop._playback.sender.prefetch, loop._scheduler.predict = sending, noting
+        loop._playback.sender.prefetch = sending
+        monkeypatch.setattr(dispatcher, "next_focus", noting)
         loop.run()
         link.close()
     assert counters.emissions > 80
@@ -829,7 +831,7 @@ def test_times_of_touches_are_fpga_time(board, bank_file, tmp_path, cell, evemu_
 
 
 @pytest.mark.interpreted
-def test_predictions_start_at_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
+def test_predictions_start_at_the_time_of_the_report(board, bank_file, tmp_path, evemu_text, monkeypatch):
     """Not from when the loop came to read it, a millisecond later."""
 
     class Late(VirtualClock):
@@ -840,13 +842,13 @@ def test_predictions_start_at_the_time_of_the_report(board, bank_file, tmp_path,
     reports = [(0.01 * k, {0: (30.0 + k, 54.0)}) for k in range(60)]
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, Late(), [*reports, (0.7, {0: None})], evemu_text, TEXTURE)
-        expected, asked_s = loop._scheduler.predict, []
+        expected, asked_s = dispatcher.next_focus, []
 
-        def asking(finger, place, now_s, *more):
+        def asking(effects, scene, finger, place, now_s, *more):
             asked_s.append(now_s)
-            return expected(finger, place, now_s, *more)
+            return expected(effects, scene, finger, place, now_s, *more)
 
-        loop._scheduler.predict = asking
+        monkeypatch.setattr(dispatcher, "next_focus", asking)
         loop.run()
         link.close()
     assert len(asked_s) > 20

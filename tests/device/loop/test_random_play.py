@@ -323,7 +323,7 @@ class Judge:
         self._clock_estimate = assembly.loop._clock_estimate
         self._words = {}
 
-        take = self._scheduler.next_batch
+        take = self._scheduler.queue.next_batch
 
         def taken(*how):
             emissions = take(*how)
@@ -334,7 +334,7 @@ class Judge:
                     assert due_s >= released_s - 1e-6, f"{emission} is played after its finger was lifted at {released_s}"
             return emissions
 
-        self._scheduler.next_batch = taken
+        self._scheduler.queue.next_batch = taken
 
     def started(self, played):
         self._notes.started(played)

@@ -6,7 +6,9 @@ import pytest
 from tables import each_row
 
 from controller.device.loop.commands import Outcome
-from controller.device.loop.scheduler import MAX_WAITING_COMMANDS, Scheduler
+from controller.device.loop.playing.due_emissions import MAX_WAITING_COMMANDS
+from controller.device.loop.playing.next_focus import next_focus
+from controller.device.loop.scheduler import Scheduler
 from controller.device.scene.scene import load_scene
 from controller.device.touch.source import TouchSample
 from controller.errors import ConfigError
@@ -65,7 +67,7 @@ def command(scheduler, ticket, x_m=0.1, y_m=0.07, effect="tap", finger=None, now
 
 
 def played(scheduler, now_s):
-    emissions = scheduler.next_batch(T_S, 0.0)
+    emissions = scheduler.queue.next_batch(T_S, 0.0)
     scheduler.started(emissions, now_s)
     return emissions
 
@@ -131,8 +133,8 @@ def test_of_several_trains_the_next_pulse_is_the_earliest(scheduler):
 def test_what_is_due_more_than_an_emission_later_goes_on_waiting(scheduler):
     command(scheduler, 1, x_m=0.05, now_s=0.0)
     command(scheduler, 2, x_m=0.15, now_s=T_S + 0.001)
-    assert [emission.ticket for emission in scheduler.next_batch(T_S, 0.004)] == [1]
-    assert [emission.ticket for emission in scheduler.next_batch(T_S, 0.004)] == [2]
+    assert [emission.ticket for emission in scheduler.queue.next_batch(T_S, 0.004)] == [1]
+    assert [emission.ticket for emission in scheduler.queue.next_batch(T_S, 0.004)] == [2]
 
 
 def test_an_unknown_effect_or_finger_is_refused_and_nothing_waits(scheduler, reported):
@@ -151,7 +153,7 @@ def test_a_command_for_a_finger_follows_it_and_ends_with_it(scheduler, reported)
     assert played(scheduler, 0.0)[0].finger == 3
     touch(scheduler, 3, 0.09, 0.05, 0.005, True)
     scheduler.advance(0.01)
-    assert scheduler.next_batch(T_S, 0.0)[0].x_m == 0.09
+    assert scheduler.queue.next_batch(T_S, 0.0)[0].x_m == 0.09
     touch(scheduler, 3, 0.09, 0.05, 0.012, False)
     scheduler.advance(0.1)
     assert not scheduler.due
@@ -239,7 +241,7 @@ def test_a_spot_due_with_a_finger_joins_its_batch_if_the_policy_allows(board, tm
     )
     scheduler = scheduler_of(load_scene(tmp_path / "fixed emitter.toml", board), reported)
     touch(scheduler, 3, finger_mm * 1e-3, 0.07, 1.0, True)
-    emissions = scheduler.join_emitters(scheduler.next_batch(T_S, 0.0), 1.05)
+    emissions = scheduler.join_emitters(scheduler.queue.next_batch(T_S, 0.0), 1.05)
     assert [e.finger for e in emissions] == [3, None][:together]
     assert scheduler.emitters.next_s() == 1.05
 
@@ -276,7 +278,7 @@ def test_a_finger_that_hardly_moves_is_at_rest_and_not_predicted(board, tmp_path
         return 0.05 + step_mm * 1e-3 * at_s / 0.01, 0.05
 
     touch(scheduler, 0, *place(0, 0.0), 0.0, True)
-    wanted = scheduler.predict(0, place, 0.0, 0.01, 2e-3)
+    wanted = next_focus(scheduler.active_effects, scheduler.scene, 0, place, 0.0, 0.01, 2e-3)
     assert (wanted is not None) == foreseen
     if foreseen:
         assert wanted == pytest.approx((*place(0, math.ceil(way_mm / step_mm) * 0.01 + 2e-3), 1.0))
