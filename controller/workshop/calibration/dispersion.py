@@ -41,8 +41,7 @@ class Dispersion:
         half = (self.rotation_kg + self.stiffness_nm * self.mass_kg_m2 / self.shear_n_m) * square / 2
         last = self.stiffness_nm * self.mass_kg_m2 * square * (self.rotation_kg * square / self.shear_n_m - 1)
         factor = self.factor + self.slope_per_hz * (frequency - self.reference_hz)
-        found: Floats = np.sqrt((half + np.sqrt(half**2 - last)) / self.stiffness_nm) * factor
-        return found
+        return np.sqrt((half + np.sqrt(half**2 - last)) / self.stiffness_nm) * factor
 
     def wavelength_m(self, frequency_hz: float) -> float:
         """Length of a wave in m."""

@@ -119,8 +119,7 @@ def _band_limited(board: Board, records: NDArray[np.floating]) -> Floats:
     waveform = board.waveform
     bins = Bins.of(waveform, records.shape[1])
     spectra = np.fft.rfft(records, bins.length)[:, : bins.gain.size] * bins.gain
-    limited: Floats = np.fft.irfft(spectra, bins.length)[:, : records.shape[1]].astype(np.float64)
-    return limited
+    return np.fft.irfft(spectra, bins.length)[:, : records.shape[1]].astype(np.float64)
 
 
 def _highest(places: Floats, values: Floats) -> float:

@@ -82,8 +82,7 @@ def impedance_n_s_m(board: Board) -> float:
 
 def loaded(board: Board, frequency_hz: Floats, mass_kg: float) -> Complex:
     """What a plate moves under a mass, over what it moves without."""
-    found: Complex = 1 / (1 + np.asarray(2j * np.pi * mass_kg / impedance_n_s_m(board) * frequency_hz, np.complex128))
-    return found
+    return 1 / (1 + np.asarray(2j * np.pi * mass_kg / impedance_n_s_m(board) * frequency_hz, np.complex128))
 
 
 def sensor_chain(

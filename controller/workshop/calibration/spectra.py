@@ -83,11 +83,9 @@ class Bins:
 
     def whole(self, spectra: Spectra) -> NDArray[np.float32]:
         """The same with all that lies below the band."""
-        times: NDArray[np.float32] = irfft(spectra, self.length, axis=0, workers=cores())[: self.samples].swapaxes(0, 1)
-        return times
+        return irfft(spectra, self.length, axis=0, workers=cores())[: self.samples].swapaxes(0, 1)
 
     def rest(self, spectra: Spectra) -> NDArray[np.float32]:
         """What the band leaves out, reversed in time, in rows as a bank keeps it (`kept_rest`): (point, row, channel)."""
         outside = self.whole(spectra * (1 - self.gain[:, None, None]).astype(np.float32))
-        kept: NDArray[np.float32] = rest_rows(outside[:, ::-1], self.rest_taps)
-        return kept
+        return rest_rows(outside[:, ::-1], self.rest_taps)

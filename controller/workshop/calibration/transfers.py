@@ -56,8 +56,7 @@ class RawBins:
         spectrum = np.zeros((*transfer.shape[:-1], self.length // 2 + 1), np.complex128)
         turn = np.exp(2j * np.pi * self.frequency_hz * (delay_s + 1 / self.bit_clock_hz))
         spectrum[..., self.first : self.first + len(self.gain)] = transfer * (self.gain * turn * self.bit_clock_hz)
-        found: Floats = np.fft.irfft(spectrum, self.length, axis=-1)
-        return found
+        return np.fft.irfft(spectrum, self.length, axis=-1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -44,8 +44,7 @@ class SensorFrame(Record, frozen=True, kw_only=True):
     def place_m(self, asked_m: Floats) -> Floats:
         """Place on the plate of a sensor that was sent to `asked_m` (2,)."""
         cosine, sine = math.cos(math.radians(self.degrees)), math.sin(math.radians(self.degrees))
-        place_m: Floats = np.array([[cosine, -sine], [sine, cosine]]) @ asked_m + np.array([self.x_mm, self.y_mm]) * 1e-3
-        return place_m
+        return np.array([[cosine, -sine], [sine, cosine]]) @ asked_m + np.array([self.x_mm, self.y_mm]) * 1e-3
 
 
 class ActualTouch(Record, frozen=True, kw_only=True):

@@ -46,8 +46,7 @@ def decay_rates(modes: Modes, plate: Plate) -> Floats:
         per_area = plate.density_kg_m3 * plate.thickness_m
         share = modes.foam_share if isinstance(modes, RitzModes) else strip_share(modes, strips, _shortest_m(modes, plate))
         rate = rate + plate.foam.dashpot_pa_s_m / (2 * per_area) * share
-    found: Floats = rate
-    return found
+    return rate
 
 
 def foam_strips(plate: Plate) -> list[Rectangle]:
@@ -85,8 +84,7 @@ def strip_share(modes: Modes, strips: list[Rectangle], shortest_m: float) -> Flo
         weights = np.outer(x_weights, y_weights).ravel()
         for some in _blocks(len(points), max(VALUES_AT_ONCE // modes.count, 1)):
             total += weights[some] @ modes.shapes(points[some]) ** 2
-    share: Floats = total / (modes.mean_square * modes.length_m * modes.width_m)
-    return share
+    return total / (modes.mean_square * modes.length_m * modes.width_m)
 
 
 def gauss(from_m: float, to_m: float, shortest_m: float) -> tuple[Floats, Floats]:

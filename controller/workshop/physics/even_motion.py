@@ -73,8 +73,7 @@ class EvenMotion:
         from scipy.signal import lfilter  # noqa: PLC0415 - takes 0.3 s
 
         heard = self._summed(steps * np.exp(pole * self._since_s))
-        decayed: Complex = lfilter([1.0], [1.0, -np.exp(pole * self._apart_s)], heard)
-        return decayed
+        return lfilter([1.0], [1.0, -np.exp(pole * self._apart_s)], heard)
 
     def _summed(self, values: Complex) -> Complex:
         """Values of all steps, (row, step), at the samples at which they are first heard: (row, sample)."""

@@ -85,8 +85,7 @@ class FocalSpectrum:
         lags = np.arange(1, math.ceil(MEMORY / (self.frequency_hz[-1] - self.frequency_hz[0]) * bit_clock_hz) + 1)
         signal = self._sum(np.cos(2 * np.pi * np.multiply.outer(lags / bit_clock_hz, self.frequency_hz)))
         likeness = 2 / np.pi * np.arcsin(np.clip(signal, -1, 1))
-        density: Floats = (1 + 2 * np.cos(np.multiply.outer(2 * np.pi * at_hz / bit_clock_hz, lags)) @ likeness) / bit_clock_hz
-        return density
+        return (1 + 2 * np.cos(np.multiply.outer(2 * np.pi * at_hz / bit_clock_hz, lags)) @ likeness) / bit_clock_hz
 
     def resistor_w(self, driver: Driver, bit_clock_hz: float) -> float:
         """Heat in the series resistor of one stage that plays without end the sign of a random signal with this spectrum.

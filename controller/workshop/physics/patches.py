@@ -70,8 +70,7 @@ class CombinedModes:
     @property
     def mean_square(self) -> Floats:
         """As in `Modes`: the base's shapes are orthogonal over the plate."""
-        found: Floats = self.base.mean_square @ self.parts**2
-        return found
+        return self.base.mean_square @ self.parts**2
 
     @property
     def factors(self) -> TensorFactors | None:
@@ -149,8 +148,7 @@ def added(bare: Modes, plate: Plate, patches: Patches, places: Sequence[Patch]) 
 def first_order(bare: Modes, mass: Floats, stiffness: Floats) -> Floats:
     """Relative shift of each mode by itself: (mode,); half of what stiffness adds to its energy, less half of what mass adds."""
     own = np.diag(stiffness) / bare.angular_frequency**2 - np.diag(mass)
-    shift: Floats = own / (2 * bare.mass_kg)
-    return shift
+    return own / (2 * bare.mass_kg)
 
 
 def _forms(count: int, size_m: float, shape: Literal["disc", "square"], poisson: float) -> tuple[Floats, Floats]:
@@ -175,8 +173,7 @@ def _forms(count: int, size_m: float, shape: Literal["disc", "square"], poisson:
         return (at_x[x_order][:, :, None] * at_y[y_order][:, None, :]).reshape(len(x), -1) * scale
 
     def form(a: Floats, b: Floats) -> Floats:
-        found: Floats = (a.T * area) @ b * half**2
-        return found
+        return (a.T * area) @ b * half**2
 
     bent_x, bent_y = of(2, 0), of(0, 2)
     across = form(bent_x, bent_y)

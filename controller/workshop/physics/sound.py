@@ -147,10 +147,7 @@ def around(x_m: float, y_m: float, distance_m: float = DISTANCE_M, count: int = 
     height = (np.arange(count) + 0.5) / count
     turned = np.arange(count) * np.pi * (3 - 5**0.5)
     aside = np.sqrt(1 - height**2)
-    found: Floats = np.array([x_m, y_m, 0.0]) + distance_m * np.column_stack(
-        [aside * np.cos(turned), aside * np.sin(turned), height]
-    )
-    return found
+    return np.array([x_m, y_m, 0.0]) + distance_m * np.column_stack([aside * np.cos(turned), aside * np.sin(turned), height])
 
 
 def a_weighting(frequency_hz: Floats) -> Floats:

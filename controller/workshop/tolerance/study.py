@@ -176,8 +176,7 @@ class _OnPlate:
                 changed = msgspec.structs.replace(driver, capacitance_f=driver.capacitance_f * share)
                 ratio[:, channel] = DriverResponse.of(changed).transfer(s) / own
         spectra = np.fft.rfft(in_drive_order[:, ::-1], 2 * samples, axis=1) * ratio
-        changed_responses: Floats = np.fft.irfft(spectra, 2 * samples, axis=1)[:, samples - 1 :: -1]
-        return changed_responses
+        return np.fft.irfft(spectra, 2 * samples, axis=1)[:, samples - 1 :: -1]
 
 
 def _wavelength_m(board: Board) -> float:

@@ -144,8 +144,7 @@ class Unseen:
 
     def _places(self, random: np.random.Generator, count: int) -> Floats:
         sides = np.array([self.board.plate.length_m, self.board.plate.width_m])
-        found: Floats = random.uniform(MARGIN_M, sides - MARGIN_M, (count, 2))
-        return found
+        return random.uniform(MARGIN_M, sides - MARGIN_M, (count, 2))
 
     def _fingers(self, random: np.random.Generator) -> tuple[Floats, int, list[FeltLoad]]:
         """Places of fingers, how many of them, the first, are played for, and their loads."""
@@ -178,8 +177,7 @@ class _Plate:
     def drive_order_responses(self, places_m: Floats) -> Floats:
         """True responses of the band."""
         model = ResponseModel(self.board, modes=self.modes)
-        found: Floats = np.asarray(model.drive_order_responses(places_m), np.float64) * self.gain
-        return found
+        return np.asarray(model.drive_order_responses(places_m), np.float64) * self.gain
 
     def bank(self, random: np.random.Generator):  # type: ignore[no-untyped-def]
         """Responses from measurements, interpolated, as the product makes a bank."""

@@ -92,8 +92,7 @@ def _level(wanted: Reals, steps: Reals) -> Reals:
     half = (compact_twin.LOUDEST + 1) // 2
     with np.errstate(divide="ignore", invalid="ignore"):
         number = np.clip(np.floor(np.nan_to_num(wanted / (2 * steps), posinf=0, neginf=0)), -half, half - 1)
-    found: Reals = (2 * number + 1) * steps
-    return found
+    return (2 * number + 1) * steps
 
 
 def _scales(weights: Reals, block_of: Indices) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.float32]]:

@@ -64,8 +64,7 @@ class _Waves:
 
     def standing(self, y: Floats, x: Floats) -> Floats:
         """What waves have at places, those from opposite sides together: (place, wave)."""
-        found: Floats = np.cos(np.outer(y, self.y)) * np.cos(np.outer(x, self.x))
-        return found
+        return np.cos(np.outer(y, self.y)) * np.cos(np.outer(x, self.x))
 
 
 class _Fit:
@@ -141,8 +140,7 @@ def _passed_on(own: Floats) -> Floats:
     """Shares of their errors that a cell takes back from those rounded before, by the correlations of weights at each distance."""
     between = (BACK[:, None] - BACK) % SIZE
     among = own[between[..., 0], between[..., 1]] + 1e-3 * own[0, 0] * np.eye(len(BACK))
-    found: Floats = np.linalg.solve(among, own[BACK[:, 0] % SIZE, BACK[:, 1] % SIZE])
-    return found
+    return np.linalg.solve(among, own[BACK[:, 0] % SIZE, BACK[:, 1] % SIZE])
 
 
 def _shape(share: Floats) -> Floats:
@@ -150,5 +148,4 @@ def _shape(share: Floats) -> Floats:
     kept = np.zeros((SIZE, SIZE))
     kept[0, 0] = 1
     kept[BACK[:, 0] % SIZE, BACK[:, 1] % SIZE] = -share
-    shaped: Floats = np.fft.ifft2(np.abs(np.fft.fft2(kept)) ** 2).real
-    return shaped
+    return np.fft.ifft2(np.abs(np.fft.fft2(kept)) ** 2).real

@@ -74,8 +74,7 @@ class AudibleForm:
     def gradient(self, forces: Floats, first: int, samples: int) -> Floats:
         """Half the derivative of the energy by the levels of `samples` samples from `first` on: (sample, cell, 32)."""
         coarse = rounded(forces, STATE_BITS, (0, 2))
-        found: Floats = (self._phases[first : first + samples] @ coarse.reshape(len(coarse), -1)).reshape(samples, -1, CHANNELS)
-        return found
+        return (self._phases[first : first + samples] @ coarse.reshape(len(coarse), -1)).reshape(samples, -1, CHANNELS)
 
     def energy(self, levels: Floats) -> Floats:
         """Energy of levels above idle, (sample, cell, 32): (cell,)."""

@@ -9,7 +9,7 @@ the absolute values of its response in the band. The device equalises the same.
 
 import math
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,8 +66,7 @@ class ExactComposition:
 
     def deviations(self, responses: Reals) -> Reals:
         """What each bit adds where it deviates from idle, (point, bit) in m, from responses in drive order."""
-        rows: NDArray[Any] = (responses * self.volts).reshape(len(responses), -1)
-        return rows
+        return (responses * self.volts).reshape(len(responses), -1)
 
 
 def checked_points(points: Sequence[Point]) -> tuple[Reals, Reals]:

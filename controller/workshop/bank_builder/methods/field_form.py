@@ -50,8 +50,7 @@ class ModalDrive:
 
     def moves(self, sample: int) -> Floats:
         """What one bit of a sample moves each mode, (mode, 32): whole numbers."""
-        table: Floats = np.rint(self._kernel[sample, :, None] * self._forces)
-        return table
+        return np.rint(self._kernel[sample, :, None] * self._forces)
 
     def modal(self, deviations: Floats, _first_line: int = 0) -> Floats:
         """Displacement of each mode by levels above idle: (sample, cell, 32) to (cell, mode). A model has no lines."""
@@ -94,8 +93,7 @@ class FieldForm:
     def shapes(self, points_m: Floats) -> Floats:
         """Mode shapes at points, (point, 2): (point, mode)."""
         shapes = self._modes.shapes(points_m).astype(np.float64, copy=False) * self._size
-        found: Floats = np.rint(np.ldexp(shapes, PLACE_BITS)) * 2.0**-PLACE_BITS
-        return found
+        return np.rint(np.ldexp(shapes, PLACE_BITS)) * 2.0**-PLACE_BITS
 
     def surroundings(self, point_m: Floats) -> Surroundings:
         """What counts as the focus at (x, y); nothing, if no point of the map lies outside it."""

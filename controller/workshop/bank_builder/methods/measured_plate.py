@@ -50,19 +50,16 @@ class CosineShapes:
 
     def along_x(self, x_m: ArrayLike) -> Floats:
         """Factors along x at `x_m`, (point,): (point, factor)."""
-        found: Floats = np.cos(np.outer(np.asarray(x_m, np.float64), np.arange(self.x_index.max() + 1)) * (np.pi / self.length_m))
-        return found
+        return np.cos(np.outer(np.asarray(x_m, np.float64), np.arange(self.x_index.max() + 1)) * (np.pi / self.length_m))
 
     def along_y(self, y_m: ArrayLike) -> Floats:
         """Factors along y at `y_m`, (point,): (point, factor)."""
-        found: Floats = np.cos(np.outer(np.asarray(y_m, np.float64), np.arange(self.y_index.max() + 1)) * (np.pi / self.width_m))
-        return found
+        return np.cos(np.outer(np.asarray(y_m, np.float64), np.arange(self.y_index.max() + 1)) * (np.pi / self.width_m))
 
     def shapes(self, points_m: ArrayLike) -> Floats:
         """Shapes at `points_m`, (point, 2) in m: (point, cosine)."""
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
-        found: Floats = self.along_x(points[:, 0])[:, self.x_index] * self.along_y(points[:, 1])[:, self.y_index]
-        return found
+        return self.along_x(points[:, 0])[:, self.x_index] * self.along_y(points[:, 1])[:, self.y_index]
 
 
 @dataclass(frozen=True, eq=False)

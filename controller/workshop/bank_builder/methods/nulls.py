@@ -60,5 +60,4 @@ def independent(rows: Reals) -> Reals:
     if not len(rows):
         return rows
     squares, directions = np.linalg.eigh(rows @ rows.T)
-    kept: Reals = directions[:, squares > HEARD**2 * squares[-1]].T @ rows
-    return kept
+    return directions[:, squares > HEARD**2 * squares[-1]].T @ rows

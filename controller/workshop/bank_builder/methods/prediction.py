@@ -27,8 +27,7 @@ class FocusPrediction:
     def at_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> Reals:
         """Displacement at T of each of `points_m`, (point, 2): (point,) in m."""
         responses = self._source.responses(points_m)[:, ::-1]
-        reached: Reals = responses.reshape(len(responses), -1) @ volts_above_idle(self._board, words).ravel()
-        return reached
+        return responses.reshape(len(responses), -1) @ volts_above_idle(self._board, words).ravel()
 
 
 class Prediction(FocusPrediction):

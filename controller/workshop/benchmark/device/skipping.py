@@ -154,8 +154,7 @@ def _words(board: Board, capture: Capture) -> NDArray[np.uint32]:
     ticks_per_sample = board.link.clock_hz / board.waveform.bit_clock_hz
     before = (samples - np.arange(samples) - 0.5) * ticks_per_sample
     at = capture.focus_ticks.astype(np.float64)[:, None] - before
-    found: NDArray[np.uint32] = capture.words[np.searchsorted(capture.ticks.astype(np.float64), at, "right") - 1]
-    return found
+    return capture.words[np.searchsorted(capture.ticks.astype(np.float64), at, "right") - 1]
 
 
 def _other_bits(done: NDArray[np.uint32], without: NDArray[np.uint32]) -> float | None:

@@ -130,5 +130,4 @@ def unpack(packed: NDArray[np.uint8], bits: int) -> Floats:
 def _levels(bits: int) -> Floats:
     """Levels in each byte: (256, 8 / bits)."""
     numbers = np.arange(256)[:, None] >> np.arange(8 - bits, -1, -bits) & (1 << bits) - 1
-    levels: Floats = (2 * numbers - ((1 << bits) - 1)).astype(np.float32)
-    return levels
+    return (2 * numbers - ((1 << bits) - 1)).astype(np.float32)

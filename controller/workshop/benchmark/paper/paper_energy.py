@@ -66,8 +66,7 @@ def band_energy_j(panel: PaperPanel, amplitudes_m: Floats) -> Floats:
     plate_kg = plate.density_kg_m3 * plate.thickness_m * plate.length_m * plate.width_m
     mean_square = (2 * np.pi) ** 2 * (high**3 - low**3) / (3 * (high - low))
     modes = (high - low) * design.characteristic_time_s(plate)
-    energy: Floats = plate_kg / 2 * amplitudes_m**2 * mean_square / modes
-    return energy
+    return plate_kg / 2 * amplitudes_m**2 * mean_square / modes
 
 
 def scanned_energy_j(panel: PaperPanel, field: Field, step_m: float) -> float:

@@ -69,8 +69,7 @@ def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: 
         after = before - steps
         before = late_gain * steps + once * after + older
         older = twice * after
-    loss: Floats = 2 * half_charge_j(driver) * (edges / 2 - work_sum)
-    return loss
+    return 2 * half_charge_j(driver) * (edges / 2 - work_sum)
 
 
 def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> tuple[NDArray[np.int64], Floats]:

@@ -71,8 +71,7 @@ def alive(begin_s: float, stop_s: float, level: int = 0) -> str:
 
 def through_both(traces: Traces) -> Floats:
     """Current in A that flows through both switches at once."""
-    both: Floats = np.maximum(np.minimum(traces[LEGS[0]], traces[LEGS[1]]), 0.0)
-    return both
+    return np.maximum(np.minimum(traces[LEGS[0]], traces[LEGS[1]]), 0.0)
 
 
 def worst(values: Sequence[float], *, most: bool = True) -> float:

@@ -64,8 +64,7 @@ def _chirp(board: Board) -> Bools:
     low_hz, high_hz = waveform.band_low_hz * BEYOND[0], waveform.band_high_hz * BEYOND[1]
     time_s = (np.arange(waveform.samples) + 0.5) * waveform.bit_period_s
     cycles = low_hz * time_s + (high_hz - low_hz) * time_s**2 / (2 * waveform.duration_s)
-    signs: Bools = cycles % 1 < 0.5
-    return signs
+    return cycles % 1 < 0.5
 
 
 def _noise(board: Board, seed: int) -> Bools:
@@ -74,5 +73,4 @@ def _noise(board: Board, seed: int) -> Bools:
     spectrum = np.fft.rfft(np.random.default_rng(seed).standard_normal(waveform.samples))
     frequency_hz = np.fft.rfftfreq(waveform.samples, waveform.bit_period_s)
     spectrum[(frequency_hz < waveform.band_low_hz * BEYOND[0]) | (frequency_hz > waveform.band_high_hz * BEYOND[1])] = 0
-    signs: Bools = np.fft.irfft(spectrum, waveform.samples) > 0
-    return signs
+    return np.fft.irfft(spectrum, waveform.samples) > 0

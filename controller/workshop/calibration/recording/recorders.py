@@ -129,8 +129,7 @@ class SerialRecorder:
             )
         if not intact(data):
             raise CalibrationError(f"sensor at {self._device}: its samples arrived damaged (CRC): shorten the cable, lower --baud")
-        values: Floats = np.frombuffer(data[:size], "<i2")[:, None] * (self._full_scale / 32768)
-        return values
+        return np.frombuffer(data[:size], "<i2")[:, None] * (self._full_scale / 32768)
 
     def close(self) -> None:
         """Close the port."""

@@ -62,8 +62,7 @@ class Drive:
 
 def transform(values: NDArray[np.floating], rate_hz: float, first_hz: float, step_hz: float, count: int) -> Complex:
     """Sum of values[..., n] exp(-2 pi i f n / rate) at `count` frequencies: (..., count), exact at any rate."""
-    spectra: Complex = _chirp_transform(values.shape[-1], count, first_hz / rate_hz, step_hz / rate_hz)(values)
-    return spectra
+    return _chirp_transform(values.shape[-1], count, first_hz / rate_hz, step_hz / rate_hz)(values)
 
 
 @lru_cache(maxsize=4)

@@ -46,5 +46,4 @@ def radiation_efficiency(plate: Plate, frequency: Floats) -> Floats:
         below = (np.log((slower + 1) / (slower - 1)) + 2 * slower / (slower**2 - 1)) * (long_m + short_m)
         below /= np.pi * slower * k * long_m * short_m * np.sqrt(slower**2 - 1)
         above = 1 / np.sqrt(1 - slower**2)
-    found: Floats = np.where(slower > 1, np.minimum(below, most), np.minimum(above, most))
-    return found
+    return np.where(slower > 1, np.minimum(below, most), np.minimum(above, most))

@@ -101,8 +101,7 @@ class Splines:
         from scipy.interpolate import BSpline
 
         splines = BSpline(self._knots, coefficients, SPLINE_DEGREE)
-        found: Floats = (splines.antiderivative() if derivative < 0 else splines)(x_m, max(derivative, 0))
-        return found
+        return (splines.antiderivative() if derivative < 0 else splines)(x_m, max(derivative, 0))
 
     def nodes(self, from_m: float, to_m: float) -> tuple[Floats, Floats]:
         """As in `Functions`."""

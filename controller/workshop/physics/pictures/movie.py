@@ -141,8 +141,7 @@ class PixelGrid:
             return np.stack([self.modes.on_grid(of_frame, self.x_m, self.y_m).astype(np.float32) for of_frame in amplitudes])
         by_factors = self.by_factors(amplitudes)
         rows = by_factors.reshape(-1, by_factors.shape[2]) @ self.along_x.T
-        frames: Frames = self.along_y @ rows.reshape(len(amplitudes), -1, self.x_m.size)
-        return frames
+        return self.along_y @ rows.reshape(len(amplitudes), -1, self.x_m.size)
 
     def by_factors(self, amplitudes: Floats) -> Frames:
         """Amplitudes by the factors of their shapes: (frame, factor along y, factor along x)."""

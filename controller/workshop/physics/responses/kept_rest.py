@@ -31,8 +31,7 @@ def rest_taps(waveform: Waveform) -> Floats:
     by_row = alike[np.abs(samples[:, None] - samples)].reshape(ROWS, REST_SAMPLES, -1).sum(axis=1)
     solved = np.linalg.solve(by_row.reshape(ROWS, ROWS, REST_SAMPLES).sum(axis=2), by_row)
     first = ROWS // 2 * REST_SAMPLES - (TAPS - REST_SAMPLES) // 2
-    taps: Floats = solved[ROWS // 2, first : first + TAPS]
-    return taps
+    return solved[ROWS // 2, first : first + TAPS]
 
 
 def rest_rows(outside: Reals, taps: Floats) -> Reals:

@@ -152,8 +152,7 @@ def _gain(frequency_hz: NDArray[Any], band_hz: tuple[float, float], slope: float
     edge_hz = edge_width_hz(band_hz)
 
     def risen(part: NDArray[Any]) -> NDArray[Any]:
-        share: NDArray[Any] = np.where(part.real <= 0, 0, np.where(part.real >= 1, 1, part))
-        return share
+        return np.where(part.real <= 0, 0, np.where(part.real >= 1, 1, part))
 
     rise, fall = risen((frequency_hz - low) / edge_hz + 0.5), risen((high - frequency_hz) / edge_hz + 0.5)
     gain: NDArray[Any] = np.sin(np.pi / 2 * rise) ** 2 * np.sin(np.pi / 2 * fall) ** 2
