@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Bools, Floats, Indices
+from controller.arrays import Bools, Floats, Indices, blocks
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.cosines import Cosines, Lattice, fill_places
@@ -226,8 +226,7 @@ def _evaluated(
     """Leave-out error, points in blocks; those beyond the cells of a bank are not evaluated: nobody plays there."""
     known = known & ~np.isnan(foreseen[0])
     agreed, magnitude, expected = np.zeros((3, len(points_m)))
-    for first in range(0, len(points_m), 64):
-        some = slice(first, first + 64)
+    for some in blocks(len(points_m), 64):
         measured = bins.band_limited(spectra[:, some]) * known[some, None]
         estimate = bins.band_limited(np.where(known[some], foreseen[:, some], 0))
         agreed[some] = (np.sign(estimate) * measured).sum(axis=(1, 2))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from controller.arrays import Bools, Floats, Reals
+from controller.arrays import Bools, Floats, Reals, blocks
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
@@ -102,8 +102,7 @@ class InterpolatedResponses:
         """
         points = self._checked(points_m)
         out = _room(out, (len(points), self.samples, self._channels), dtype)
-        for first in range(0, len(points), POINTS_AT_ONCE):
-            some = slice(first, first + POINTS_AT_ONCE)
+        for some in blocks(len(points), POINTS_AT_ONCE):
             spectra = self.field.at(points[some])
             out[some] = self.bins.band_limited(spectra) if band_limited else self.bins.whole(spectra)
         return out
@@ -119,8 +118,7 @@ class InterpolatedResponses:
         points = self._checked(points_m)
         rows = self.bins.rest_rows
         out = _room(out, (len(points), self.samples + rows, self._channels), dtype)
-        for first in range(0, len(points), POINTS_AT_ONCE):
-            some = slice(first, first + POINTS_AT_ONCE)
+        for some in blocks(len(points), POINTS_AT_ONCE):
             spectra = self.field.at(points[some])
             out[some, : self.samples] = self.bins.band_limited(spectra)[:, ::-1]
             out[some, self.samples :] = self.bins.rest(spectra)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, lapack
 from scipy.special import j0, j1
 
-from controller.arrays import Bools, Floats, Indices
+from controller.arrays import Bools, Floats, Indices, blocks
 from controller.device.board.board import Board
 from controller.workshop.calibration.cores import cores, on_all_cores
 from controller.workshop.calibration.dispersion import Dispersion
@@ -139,8 +139,7 @@ class WaveField:
         bins, _, columns = self.weights.shape
         found = np.empty((bins, len(targets_m), columns // 2), np.complex64)
         inside = replace(self.waves, edge_variance=0.0)
-        for first in range(0, len(targets_m), POINTS_AT_ONCE):
-            some = slice(first, first + POINTS_AT_ONCE)
+        for some in blocks(len(targets_m), POINTS_AT_ONCE):
             covariance = inside.between(targets_m[some], self.points_m)
 
             def fill(bins: Indices, some: slice = some, covariance: Covariance = covariance) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct
 
-from controller.arrays import Floats
+from controller.arrays import Floats, blocks
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.errors import CalibrationError
@@ -38,8 +38,7 @@ def whole_field(board: Board, source: InterpolatedResponses) -> MeasuredPlate:
     fine_hz = bins_hz(board.waveform)
     low = bins.frequency_hz <= fine_hz.max() + bins.frequency_hz[1]
     energy = np.zeros((int(low.sum()), CHANNELS, CHANNELS))
-    for first in range(0, len(points_m), POINTS_AT_ONCE):
-        some = slice(first, first + POINTS_AT_ONCE)
+    for some in blocks(len(points_m), POINTS_AT_ONCE):
         spectra = below.completed(source.field.at(points_m[some]), points_m[some])
         values[some] = dct(bins.whole(spectra)[:, ::-1], type=2, axis=1, norm="forward")[:, :lines]
         heard = spectra[low].astype(np.complex128)

@@ -8,11 +8,9 @@ The last is first order: on the paper's plate right to 5 % in the median; modes 
 spreads their rates more widely.
 """
 
-from collections.abc import Iterator
-
 import numpy as np
 
-from controller.arrays import Floats
+from controller.arrays import Floats, blocks
 from controller.device.board.plate.plate import Plate
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.workshop.physics.modes.modes import Modes
@@ -82,7 +80,7 @@ def strip_share(modes: Modes, strips: list[Rectangle], shortest_m: float) -> Flo
             continue
         points = np.column_stack([np.repeat(x, len(y)), np.tile(y, len(x))])
         weights = np.outer(x_weights, y_weights).ravel()
-        for some in _blocks(len(points), max(VALUES_AT_ONCE // modes.count, 1)):
+        for some in blocks(len(points), max(VALUES_AT_ONCE // modes.count, 1)):
             total += weights[some] @ modes.shapes(points[some]) ** 2
     return total / (modes.mean_square * modes.length_m * modes.width_m)
 
@@ -97,7 +95,3 @@ def gauss(from_m: float, to_m: float, shortest_m: float) -> tuple[Floats, Floats
 
 def _shortest_m(modes: Modes, plate: Plate) -> float:
     return bending_wavelength_m(plate, float(modes.angular_frequency.max()) / (2 * np.pi))
-
-
-def _blocks(count: int, at_once: int) -> Iterator[slice]:
-    yield from (slice(first, min(first + at_once, count)) for first in range(0, count, at_once))

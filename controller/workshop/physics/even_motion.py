@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Complex, Floats, blocks
 from controller.workshop.physics.motion import DERIVATIVE, PlateMotion
 
 MODES_AT_ONCE: Final = 16
@@ -34,8 +34,8 @@ class EvenMotion:
         """Motion of a point (2,) at all times: (sample,)."""
         shapes = self._plate.modes.shapes(place_m[None], np.float32)[0]
         moved = np.zeros(self._count, np.float32)
-        for first, amplitudes in zip(range(0, len(shapes), MODES_AT_ONCE), self._modes(), strict=True):
-            moved += shapes[first : first + MODES_AT_ONCE] @ amplitudes
+        for some, amplitudes in zip(blocks(len(shapes), MODES_AT_ONCE), self._modes(), strict=True):
+            moved += shapes[some] @ amplitudes
         return moved.astype(np.float64)
 
     def _modes(self) -> Iterator[NDArray[np.float32]]:
@@ -47,8 +47,8 @@ class EvenMotion:
         keeps = 4 * modes * self._count <= KEPT_BYTES
         drivers = [self._decaying(pole, self._steps_v.T) for pole in self._plate.step.driver_poles]  # of each (channel, sample)
         kept = []
-        for first in range(0, modes, MODES_AT_ONCE):
-            block = self._some(slice(first, min(first + MODES_AT_ONCE, modes)), drivers)
+        for some in blocks(modes, MODES_AT_ONCE):
+            block = self._some(some, drivers)
             if keeps:
                 kept.append(block)
             yield block

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.arrays import Complex, Floats
+from controller.arrays import Complex, Floats, blocks
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
@@ -117,10 +117,8 @@ def point_motion(
     count = len(shapes)
     free: Complex = np.zeros((len(s), count), np.complex128)
     pairs: Complex = np.zeros((len(s), count * count), np.complex128)
-    for first in range(0, modes.count, MODES_AT_ONCE):
-        some = slice(first, first + MODES_AT_ONCE)
-        rates, squared = modes.decay_rate[some], modes.angular_frequency[some] ** 2
-        gives = 1 / (modes.mass_kg[some] * (s[:, None] * (s[:, None] + 2 * rates) + squared))
+    for some in blocks(modes.count, MODES_AT_ONCE):
+        gives = modal_receptance(modes, s, some)
         free += (gives * (volts @ forces[some].T)) @ shapes[:, some].T
         pairs += gives @ (shapes[:, None, some] * shapes[None, :, some]).reshape(count * count, -1).T
     receptance = pairs.reshape(len(s), count, count)
@@ -133,11 +131,15 @@ def point_receptance(board: Board, modes: Modes, points_m: ArrayLike, s: Complex
     """Displacement of each point over a force there, (frequency, point) in m/N, with what the modes above the highest give."""
     squares = np.asarray(modes.shapes(points_m), np.float64) ** 2
     found: Complex = np.repeat(of_modes_above(board, modes, s)[:, None], len(squares), axis=1)
-    for first in range(0, modes.count, MODES_AT_ONCE):
-        some = slice(first, first + MODES_AT_ONCE)
-        rates, squared = modes.decay_rate[some], modes.angular_frequency[some] ** 2
-        found += (1 / (modes.mass_kg[some] * (s[:, None] * (s[:, None] + 2 * rates) + squared))) @ squares[:, some].T
+    for some in blocks(modes.count, MODES_AT_ONCE):
+        found += modal_receptance(modes, s, some) @ squares[:, some].T
     return found
+
+
+def modal_receptance(modes: Modes, s: Complex, some: slice = slice(None)) -> Complex:
+    """Displacement of some modes over a force on each, (frequency, mode) in m/N, at complex frequencies `s`, (frequency,)."""
+    rates, squared = modes.decay_rate[some], modes.angular_frequency[some] ** 2
+    return np.asarray(1 / (modes.mass_kg[some] * (s[:, None] * (s[:, None] + 2 * rates) + squared)), np.complex128)
 
 
 def of_modes_above(board: Board, modes: Modes, s: Complex) -> Complex:

@@ -12,9 +12,9 @@ import numpy as np
 from numpy import fft
 from numpy.typing import ArrayLike
 
-from controller.arrays import Floats
+from controller.arrays import Floats, blocks
 from controller.device.board.board import Board
-from controller.workshop.physics.finger import DYING, MODES_AT_ONCE, WINDOW_LENGTHS, Finger
+from controller.workshop.physics.finger import DYING, MODES_AT_ONCE, WINDOW_LENGTHS, Finger, modal_receptance
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.step_response import channel_forces
@@ -44,11 +44,8 @@ class PadMotion:
         shapes = pad_shapes(modes, fingers_m, pad_m)
         pads, forces = len(shapes), channel_forces(board, modes)
         both = np.zeros((2 * count, pads * (forces.shape[1] + pads)))  # real above imaginary
-        for first in range(0, modes.count, MODES_AT_ONCE):
-            some = slice(first, first + MODES_AT_ONCE)
-            gives = 1 / (
-                modes.mass_kg[some] * (s[:, None] * (s[:, None] + 2 * modes.decay_rate[some]) + modes.angular_frequency[some] ** 2)
-            )
+        for some in blocks(modes.count, MODES_AT_ONCE):
+            gives = modal_receptance(modes, s, some)
             driven = shapes[:, some, None] * np.concatenate([forces[some], shapes[:, some].T], axis=1)
             both += np.concatenate([gives.real, gives.imag]) @ driven.transpose(1, 0, 2).reshape(gives.shape[1], -1)
         to_pads = (both[:count] + 1j * both[count:]).reshape(count, pads, -1)

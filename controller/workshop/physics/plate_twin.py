@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Complex, Floats, Reals
+from controller.arrays import Complex, Floats, Reals, blocks
 from controller.device.bank.packing import as_words, channel_bits
 from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
@@ -204,8 +204,7 @@ class PlateTwin:
     def _rung(self, ago_s: Floats, steps: Floats) -> Floats:
         """Sum of steps of voltage, (step, channel), each as old as `ago_s`, over channels: real and imaginary part of each pole."""
         rung = np.empty((2, self.step.poles.size))
-        for first in range(0, self.step.poles.size, POLES_AT_ONCE):
-            some = slice(first, first + POLES_AT_ONCE)
+        for some in blocks(self.step.poles.size, POLES_AT_ONCE):
             decay = np.exp(np.outer(self.step.poles[some], ago_s))
             for part, of_poles in zip(rung, (decay.real, decay.imag), strict=True):
                 part[some] = np.einsum("pq,pq->p", self._pole_forces[some], of_poles @ steps)
@@ -217,10 +216,9 @@ class PlateTwin:
         if self._table is None and 16.0 * count * MAX_GROUP_BITS <= TABLE_BYTES:
             times = np.arange(MAX_GROUP_BITS) * self.board.waveform.bit_period_s
             table = np.empty((2 * count, MAX_GROUP_BITS))
-            for first in range(0, count, POLES_AT_ONCE):
-                last = min(first + POLES_AT_ONCE, count)
-                decay = np.exp(np.outer(self.step.poles[first:last], times))
-                table[first:last], table[count + first : count + last] = decay.real, decay.imag
+            for some in blocks(count, POLES_AT_ONCE):
+                decay = np.exp(np.outer(self.step.poles[some], times))
+                table[:count][some], table[count:][some] = decay.real, decay.imag
             self._table = table
         return self._table
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebpts1, chebvander
 from numpy.polynomial.legendre import leggauss
 
-from controller.arrays import Complex, Floats, Words
+from controller.arrays import Complex, Floats, Words, blocks
 from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.workshop.physics.audible import REST_TAUS
@@ -77,8 +77,7 @@ class PlateSound:
         if key not in self._per_slope:
             modes, found = self._modes, np.empty((self._radiation.places, len(frequency), self._forces.shape[1]), np.complex128)
             step = max(AT_ONCE // (self._radiation.places * modes.count), 1)
-            for start in range(0, len(frequency), step):
-                some = slice(start, start + step)
+            for some in blocks(len(frequency), step):
                 s = 2j * np.pi * frequency[some, None]
                 moved = self._driver.transfer(s) / (modes.mass_kg * (modes.angular_frequency**2 + 2 * modes.decay_rate * s + s**2))
                 found[:, some] = (self._radiation.pressure(frequency[some]) * moved) @ self._forces
@@ -110,9 +109,9 @@ class Radiation:
         )
         of_nodes = np.zeros((modes.count, self.places * self._nodes, 2))
         rows = max(AT_ONCE // (len(x_m) * max(modes.count, 2 * self._nodes * self.places)), 1)
-        for first in range(0, len(y_m), rows):
-            points = np.stack(np.meshgrid(x_m, y_m[first : first + rows]), axis=-1).reshape(-1, 2)
-            weights = np.outer(y_weights[first : first + rows], x_weights).ravel()
+        for some in blocks(len(y_m), rows):
+            points = np.stack(np.meshgrid(x_m, y_m[some]), axis=-1).reshape(-1, 2)
+            weights = np.outer(y_weights[some], x_weights).ravel()
             apart = np.hypot(np.linalg.norm(points[:, None] - places_m[:, :2], axis=2), places_m[:, 2])  # (point, place)
             waves = (weights[:, None] / apart)[..., None] * np.exp(-1j * (apart - self._middle_m)[..., None] * k)
             flat = waves.reshape(len(points), -1).view(np.float64)

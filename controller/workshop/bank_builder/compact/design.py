@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from controller.arrays import Bools, Reals
+from controller.arrays import Bools, Reals, blocks
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.grid import Grid
 from controller.device.bank.packing import CHANNELS
@@ -185,14 +185,12 @@ def _fitted(
     if not places:
         return found.reshape(grid.cells, pulses.weights, CHANNELS)
     met = sparse.vstack(shares, format="csr")
-    for first in range(0, len(places), CELLS_AT_ONCE):
-        some = slice(first, first + CELLS_AT_ONCE)
+    for some in blocks(len(places), CELLS_AT_ONCE):
         weights = np.matmul(pulses.analysis, responses(np.array(places[some]), beside[some]))
         found += met[some].T.astype(np.float32) @ weights.reshape(len(weights), -1)
     ridge = own.let_through * len(FITTED_AT) * sparse.eye_array(grid.cells)
     solve = splu((met.T @ met + ridge).tocsc()).solve
-    for first in range(0, found.shape[1], COLUMNS_AT_ONCE):
-        columns = slice(first, first + COLUMNS_AT_ONCE)
+    for columns in blocks(found.shape[1], COLUMNS_AT_ONCE):
         found[:, columns] = solve(found[:, columns].astype(np.float64))
     return found.reshape(grid.cells, pulses.weights, CHANNELS)
 

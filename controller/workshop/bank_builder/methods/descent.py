@@ -24,7 +24,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.arrays import Floats, Indices
+from controller.arrays import Floats, Indices, blocks
 from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
@@ -132,8 +132,7 @@ class Descent:
         """
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         found = np.empty((len(points), self._plate.samples), np.uint32)
-        for first in range(0, len(points), self._at_once):
-            some = slice(first, first + self._at_once)
+        for some in blocks(len(points), self._at_once):
             found[some] = self._some(points[some], self._plain(points[some]) if plain is None else plain[some].copy())
         return found
 

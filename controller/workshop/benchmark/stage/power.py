@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, blocks
 from controller.device.bank.packing import CHANNELS, WORD, channel_bits
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
@@ -82,14 +82,13 @@ def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] |
     idle = channel_bits(np.array([board.idle_word], np.uint32))
     edges = np.empty((len(cells), CHANNELS), np.int64)
     loss_j = np.empty((len(cells), CHANNELS))
-    for first in range(0, len(cells), ENTRIES_PER_BLOCK):
-        some = slice(first, first + ENTRIES_PER_BLOCK)
+    for some in blocks(len(cells), ENTRIES_PER_BLOCK):
         entries = [np.concatenate([idle, channel_bits(np.frombuffer(bank.drive.words(cell), WORD)), idle]) for cell in cells[some]]
         levels = np.stack(entries, axis=1)
         edges[some] = (levels[1:] != levels[:-1]).sum(axis=0)
         loss_j[some] = resistor_loss_j(board.driver, levels, 1 / bank.header.bit_clock_hz)
         if progress:
-            progress(min(first + ENTRIES_PER_BLOCK, len(cells)), len(cells))
+            progress(some.stop, len(cells))
     driven = np.array([board.channel_mask >> channel & 1 for channel in range(CHANNELS)])
     return edges * driven, loss_j * driven
 

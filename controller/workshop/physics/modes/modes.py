@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.arrays import Floats, Reals
+from controller.arrays import Floats, Reals, blocks
 from controller.device.board.panel import Actuator
 
 POINTS_AT_ONCE = 256  # half a megabyte of a grid
@@ -102,8 +102,7 @@ def at_points(modes: Modes, amplitudes: Floats, points_m: ArrayLike) -> Floats:
         values: Floats = np.einsum("pn,pn->p", along_x, modes.factors.along_y(points[:, 1]))
         return values
     values = np.empty(len(points))
-    for first in range(0, len(points), POINTS_AT_ONCE):
-        some = slice(first, first + POINTS_AT_ONCE)  # the grid's diagonal: modes are summed before there are points
+    for some in blocks(len(points), POINTS_AT_ONCE):  # the grid's diagonal: modes are summed before there are points
         values[some] = np.diagonal(modes.on_grid(amplitudes, points[some, 0], points[some, 1]))
     return values
 

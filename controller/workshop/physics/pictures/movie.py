@@ -12,7 +12,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.arrays import Floats
+from controller.arrays import Floats, blocks
 from controller.device.bank.packing import as_words
 from controller.errors import ConfigError
 from controller.workshop.physics.field import map_axis
@@ -101,8 +101,7 @@ class Movie:
         )
         grid = PixelGrid.of(twin.modes, self.x_m, self.y_m)
         for amplitudes in self.amplitudes(twin, words):
-            for first in range(0, len(amplitudes), grid.at_once):
-                yield grid.sum(amplitudes[first : first + grid.at_once])
+            yield from (grid.sum(amplitudes[some]) for some in blocks(len(amplitudes), grid.at_once))
 
     def amplitudes(self, twin: PlateTwin, words: NDArray[np.uint32]) -> Iterator[Floats]:
         """Displacement of each mode in m at the frames, some after the others: (frame, mode)."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.arrays import Floats, Reals
+from controller.arrays import Floats, Reals, blocks
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
@@ -74,7 +74,7 @@ class ResponseModel:
     def _blocks(self) -> list[slice]:
         """Modes in blocks whose responses are computed at once."""
         at_once = modes_at_once(self.step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
-        return [slice(first, min(first + at_once, self.modes)) for first in range(0, self.modes, at_once)]
+        return list(blocks(self.modes, at_once))
 
     @property
     def plate_m(self) -> tuple[float, float]:

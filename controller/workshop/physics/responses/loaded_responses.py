@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
 
-from controller.arrays import Complex, Floats, Reals
+from controller.arrays import Complex, Floats, Reals, blocks
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness
-from controller.workshop.physics.finger import DYING, Finger, of_modes_above
+from controller.workshop.physics.finger import DYING, Finger, modal_receptance, of_modes_above
 from controller.workshop.physics.memory import POINTS_LOADED, loaded_bytes
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import modes_of
@@ -56,8 +56,7 @@ class LoadedResponses(TransformedResponses):
             self._given[period_s] = _Receptances(self._board, self._modes, s)
         points, stiffness = np.asarray(points_m, np.float64).reshape(-1, 2), self._finger.dynamic_stiffness(s)[:, None]
         dying = np.exp(-sigma * period_s * np.arange(count)).astype(free.dtype)[:, None]
-        for first in range(0, len(points), POINTS_LOADED):
-            some = slice(first, first + POINTS_LOADED)
+        for some in blocks(len(points), POINTS_LOADED):
             spectrum = fft.rfft(free[some] * dying, length, axis=1)
             spectrum *= (1 / (1 + self._given[period_s].of(points[some]) * stiffness)).T[:, :, None].astype(spectrum.dtype)
             free[some] = fft.irfft(spectrum, length, axis=1)[:, :count] / dying
@@ -73,10 +72,10 @@ class _Receptances:
         if modes is None:
             return
         self._of_modes = int(np.searchsorted(s.imag, modes.angular_frequency.max()))
-        s = s[: self._of_modes, None]
-        gives = 1 / (modes.mass_kg * (s * (s + 2 * modes.decay_rate) + modes.angular_frequency**2))
+        s = s[: self._of_modes]
+        gives = modal_receptance(modes, s)
         self._gives = np.concatenate([gives.real, gives.imag])  # a product of real numbers takes half the time
-        self._above = of_modes_above(board, modes, s)
+        self._above = of_modes_above(board, modes, s)[:, None]
 
     def of(self, points_m: Floats) -> Complex:
         """Displacement of each of `points_m` over a force there, (frequency, point) in m/N."""
