@@ -1,10 +1,10 @@
 """What the times of methods are compared with: plain C, copying, CRC-32, the wire, the machine's best matrix product."""
 
-import functools
 import time
 import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -61,17 +61,13 @@ class Baselines:
         values = self._board.waveform.samples * CHANNELS
         found = []
         if self._c:
-            found.append(Baseline("plain C, vectors of 128 bits", [_composing(self._c, points) for points in scenes]))
+            found.append(Baseline("plain C, vectors of 128 bits", [partial(self._c.compose, points) for points in scenes]))
         source, target = bytearray(CORNERS * 10 * values), bytearray(CORNERS * 10 * values)
         words = bytes(values // 8)
         sizes = [min(CORNERS * len(points) * values, len(source)) for points in scenes]
         found.append(Baseline("copy of the responses that are read", [_copying(source, target, size) for size in sizes]))
         found.append(Baseline("zlib.crc32 of the words", [lambda: zlib.crc32(words)] * len(scenes)))
         return found
-
-
-def _composing(plain_c: PlainC, points: Sequence[Point]) -> Callable[[], object]:
-    return lambda: plain_c.compose(points)
 
 
 def _copying(source: bytearray, target: bytearray, size: int) -> Callable[[], object]:
@@ -83,7 +79,7 @@ def _copying(source: bytearray, target: bytearray, size: int) -> Callable[[], ob
     return copy
 
 
-@functools.cache  # of the machine: the same for every build
+@cache  # of the machine: the same for every build
 def best_sgemm_rate() -> float:
     """Best rate of float32 matrix multiplication, in additions and multiplications for a second of processor time."""
     best = 0.0

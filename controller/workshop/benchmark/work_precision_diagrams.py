@@ -1,6 +1,7 @@
 """Work-precision diagrams: one curve for each method, one point for each setting, the Pareto front behind them."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -64,20 +65,10 @@ def _draw(folder: Path, figures: Figures, name: str) -> list[Path]:
     return written
 
 
-def time_diagram(figures: Figures) -> Figure:
-    """Error against time, for 1, 2, 4 and 10 fingers."""
-    return _against_time(figures, _main, LOST, FLOOR)
-
-
-def felt_diagram(figures: Figures) -> Figure:
-    """What the finger that feels least lacks, against time, for 1, 2, 4 and 10 fingers."""
-    return _against_time(figures, _felt, FELT, FELT_FLOOR)
-
-
-def _against_time(
+def time_diagram(
     figures: Figures, error_of: Callable[[str], Callable[[Figures], float | None]], label: str, floor: float
 ) -> Figure:
-    """An error of each family against time."""
+    """An error against time, for 1, 2, 4 and 10 fingers."""
     figure = Figure(figsize=(14, 11), layout="constrained")
     shown = [count for count in SHOWN_FINGERS if f"{count} off grid" in figures["scenes"]]
     for count, ax in zip(shown, figure.subplots(2, 2).flat, strict=False):
@@ -124,12 +115,10 @@ def wire_and_heat_diagram(figures: Figures) -> Figure:
     """Error against bytes on the wire and against heat in the stages."""
     figure = Figure(figsize=(14, 6.5), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
-    family = "1 off grid"
-    draw_curves(left, figures, _cost("wire", ""), _main(family))
-    left.set(xlabel=WIRE, ylabel=LOST, title="1 finger between cells")
-    heat = _median(family, "stage_j", 1e3)
-    draw_curves(right, figures, heat, _main(family))
-    right.set(xlabel=HEAT, title="1 finger between cells")
+    for ax, x_of, label in ((left, _cost("wire", ""), WIRE), (right, _median("1 off grid", "stage_j", 1e3), HEAT)):
+        draw_curves(ax, figures, x_of, _main("1 off grid"))
+        ax.set(xlabel=label, title="1 finger between cells")
+    left.set(ylabel=LOST)
     draw_key(figure, figures)
     return figure
 
@@ -179,10 +168,7 @@ def scenes_diagram(figures: Figures) -> Figure:
         ax.axhline(row + 0.5, color="0.85", lw=0.6)
     ax.set_yticks(range(len(families)), families)
     ax.invert_yaxis()
-    ax.set(
-        xscale="log",
-        xlabel=f"{LOST}; marker: median, end of the line: worst scene; best setting of each method",
-    )
+    ax.set(xscale="log", xlabel=f"{LOST}; marker: median, end of the line: worst scene; best setting of each method")
     draw_key(figure, figures)
     return figure
 
@@ -253,8 +239,8 @@ def _median(family: str, error: str, factor: float = 1.0) -> Callable[[Figures],
 TIMED = ("time", "felt", "errors", "front_page", "building")  # those that need times
 DIAGRAMS: dict[str, Callable[[Figures], Figure]] = {
     "front_page": front_page_diagram,
-    "time": time_diagram,
-    "felt": felt_diagram,
+    "time": partial(time_diagram, error_of=_main, label=LOST, floor=FLOOR),
+    "felt": partial(time_diagram, error_of=_felt, label=FELT, floor=FELT_FLOOR),
     "memory": memory_diagram,
     "wire_and_heat": wire_and_heat_diagram,
     "errors": errors_diagram,

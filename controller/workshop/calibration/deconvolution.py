@@ -23,6 +23,7 @@ from controller.errors import CalibrationError
 from controller.workshop.calibration.records.drives import Drive, held_spectrum, transform
 from controller.workshop.calibration.records.measurements import Measurement, PointRecords
 from controller.workshop.calibration.transfers import RawBins, Transfers
+from controller.workshop.physics.motion import DERIVATIVE
 
 Kind = TypeVar("Kind", np.bool_, np.float64, np.complex64)
 
@@ -34,7 +35,6 @@ TAPER_HZ = 3e3  # from what is excited to what is not
 LEAST_SHARE = 1e-3  # of the energy of a drive that lies in the band
 NYQUIST_SHARE = 0.9  # of the recorder's half rate that its filter passes
 EARLIEST_S = 0.9e-3  # before the pulse, where noise is looked for
-DERIVATIVES = {"m": 0, "m/s": 1, "m/s^2": 2}
 
 
 class Deconvolution:
@@ -60,7 +60,7 @@ class Deconvolution:
         period_s = (settings.records.period_ms or 0.0) * 1e-3
         shape = measurement.drive.emissions, measurement.repetitions
         self._starts_s = period_s * np.arange(shape[0] * shape[1], dtype=np.float64).reshape(shape)
-        self._to_displacement = (2j * np.pi * self.bins.frequency_hz) ** -DERIVATIVES[settings.records.quantity[0]]
+        self._to_displacement = (2j * np.pi * self.bins.frequency_hz) ** -DERIVATIVE[settings.records.quantity[0]]
         drive = measurement.drive
         self._duration_s = drive.duration_s
         played = drive.spectra(self.bins.frequency_hz[0], self.bins.step_hz, len(self.bins.gain), 1 / board.waveform.bit_clock_hz)

@@ -17,6 +17,7 @@ from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.spectra import Bins
+from controller.workshop.calibration.wave_fit import lowest
 
 SAME_PLACE_M = 0.3e-3
 RECORDS = 96  # at most
@@ -107,9 +108,9 @@ def stretch(board: Board, before: NDArray[np.floating], after: NDArray[np.floati
     coarse: Floats = np.linspace(1 - widest, 1 + widest, 2 * round(widest / COARSE) + 1)
     fine: Floats = float(coarse[alike(coarse, every).argmax()]) + FINE
     found = alike(fine, every)
-    ratio = _highest(fine, found)
+    ratio = lowest(fine, -found)
     parts = np.array_split(np.random.default_rng(1).permutation(every), GROUPS)
-    scatter = float(np.std([_highest(fine, alike(fine, part)) for part in parts], ddof=1) / np.sqrt(GROUPS))
+    scatter = float(np.std([lowest(fine, -alike(fine, part)) for part in parts], ddof=1) / np.sqrt(GROUPS))
     error = float(np.hypot(scatter, UNSTRETCHED * (ratio - 1)))
     return Stretch(ratio, error, float(found.max()), float(alike(np.ones(1), every)[0]))
 
@@ -120,11 +121,3 @@ def _band_limited(board: Board, records: NDArray[np.floating]) -> Floats:
     bins = Bins.of(waveform, records.shape[1])
     spectra = np.fft.rfft(records, bins.length)[:, : bins.gain.size] * bins.gain
     return np.fft.irfft(spectra, bins.length)[:, : records.shape[1]].astype(np.float64)
-
-
-def _highest(places: Floats, values: Floats) -> float:
-    """Highest place of the parabola through the highest value and its neighbours."""
-    at = int(np.clip(values.argmax(), 1, len(values) - 2))
-    left, middle, right = values[at - 1 : at + 2].tolist()
-    bend = left - 2 * middle + right
-    return float(places[at] + (0.5 * (left - right) / bend * (places[1] - places[0]) if bend < 0 else 0.0))

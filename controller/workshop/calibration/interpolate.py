@@ -5,20 +5,18 @@ from typing import Literal, NamedTuple
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from controller.arrays import Bools, Floats, Indices, blocks
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.cosines import Cosines, Lattice, fill_places
-from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.interpolated import InterpolatedResponses, LeaveOut
 from controller.workshop.calibration.kriging import Prior, SpectralField, Waves, krige
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.modal_prior import ModalPrior, unforeseen
 from controller.workshop.calibration.plate_size import GlassSize, fit_size
 from controller.workshop.calibration.point_fit import fit_points
-from controller.workshop.calibration.point_plan import scattered_count
+from controller.workshop.calibration.point_plan import half_wave_m, scattered_count
 from controller.workshop.calibration.spectra import Bins, Spectra
 from controller.workshop.calibration.wave_fit import WaveFit, fit_waves
 from controller.workshop.physics.modes.modes import Modes
@@ -207,7 +205,7 @@ def _checked(board: Board, learned: LearnedResponses, dead: Collection[int]) -> 
 
 def _refuse_coarse(board: Board, lattice: Lattice) -> None:
     """Raise for a regular grid of more than half a wavelength: waves in it are mistaken for others."""
-    limit_m = Dispersion.of(board.plate).wavelength_m(board.waveform.band_high_hz) / 2
+    limit_m = half_wave_m(board)
     if lattice.pitch_m > PITCH_SLACK * limit_m:
         raise CalibrationError(
             f"the points are a regular grid of {lattice.pitch_m * 1e3:.2f} mm, above half a wavelength ({limit_m * 1e3:.2f} mm),"
@@ -215,14 +213,7 @@ def _refuse_coarse(board: Board, lattice: Lattice) -> None:
         )
 
 
-def _evaluated(
-    board: Board,
-    bins: Bins,
-    points_m: Floats,
-    spectra: NDArray[np.complex64],
-    foreseen: NDArray[np.complex64],
-    known: Bools,
-) -> LeaveOut:
+def _evaluated(board: Board, bins: Bins, points_m: Floats, spectra: Spectra, foreseen: Spectra, known: Bools) -> LeaveOut:
     """Leave-out error, points in blocks; those beyond the cells of a bank are not evaluated: nobody plays there."""
     known = known & ~np.isnan(foreseen[0])
     agreed, magnitude, expected = np.zeros((3, len(points_m)))

@@ -13,6 +13,7 @@ from controller.workshop.calibration.kriging import Prior, SpectralField, forese
 from controller.workshop.calibration.plate_size import GlassSize
 from controller.workshop.calibration.point_fit import PointFit
 from controller.workshop.calibration.spectra import Bins
+from controller.workshop.physics.responses.response_source import room
 
 LEAST_SHARE = 0.8  # foreseen from the places of the points; farther from them nothing is estimated, and no scene may ask for it
 POINTS_AT_ONCE = 128  # transforms of 128 points take some 140 MB
@@ -101,7 +102,7 @@ class InterpolatedResponses:
         Raises CalibrationError if a point is too far from all that were measured; ValueError if `out` has another shape or type.
         """
         points = self._checked(points_m)
-        out = _room(out, (len(points), self.samples, self._channels), dtype)
+        out = room(out, (len(points), self.samples, self._channels), dtype)
         for some in blocks(len(points), POINTS_AT_ONCE):
             spectra = self.field.at(points[some])
             out[some] = self.bins.band_limited(spectra) if band_limited else self.bins.whole(spectra)
@@ -117,7 +118,7 @@ class InterpolatedResponses:
         """As `ResponseSource` says; outside the band, rows of rest hold what was measured there. Errors as in `responses`."""
         points = self._checked(points_m)
         rows = self.bins.rest_rows
-        out = _room(out, (len(points), self.samples + rows, self._channels), dtype)
+        out = room(out, (len(points), self.samples + rows, self._channels), dtype)
         for some in blocks(len(points), POINTS_AT_ONCE):
             spectra = self.field.at(points[some])
             out[some, : self.samples] = self.bins.band_limited(spectra)[:, ::-1]
@@ -134,12 +135,3 @@ class InterpolatedResponses:
                 f" foreseen there, below {LEAST_SHARE:g}; measure nearer to it"
             )
         return points
-
-
-def _room(out: Reals | None, shape: tuple[int, ...], dtype: DTypeLike) -> Reals:
-    kind = np.dtype(dtype)
-    if out is None:
-        return np.empty(shape, kind)
-    if out.shape != shape or out.dtype != kind:
-        raise ValueError(f"out is {out.dtype} {out.shape}, not {kind} {shape}")
-    return out

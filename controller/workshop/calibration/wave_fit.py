@@ -89,7 +89,7 @@ def fit_waves(
     best = int(coarse.argmin())
     fine = np.array([[error(COARSE[best] + off, middles, edge, ROUGH_NOISE) for off in FINE.tolist()] for edge in EDGE_VARIANCES])
     edge_variance, around = min(zip(EDGE_VARIANCES, fine, strict=True), key=lambda one: float(one[1].min()))
-    nearest = float(COARSE[best] + _lowest(FINE, around))
+    nearest = float(COARSE[best] + lowest(FINE, around))
     by_noise = [error(nearest, middles, edge_variance, noise) for noise in NOISES]
     least = min(by_noise)
     noise = next(noise for noise, error_of in zip(NOISES, by_noise, strict=True) if error_of <= ALIKE * least)
@@ -101,7 +101,7 @@ def fit_waves(
     factors = []
     for part in parts:
         errors = [error(COARSE[best] + off, part, edge_variance, noise) for off in FINE.tolist()]
-        factors.append(float(COARSE[best] + _lowest(FINE, np.array(errors))))
+        factors.append(float(COARSE[best] + lowest(FINE, np.array(errors))))
     return _line(dispersion, edge_variance, noise, bins.frequency_hz[parts].mean(axis=1), factors)
 
 
@@ -149,7 +149,7 @@ def _line(dispersion: Dispersion, edge_variance: float, noise: float, frequency:
     )
 
 
-def _lowest(places: Floats, values: Floats) -> float:
+def lowest(places: Floats, values: Floats) -> float:
     """Lowest place of the parabola through the lowest value and its neighbours."""
     at = int(np.clip(np.argmin(values), 1, len(values) - 2))
     left, middle, right = values[at - 1 : at + 2].tolist()

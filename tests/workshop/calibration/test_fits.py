@@ -14,8 +14,9 @@ from controller.device.board.records import load_toml
 from controller.errors import CalibrationError
 from controller.workshop.calibration.clock_fit import fit_clock
 from controller.workshop.calibration.decay_fit import fit_decays
-from controller.workshop.calibration.drift_fit import _highest, fit_drift
+from controller.workshop.calibration.drift_fit import fit_drift
 from controller.workshop.calibration.point_plan import scattered_points
+from controller.workshop.calibration.wave_fit import lowest
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances, draw
 
@@ -72,7 +73,7 @@ def test_two_measurements_that_do_not_belong_together_are_refused():
     with pytest.raises(CalibrationError, match="not one plate"):
         fit_drift(BOARD, here, other)
     assert fit_drift(BOARD, here, here).coefficient_per_k is None
-    assert _highest(np.arange(4.0), np.ones(4)) == 1, "of what is flat there is no highest"
+    assert lowest(np.arange(4.0), np.ones(4)) == 1, "of what is flat there is no lowest"
 
 
 @each_row(

@@ -25,9 +25,8 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
     for pitch_mm in CELL_PITCHES_MM:
         bank = laboratory.bank(pitch_mm * 1e-3)
         drive_bytes = bank.grid.cells * bank.sections["drive"].stride
-        yield Candidate(
-            "nearest entry", f"{pitch_mm:g} mm", NearestEntry(bank), drive_bytes, wire_bytes(samples), 1, words_of=words_of
-        )
+        nearest = partial(nearest_entry, bank)
+        yield Candidate("nearest entry", f"{pitch_mm:g} mm", nearest, drive_bytes, wire_bytes(samples), 1, words_of=words_of)
     for pitch_mm in PITCHES_MM:
         bank = laboratory.bank(pitch_mm * 1e-3)
         memory = bank.grid.cells * (bank.sections["drive"].stride + bank.sections["response"].stride)
@@ -36,18 +35,18 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
             Candidate, setting=setting, memory_bytes=memory, wire_bytes=wire_bytes(samples), free_polarity=True, words_of=words_of
         )
         if kernel.COMPILED:
-            yield selected("device, compiled kernel", compose=Selected(selection))
+            yield selected("device, compiled kernel", compose=partial(selected_waveform, selection))
         yield selected("device, NumPy twin", compose=SelectedByTwin(selection, bank, board.idle_word))
         if pitch_mm == board.bank.pitch_mm:
             for last in (round(share * samples) for share in SHARES):
                 yield selected(
                     "device, shorter emission",
                     setting=f"{1e3 * last / board.waveform.bit_clock_hz:g} ms",
-                    compose=Selected(selection),
+                    compose=partial(selected_waveform, selection),
                     wire_bytes=wire_bytes(last),
                     words_of=partial(_end_of, last),
                 )
-            yield selected("device, another finger still", compose=KeepingStill(selection), keeps_nulls=True)
+            yield selected("device, another finger still", compose=partial(keeping_still, selection), keeps_nulls=True)
             yield selected(
                 "resident waveform",
                 setting=f"{1e3 * selection.lattice_m:g} mm lattice",
@@ -57,31 +56,24 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
             )
 
 
-class NearestEntry:
-    """The frames of the cell nearest to a single point."""
-
-    def __init__(self, bank: Bank) -> None:
-        self._bank = bank
-
-    def __call__(self, points: Sequence[Point]) -> Waveform:
-        """LOAD frames of the cell."""
-        ((x_m, y_m, _),) = points
-        return ReadyFrames(*self._bank.drive.frames(self._bank.grid.nearest(x_m, y_m)[0]))
+def nearest_entry(bank: Bank, points: Sequence[Point]) -> Waveform:
+    """LOAD frames of the cell nearest to a single point."""
+    ((x_m, y_m, _),) = points
+    return ReadyFrames(*bank.drive.frames(bank.grid.nearest(x_m, y_m)[0]))
 
 
-class Selected:
-    """What the loop plays: places on the lattice, a lone finger near a cell that cell's entry."""
+def selected_waveform(selection: Selection, points: Sequence[Point]) -> Waveform:
+    """What the loop plays: places on the lattice, composed; of a lone finger near a cell that cell's frames."""
+    return selection.waveform(selection.key(points))
 
-    def __init__(self, selection: Selection) -> None:
-        self._selection = selection
 
-    def __call__(self, points: Sequence[Point]) -> Waveform:
-        """The bank's frames, or composed words."""
-        return self._selection.waveform(self._selection.key(points))
+def keeping_still(selection: Selection, points: Sequence[Point], nulls: Sequence[Place]) -> Waveform:
+    """The same for fingers beside others that shall feel nothing: composed; the bank's frames where the others are too near."""
+    return selection.waveform(selection.null_key(points, nulls))
 
 
 class SelectedByTwin:
-    """The same with the NumPy twin of the kernel, whether or not there is a compiled one."""
+    """What `selected_waveform` gives, with the NumPy twin of the kernel, whether or not there is a compiled one."""
 
     def __init__(self, selection: Selection, bank: Bank, idle_word: int) -> None:
         self._selection, self._bank, self._composer = selection, bank, Composer(bank, idle_word)
@@ -96,17 +88,6 @@ class SelectedByTwin:
         while (cell := words_twin.compose(own._words, own._room, buffers, points)) >= 0:  # what `Composer` gives to its kernel
             bank.responses.check(cell)
         return own._view
-
-
-class KeepingStill:
-    """What the loop plays for fingers beside others that shall feel nothing."""
-
-    def __init__(self, selection: Selection) -> None:
-        self._selection = selection
-
-    def __call__(self, points: Sequence[Point], nulls: Sequence[Place]) -> Waveform:
-        """Composed words; the bank's frames where the others are too near."""
-        return self._selection.waveform(self._selection.null_key(points, nulls))
 
 
 class Resident:

@@ -6,19 +6,14 @@ the piezo's `moment_n_per_v`, which scales displacements and, squared, energies.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from threadpoolctl import threadpool_limits
 
 from controller.device.board.board import Board
 from controller.workshop.benchmark.environment import environment
-from controller.workshop.benchmark.paper import (
-    paper_energy,
-    paper_equations,
-    paper_finger,
-    paper_focus,
-    paper_losses,
-)
+from controller.workshop.benchmark.paper import paper_energy, paper_equations, paper_finger, paper_focus, paper_losses
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel
 from controller.workshop.benchmark.paper.paper_row import Row
 
@@ -109,14 +104,7 @@ def _parts(panel: PaperPanel, effort: PaperEffort, curves: Figures) -> list[Call
         lambda: paper_focus.four_foci_rows(panel),
         repetition,
         finger,
-        lambda: paper_losses.clock_rows(panel),
-        lambda: paper_losses.place_rows(panel),
-        lambda: paper_losses.grid_rows(panel),
-        lambda: paper_losses.bits_rows(panel),
-        lambda: paper_losses.drift_rows(panel),
-        lambda: paper_losses.slip_rows(panel),
-        lambda: paper_losses.finger_motion_rows(panel),
-        lambda: paper_losses.shift_rows(panel),
+        *(partial(of_loss, panel) for of_loss in paper_losses.OF_PANEL),
         lambda: paper_losses.wrong_plate_rows(panel, effort.plates),
         *([lambda: paper_losses.foam_rows(panel)] if effort.foam else []),
         skin,

@@ -5,7 +5,7 @@ computed for, and the paper's own support: foam edges, Mindlin's theory.
 """
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Final
 
 import msgspec
 import numpy as np
@@ -202,3 +202,6 @@ def foam_rows(panel: PaperPanel) -> list[Row]:
             "foam_spot_mm": [one.spot_m * 1e3 for one in evaluated],
         }
     )
+
+
+OF_PANEL: Final = clock_rows, place_rows, grid_rows, bits_rows, drift_rows, slip_rows, finger_motion_rows, shift_rows

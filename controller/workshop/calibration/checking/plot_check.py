@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.check_figures import snr_db
 from controller.workshop.calibration.learning import Learned
-from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
+from controller.workshop.physics.pictures.figure_file import draw_plate, save_figure
 
 SHOWN_POINTS = 3
 
@@ -32,8 +32,7 @@ def plot_check(path: Path, board: Board, learned: Learned) -> None:
     dots = plate.scatter(x_mm[~missing], y_mm[~missing], size, coherence[~missing].mean(axis=1), cmap="viridis", vmin=least, vmax=1)
     plate.scatter(x_mm[missing], y_mm[missing], size, color="crimson", marker="x", label="no records")
     rows[0].colorbar(dots, ax=plate, label=f"{what}, mean over channels", shrink=0.8)
-    draw_patches(plate, board)
-    plate.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
+    draw_plate(plate, board)
     plate.set_title(f"{len(x_mm)} points, {int(missing.sum())} without records")
     if missing.any():
         plate.legend(loc="upper left", bbox_to_anchor=(0, -0.18), frameon=False)

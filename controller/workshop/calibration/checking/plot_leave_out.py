@@ -9,7 +9,7 @@ from controller.device.board.board import Board
 from controller.workshop.calibration.decay_fit import Decay
 from controller.workshop.calibration.interpolated import InterpolatedResponses
 from controller.workshop.calibration.wave_fit import WaveFit
-from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
+from controller.workshop.physics.pictures.figure_file import draw_plate, save_figure
 
 
 def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, waves: WaveFit, decays: list[Decay]) -> None:
@@ -27,8 +27,7 @@ def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, wave
         x_mm, y_mm, size, np.clip(100 * lost, 0.01, None), cmap="viridis_r", norm="log", edgecolors="0.4", linewidths=0.3
     )
     figure.colorbar(dots, ax=above, label="amplitude lost at a point left out (%)", shrink=0.85)
-    draw_patches(above, board)
-    above.set(aspect="equal", xlim=(0, plate.length_mm), ylim=(0, plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
+    draw_plate(above, board)
     median, least = source.provenance.kept or (np.nan, np.nan)
     above.set_title(f"{source.provenance.model}\nleft out: {median:.4f} kept at the median, {least:.3f} at least", fontsize=10)
 

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from controller.arrays import Floats
 from controller.device.board.board import Board
-from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
+from controller.workshop.physics.pictures.figure_file import draw_plate, save_figure
 
 
 def plot_plan(path: Path, board: Board, points_m: Floats, places_m: Floats, shares: Floats) -> None:
@@ -25,7 +25,6 @@ def plot_plan(path: Path, board: Board, points_m: Floats, places_m: Floats, shar
     plate.plot(x_mm, y_mm, color="0.6", lw=0.6, zorder=1)
     plate.scatter(x_mm, y_mm, 9, color="black", zorder=2)
     plate.scatter(x_mm[:1], y_mm[:1], 60, facecolors="none", edgecolors="black", zorder=3)
-    draw_patches(plate, board)
-    plate.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
+    draw_plate(plate, board)
     plate.set_title(f"{len(points_m)} points; the circle is where the path begins")
     save_figure(figure, path, 120)

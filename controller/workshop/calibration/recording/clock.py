@@ -51,14 +51,9 @@ def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], dela
     def exact(ppm: float) -> float:
         return float(np.mean([_contradiction(deconvolution, deconvolution.spectra(one, ppm), one, delay_s) for one in records]))
 
-    near, step = 0.0, COARSE_PPM
-    if span_s > 0:
-        step = min(0.2e6 / (frequency_hz[-1] * span_s), COARSE_PPM)
-        tried = np.arange(-WIDEST_PPM, WIDEST_PPM + step, step)
-        near = float(tried[np.argmin([shifted(ppm) for ppm in tried])])
-    else:
-        tried = np.arange(-WIDEST_PPM, WIDEST_PPM + step, step)
-        near = float(tried[np.argmin([exact(ppm) for ppm in tried])])
+    step = min(0.2e6 / (frequency_hz[-1] * span_s), COARSE_PPM) if span_s > 0 else COARSE_PPM
+    tried = np.arange(-WIDEST_PPM, WIDEST_PPM + step, step)
+    near = float(tried[np.argmin([(shifted if span_s > 0 else exact)(ppm) for ppm in tried])])
     found = [
         minimize_scalar(
             lambda ppm, one=one: _contradiction(deconvolution, deconvolution.spectra(one, ppm), one, delay_s),

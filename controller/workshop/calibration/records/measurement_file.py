@@ -157,6 +157,15 @@ class MeasurementFile(Record, frozen=True):
     panel: Annotated[str, Meta(pattern=r"^[0-9a-f]{16}\Z")] | None = None
     points: str | None = None  # CSV file with the columns point, x_mm, y_mm. Left out: the points are in the file of the records
 
+    def files(self, point: str, emissions: int, repetitions: int) -> Iterator[tuple[int | None, int | None, str]]:
+        """Names of the files of a point, in the order of emission and repetition, None where a file holds all of them."""
+        fields, channels = self.records.fields, getattr(self.drive, "channels", ())
+        for emission in range(emissions) if fields & {"emission", "channel"} else (None,):
+            for repetition in range(repetitions) if "repetition" in fields else (None,):
+                channel = channels[emission] if channels and emission is not None else None
+                name = self.records.files.format(point=point, emission=emission, channel=channel, repetition=repetition)
+                yield emission, repetition, name
+
 
 def read_settings(folder: Path) -> MeasurementFile:
     """Read the `measurement.toml` of a folder.

@@ -85,23 +85,21 @@ def write_records(folder: Path, settings: MeasurementFile, name: str, values: Ar
     `values` are (emission, repetition, sample), or (sample,) if records run through, in `settings.records.unit`; as numbers of
     another type than float, in parts of `full_scale`. Raises CalibrationError if a file cannot be written.
     """
-    array, fields, table = np.asarray(values), settings.records.fields, settings.records
-    channels = getattr(settings.drive, "channels", ())
-    for emission in range(array.shape[0]) if fields & {"emission", "channel"} else (None,):
-        for repetition in range(array.shape[1]) if "repetition" in fields else (None,):
-            chosen = array if emission is None else array[emission][None]
-            chosen = chosen if repetition is None else chosen[:, repetition][:, None]
-            channel = channels[emission] if channels and emission is not None else None
-            file = folder / table.files.format(point=name, emission=emission, channel=channel, repetition=repetition)
-            match file.suffix:
-                case ".wav":
-                    _saved_wav(file, settings.sample_rate_hz, chosen.reshape(-1, chosen.shape[-1]), table.full_scale)
-                case ".uff" | ".unv":
-                    _write_uff(file, settings, {int(name): chosen})
-                case ".npz":
-                    _saved(file, records=chosen)
-                case _:
-                    _saved(file, chosen)
+    array = np.asarray(values)
+    emissions, repetitions = array.shape[:2] if array.ndim > 1 else (1, 1)
+    for emission, repetition, file_name in settings.files(name, emissions, repetitions):
+        chosen = array if emission is None else array[emission][None]
+        chosen = chosen if repetition is None else chosen[:, repetition][:, None]
+        file = folder / file_name
+        match file.suffix:
+            case ".wav":
+                _saved_wav(file, settings.sample_rate_hz, chosen.reshape(-1, chosen.shape[-1]), settings.records.full_scale)
+            case ".uff" | ".unv":
+                _write_uff(file, settings, {int(name): chosen})
+            case ".npz":
+                _saved(file, records=chosen)
+            case _:
+                _saved(file, chosen)
 
 
 @contextlib.contextmanager

@@ -102,7 +102,7 @@ class Measurement:
             else:
                 yield True
 
-    def _axes(self) -> tuple[int, ...]:
+    def _axes(self) -> tuple[int, int]:
         """Emissions and repetitions in separate records: (1, 1) if records run through."""
         if self.settings.records.period_ms is not None:
             return 1, 1
@@ -110,18 +110,8 @@ class Measurement:
 
     def _files(self, point: int) -> Iterator[tuple[tuple[int | None, int | None], Path]]:
         """Emission and repetition, None where the file holds all of them, and the file."""
-        fields = self.settings.records.fields
-        emissions, repetitions = self._axes()
-        channels = getattr(self.settings.drive, "channels", ())
-        for emission in range(emissions) if fields & {"emission", "channel"} else (None,):
-            for repetition in range(repetitions) if "repetition" in fields else (None,):
-                name = self.settings.records.files.format(
-                    point=self.names[point],
-                    emission=emission,
-                    channel=None if emission is None or not channels else channels[emission],
-                    repetition=repetition,
-                )
-                yield (emission, repetition), self.folder / name
+        for emission, repetition, name in self.settings.files(self.names[point], *self._axes()):
+            yield (emission, repetition), self.folder / name
 
     @cached_property
     def _uff_as_a_whole(self) -> UffSets | None:

@@ -10,8 +10,9 @@ from controller.device.board.board import Board
 from controller.errors import ConfigError
 
 
-def draw_patches(plate: Axes, board: Board) -> None:
-    """Outlines of a board's patches, in mm."""
+def draw_plate(plate: Axes, board: Board) -> None:
+    """Extent of a board's plate in mm, and the outlines of its patches."""
+    plate.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
     for actuator in board.actuators:
         corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
         plate.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))

@@ -13,7 +13,7 @@ from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.physics.audible import AUDIBLE_HZ
 from controller.workshop.physics.field import Field
-from controller.workshop.physics.pictures.figure_file import draw_patches, save_figure
+from controller.workshop.physics.pictures.figure_file import draw_plate, save_figure
 from controller.workshop.physics.pictures.focus_series import FocusSeries
 
 KINDS = (".png", ".svg", ".pdf")
@@ -59,11 +59,11 @@ def plot_focus(
         x * 1e3, y * 1e3, u_um, cmap="RdBu_r", vmin=-largest, vmax=largest, shading="nearest", rasterized=True
     )
     left.colorbar(picture, ax=above, label="displacement at T (µm)")
-    draw_patches(above, board)
+    draw_plate(above, board)
     for focus_x_m, focus_y_m in foci:
         above.add_patch(Circle((focus_x_m * 1e3, focus_y_m * 1e3), field.scale.circle_m * 1e3, fill=False, color="black", lw=1.2))
     above.axhline(section_y_m * 1e3, color="black", lw=0.6, ls=":")
-    above.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), ylabel="y (mm)", title=title)
+    above.set(xlabel="", title=title)
     below.plot(across_m * 1e3, section_um, color="black", lw=0.9)
     below.axhline(0, color="0.7", lw=0.6)
     below.set(xlabel="x (mm)", ylabel="displacement (µm)", title=f"cross-section at y = {section_y_m * 1e3:.1f} mm")

@@ -19,6 +19,7 @@ from controller.workshop.physics.modes.plate_modes import in_words, modes_of
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.kept_rest import rest_rows, rest_taps
 from controller.workshop.physics.responses.modal_response import band_limited_response, modes_at_once, pulse_response
+from controller.workshop.physics.responses.response_source import room
 from controller.workshop.physics.responses.row_responses import RowResponses, in_rows
 from controller.workshop.physics.responses.step_response import StepResponse, channel_forces
 
@@ -147,11 +148,7 @@ class ResponseModel:
 
     def _responses(self, points_m: ArrayLike, kernel: Reals, out: Reals | None) -> Reals:
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
-        shape = (len(points), len(kernel), self._channels)
-        if out is None:
-            out = np.empty(shape, kernel.dtype)
-        if out.shape != shape or out.dtype != kernel.dtype:
-            raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
+        out = room(out, (len(points), len(kernel), self._channels), kernel.dtype)
         if (factors := self.plate_modes.factors) is not None and in_rows(points) and out.flags.c_contiguous:
             if id(kernel) not in self._rows:
                 self._rows[id(kernel)] = RowResponses(factors, self.forces, kernel)

@@ -75,7 +75,7 @@ class _Receptances:
         s = s[: self._of_modes]
         gives = modal_receptance(modes, s)
         self._gives = np.concatenate([gives.real, gives.imag])  # a product of real numbers takes half the time
-        self._above = of_modes_above(board, modes, s)[:, None]
+        self._above = of_modes_above(board, modes, s[:, None])
 
     def of(self, points_m: Floats) -> Complex:
         """Displacement of each of `points_m` over a force there, (frequency, point) in m/N."""

@@ -51,3 +51,13 @@ class ResponseSource(Protocol):
 
         (point, sample + row of rest, channel).
         """
+
+
+def room(out: Reals | None, shape: tuple[int, ...], dtype: DTypeLike) -> Reals:
+    """`out`, or a new array of this shape and type; raises ValueError if `out` has another."""
+    kind = np.dtype(dtype)
+    if out is None:
+        return np.empty(shape, kind)
+    if out.shape != shape or out.dtype != kind:
+        raise ValueError(f"out is {out.dtype} {out.shape}, not {kind} {shape}")
+    return out
