@@ -90,7 +90,7 @@ def bank_build(options: argparse.Namespace) -> int:
     """Build a bank for a board: for the whole plate, or for the cells that a scene can reach."""
     board = named_board(options.board)
     with _builder_installed(bank_path(board)):
-        from controller.workshop.bank_builder.methods.descent import AIMS
+        from controller.workshop.bank_builder.methods.aims import AIMS
         from controller.workshop.bank_builder.own_bank import order, warn_of_pitch
     wanted = order(board, find_scene(board, options.scene) if options.scene else None, options.pitch_mm, compact=options.compact)
     path = Path(options.out) if options.out else wanted.own_path

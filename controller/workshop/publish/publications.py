@@ -14,7 +14,8 @@ from controller.device.update.manifest import Channel, Manifest, read_manifest
 from controller.device.update.trust.rollout import OPENED, STOPPED, Rollout, opened_by, read_rollout, stopped_by
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
-from controller.workshop.publish.publisher import LIFE, LOCK, ROLES, Repository, issue
+from controller.workshop.publish.metadata import LIFE, ROLES, issue
+from controller.workshop.publish.publisher import LOCK, Repository
 from controller.workshop.publish.release_folder import banks, digest_of, read_release
 from controller.workshop.publish.repository_files import content_of, put
 

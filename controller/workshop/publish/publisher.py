@@ -13,25 +13,22 @@ import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from datetime import UTC, datetime, timedelta
+from datetime import datetime
 from pathlib import Path
 from typing import Any, Final, Self
 
 from securesystemslib.signer import CryptoSigner
 from tuf.api.exceptions import RepositoryError
-from tuf.api.metadata import Key, Metadata, Root, Signed, Targets
-from tuf.api.serialization.json import JSONSerializer
+from tuf.api.metadata import Key, Metadata, Root, Targets
 
 from controller.device.update.lock import alone
-from controller.device.update.trust.clock import ISSUED, TIMESTAMP_LIFE, as_text, issued
+from controller.device.update.trust.clock import TIMESTAMP_LIFE, as_text, issued
 from controller.durable import sync_folder, tell_disk, write_durably
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
+from controller.workshop.publish.metadata import LIFE, ROLES, check_signatures, issue, read_metadata, to_bytes
 
-ROLES: Final = ("root", "targets", "snapshot", "timestamp")
 ORDER: Final = ("targets", "snapshot", "root", "timestamp")  # of publication: nobody reads the first two before the last says so
-LIFE: Final = dict(zip(ROLES, [*(timedelta(days=days) for days in (1825, 730, 730)), TIMESTAMP_LIFE], strict=True))
-STICK_LIFE: Final = timedelta(days=365)  # of the timestamp on a stick
 DRAFT: Final = "draft"
 LOCK: Final = ".lock"  # a file of the owner's: the folder itself may be locked by everybody who may read it
 
@@ -76,12 +73,12 @@ class Repository:
         else:
             versions = [int(name.name.split(".")[0]) for name in self.metadata.glob(f"*.{role}.json") if name.name[0].isdigit()]
             newest = self.metadata / f"{max(versions, default=0)}.{role}.json"
-        return _read(newest) if newest.exists() else None
+        return read_metadata(newest) if newest.exists() else None
 
     def drafted(self, role: str) -> Metadata[Any] | None:
         """What the draft has of a role."""
         file = self.draft / f"{role}.json"
-        return _read(file) if file.exists() else None
+        return read_metadata(file) if file.exists() else None
 
     @property
     def root(self) -> Root:
@@ -137,16 +134,16 @@ class Repository:
         Raises UpdateError if there is no draft, the key counts for nothing of it, or it is dated as no timestamp may be that
         follows the last.
         """
-        roles = [role for role in self._draft_roles() if signer.public_key.keyid in self.signers(role)]
+        drafted = self._all_drafted()
+        roles = [role for role in drafted if signer.public_key.keyid in self.signers(role)]
         if not roles:
-            who = sorted({owner(key) for role in self._draft_roles() for key in self.signers(role).values()})
+            who = sorted({owner(key) for role in drafted for key in self.signers(role).values()})
             raise UpdateError(f"{self.draft}: this key counts for nothing of it; what counts are the keys of {', '.join(who)}")
-        if (timestamp := self.drafted("timestamp")) and (made := issued(timestamp.signed)):
+        if (timestamp := drafted.get("timestamp")) and (made := issued(timestamp.signed)):
             self._check_issued(made)
         for role in roles:
-            metadata = _read(self.draft / f"{role}.json")
-            metadata.sign(signer, append=True)
-            write_durably(self.draft / f"{role}.json", to_bytes(metadata))
+            drafted[role].sign(signer, append=True)
+            write_durably(self.draft / f"{role}.json", to_bytes(drafted[role]))
         return roles
 
     def take(self, folder: Path) -> list[str]:
@@ -157,8 +154,8 @@ class Repository:
         other, taken = Repository(folder), set()
         if not other.draft.is_dir():
             raise UpdateError(f"{other.draft}: is not there: name the folder that the copy of `draft` lies in")
-        for role in self._draft_roles():
-            mine, copy = _read(self.draft / f"{role}.json"), other.drafted(role)
+        for role, mine in self._all_drafted().items():
+            copy = other.drafted(role)
             if copy is None or copy.signed_bytes != mine.signed_bytes:
                 raise UpdateError(
                     f"{other.draft / role}.json: is not a copy of {self.draft / role}.json: copy the draft again, and sign that"
@@ -168,15 +165,14 @@ class Repository:
                 if key_id in keys and key_id not in mine.signatures:
                     mine.signatures[key_id] = signature
                     taken.add(owner(keys[key_id]))
-            self._check_signatures(other.draft / f"{role}.json", role, mine)
+            check_signatures(other.draft / f"{role}.json", mine, keys)
             write_durably(self.draft / f"{role}.json", to_bytes(mine))
         return sorted(taken)
 
     def lacking(self) -> str:
         """Whose signatures the draft lacks, as text; empty if none."""
         reported = []
-        for role in self._draft_roles():
-            metadata = _read(self.draft / f"{role}.json")
+        for role, metadata in self._all_drafted().items():
             for root in self._roots(role):
                 result = root.get_verification_result(role, metadata.signed_bytes, metadata.signatures)
                 if not result:
@@ -193,7 +189,7 @@ class Repository:
         """
         if self.lacking() or not self.targets.is_dir():
             return False
-        drafted = {role: _read(self.draft / f"{role}.json") for role in self._draft_roles()}
+        drafted = self._all_drafted()
         for role, metadata in drafted.items():
             published = self.published(role)
             if published and published.signed.version != metadata.signed.version - 1 and published.signed != metadata.signed:
@@ -218,11 +214,11 @@ class Repository:
         old = self.published("root") if role == "root" else None
         return [self.root, old.signed] if old else [self.root]
 
-    def _draft_roles(self) -> list[str]:
-        roles = [role for role in ROLES if (self.draft / f"{role}.json").exists()]
-        if not roles:
-            raise UpdateError(f"{self.folder}: nothing waits for signatures: `add`, `rotate` or `renew` make a draft")
-        return roles
+    def _all_drafted(self) -> dict[str, Metadata[Any]]:
+        """What the draft has, by role."""
+        if drafted := {role: found for role in ROLES if (found := self.drafted(role))}:
+            return drafted
+        raise UpdateError(f"{self.folder}: nothing waits for signatures: `add`, `rotate` or `renew` make a draft")
 
     def _check_issued(self, now: datetime) -> None:
         """Check that a timestamp made now may follow the one that is published: devices would believe a clock that is wrong."""
@@ -235,14 +231,6 @@ class Repository:
             f"{self.folder}: a timestamp of {as_text(now)} is {how} the last one, of {as_text(before)}: set this computer's clock "
             f"right, and give up a draft made by it; if it is right, add --date {now:%Y-%m-%d}"
         )
-
-    def _check_signatures(self, file: Path, role: str, metadata: Metadata[Any]) -> None:
-        for key_id, key in self.signers(role).items():
-            if key_id in metadata.signatures:
-                try:
-                    key.verify_signature(metadata.signatures[key_id], metadata.signed_bytes)
-                except Exception as error:
-                    raise UpdateError(f"{file}: the signature of {owner(key)} does not hold: have it signed again") from error
 
     def _check_files(self) -> None:
         """Each file of the draft is there, whole."""
@@ -260,25 +248,3 @@ class Repository:
                     target.verify_length_and_hashes(opened)
             except (OSError, RepositoryError) as error:
                 raise UpdateError(f"{file}: is missing or altered: add the release again") from error
-
-
-def now() -> datetime:
-    """The time, in whole seconds as metadata has it."""
-    return datetime.now(UTC).replace(microsecond=0)
-
-
-def issue(signed: Signed, now: datetime) -> None:
-    """Say in metadata when it was made: devices without a clock take it for the least that the time can be."""
-    signed.unrecognized_fields[ISSUED] = as_text(now)
-
-
-def _read(file: Path) -> Metadata[Any]:
-    try:
-        return Metadata.from_bytes(file.read_bytes())
-    except (RepositoryError, OSError) as error:
-        raise UpdateError(f"{file}: is no metadata of a repository: take it from a backup") from error
-
-
-def to_bytes(metadata: Metadata[Any]) -> bytes:
-    """Metadata as a file."""
-    return metadata.to_bytes(JSONSerializer(compact=False))

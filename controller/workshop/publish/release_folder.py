@@ -20,7 +20,6 @@ from controller.durable import tell_disk
 from controller.errors import UpdateError
 
 BANKS: Final = "banks/"
-CHUNK_BYTES: Final = 1 << 20
 
 
 def write_release(
@@ -90,12 +89,8 @@ def banks(manifest: Manifest) -> Iterator[ReleaseFile]:
 
 def digest_of(file: Path) -> tuple[str, int]:
     """SHA-256 and size in bytes of a file."""
-    digest, size = hashlib.sha256(), 0
     with file.open("rb") as opened:
-        while chunk := opened.read(CHUNK_BYTES):
-            digest.update(chunk)
-            size += len(chunk)
-    return digest.hexdigest(), size
+        return hashlib.file_digest(opened, "sha256").hexdigest(), opened.tell()
 
 
 def _put(folder: Path, path: str, content: Path | bytes) -> ReleaseFile:

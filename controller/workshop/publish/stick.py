@@ -12,7 +12,8 @@ from controller.device.update.manifest import Channel, read_manifest
 from controller.durable import tell_disk, write_durably
 from controller.errors import UpdateError
 from controller.workshop.publish.keys import owner
-from controller.workshop.publish.publisher import STICK_LIFE, Repository, to_bytes
+from controller.workshop.publish.metadata import STICK_LIFE, to_bytes
+from controller.workshop.publish.publisher import Repository
 from controller.workshop.publish.release_folder import banks
 from controller.workshop.publish.repository_files import content_of, copy
 

@@ -14,8 +14,9 @@ from controller.device.update.download.fetch import fetch
 from controller.device.update.settings import UpdateSettings
 from controller.device.update.trust import clock
 from controller.errors import UpdateError
-from controller.workshop.publish import publisher
+from controller.workshop.publish import metadata
 from controller.workshop.publish.keys import new_key, open_key, read_public
+from controller.workshop.publish.metadata import ROLES
 from controller.workshop.publish.publications import draft_keys, draft_releases, draft_renewal
 from controller.workshop.publish.publisher import Repository
 from controller.workshop.publish.stick import export
@@ -66,7 +67,7 @@ class Fleet:
 
     def signed(self, repository):
         """Whether a draft was published, once all whose keys count have signed it."""
-        counting = {key_id for role in publisher.ROLES if repository.drafted(role) for key_id in repository.signers(role)}
+        counting = {key_id for role in ROLES if repository.drafted(role) for key_id in repository.signers(role)}
         for signer in self.owner.signers.values():
             if signer.public_key.keyid in counting:
                 repository.sign(signer)
@@ -198,7 +199,7 @@ def test_the_commands_take_a_date_that_was_looked_up(fleet, monkeypatch, capsys)
 
     monkeypatch.setenv("HAPTIC_PANEL_PASSPHRASE", PASSPHRASE)
     key = fleet.folder / "keys/publisher.pem"
-    monkeypatch.setattr(publisher, "now", lambda: NOW + 100 * DAY)
+    monkeypatch.setattr(metadata, "now", lambda: NOW + 100 * DAY)
     assert command("renew", fleet.owner.folder) == 1
     assert capsys.readouterr().err.endswith("if it is right, add --date 2027-03-02\n")
     assert command("renew", fleet.owner.folder, "--date", "tomorrow") == 2
@@ -217,10 +218,10 @@ def test_a_signer_with_another_clock_does_not_sign(fleet, monkeypatch, capsys, d
     with Repository.opened(fleet.owner.folder) as repository:
         draft_renewal(repository, NOW)
     words = ["update", "repository", "sign", str(fleet.owner.folder), "--key", str(fleet.folder / "keys/publisher.pem")]
-    monkeypatch.setattr(publisher, "now", lambda: NOW + days * DAY)
+    monkeypatch.setattr(metadata, "now", lambda: NOW + days * DAY)
     assert main(words) == 1
     reported = capsys.readouterr().err
     assert "timestamp.json: was made at 2026-11-22T12:00:00Z, and it is" in reported
     assert "timestamp version 3 of 2026-11-22, until 2027-02-20" in reported
-    monkeypatch.setattr(publisher, "now", lambda: NOW + 89 * DAY)
+    monkeypatch.setattr(metadata, "now", lambda: NOW + 89 * DAY)
     assert main(words) == 0

@@ -265,7 +265,7 @@ def test_a_timestamp_with_damaged_stops_or_openings_is_refused(tmp_path, field, 
 def test_the_commands_say_it_in_one_line(tmp_path, monkeypatch, capsys):
     """Publisher: shares, what is signed, a stop. Device: exit code 0 and nothing to do."""
     repository = TinyRepository(tmp_path / "repository", tmp_path / "keys")
-    monkeypatch.setattr("controller.workshop.publish.publisher.now", lambda: NOW)
+    monkeypatch.setattr("controller.workshop.publish.metadata.now", lambda: NOW)
     monkeypatch.setenv("HAPTIC_PANEL_PASSPHRASE", PASSPHRASE)
     release_folder(tmp_path / "1", "1.0.0", 1)
     folder = str(repository.folder)

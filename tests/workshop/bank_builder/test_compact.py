@@ -26,7 +26,7 @@ from controller.workshop.bank_builder.choice import choose
 from controller.workshop.bank_builder.compact import design as module
 from controller.workshop.bank_builder.compact import stencils
 from controller.workshop.bank_builder.compact.design import compact_grid, compact_pitch_m
-from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.responses.loaded_responses import words_source, yielding_alike

@@ -25,7 +25,7 @@ from controller.errors import ConfigError
 from controller.workshop.bank_builder.bank_fit import fit
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.choice import choose, settings
-from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 

@@ -15,7 +15,7 @@ from controller.device.bank.reader import Bank
 from controller.workshop.bank_builder import optimised, own_bank
 from controller.workshop.bank_builder.bank_fit import optimised_for
 from controller.workshop.bank_builder.build import build_bank
-from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.optimised import METHOD_VERSION, Optimise
 from controller.workshop.bank_builder.request import BankRequest
 

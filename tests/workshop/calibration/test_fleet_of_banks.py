@@ -21,7 +21,7 @@ from controller.cli import main
 from controller.commands.calibrate import fleet as fleet_command
 from controller.device.bank.reader import Bank
 from controller.workshop.bank_builder import said_amplitude
-from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.calibration.banks import fleet
 from controller.workshop.calibration.banks.fleet import KEPT, REPORT, calibrate_fleet
 from controller.workshop.calibration.banks.plate_bank import PlateBank, fit

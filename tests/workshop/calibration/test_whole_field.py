@@ -17,8 +17,9 @@ from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.bank.reader import Bank
 from controller.errors import CalibrationError, ConfigError
 from controller.workshop.bank_builder.build import build_bank
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.methods.audible_form import AudibleForm
-from controller.workshop.bank_builder.methods.descent import AIMS, Descent
+from controller.workshop.bank_builder.methods.descent import Descent
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.bank_builder.optimised import Optimise, contrast_of_plain
 from controller.workshop.bank_builder.request import BankRequest

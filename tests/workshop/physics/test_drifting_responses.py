@@ -11,7 +11,7 @@ from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.panel import AssumedFinger
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.build import build_bank
-from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.modes.plate_modes import modes_of

@@ -15,7 +15,7 @@ from controller.device.bank.reader import Bank
 from controller.device.board.panel import AssumedFinger
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.build import build_bank
-from controller.workshop.bank_builder.methods.descent import AIMS
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.design.design import point_impedance_kg_s
 from controller.workshop.physics.felt import LIGHT_TOUCH, ONE_NEWTON, FeltLoad, felt_amplitudes_um

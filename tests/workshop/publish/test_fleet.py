@@ -90,7 +90,7 @@ def rolled(tmp_path, monkeypatch):
     repository = TinyRepository(tmp_path / "repository", tmp_path / "keys")
     release_folder(tmp_path / "1", "1.0.0", 1)
     repository.publish(tmp_path / "1", rollout=steps((10, 0), (100, 2)))
-    monkeypatch.setattr("controller.workshop.publish.publisher.now", lambda: NOW + DAY)
+    monkeypatch.setattr("controller.workshop.publish.metadata.now", lambda: NOW + DAY)
     (tmp_path / "reports").mkdir()
     return tmp_path
 

@@ -17,7 +17,7 @@ from tuf.ngclient.fetcher import FetcherInterface
 from controller.device.update.download.fetch import TransferStatistics, check, fetch
 from controller.device.update.settings import UpdateSettings
 from controller.errors import UpdateError
-from controller.workshop.publish import publisher, repository_files
+from controller.workshop.publish import metadata, publisher, repository_files
 from controller.workshop.publish.keys import new_key, open_key, read_public
 from controller.workshop.publish.publications import draft_keys, draft_releases
 from controller.workshop.publish.publisher import Repository
@@ -49,7 +49,7 @@ def client(folder, place, root):
 @pytest.fixture(autouse=True)
 def clock(monkeypatch):
     """The owner's computers: a timestamp made later than these would be too far from the last."""
-    monkeypatch.setattr(publisher, "now", lambda: NOW)
+    monkeypatch.setattr(metadata, "now", lambda: NOW)
 
 
 @pytest.fixture

@@ -16,10 +16,9 @@ but what a light touch feels (`felt_form`), by its derivative at the bits of the
 All products are exact (`exact.py`), so a point's words do not depend on the machine or on what is computed with it.
 """
 
-import dataclasses
 import math
 from collections.abc import Sequence
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,9 +28,10 @@ from controller.device.bank.packing import channel_bits, drive_words
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.device.kernel import Point
+from controller.workshop.bank_builder.methods.aims import DescentAim
 from controller.workshop.bank_builder.methods.audible_form import AudibleForm
+from controller.workshop.bank_builder.methods.descent_cells import Cells, amplitudes, edges, own_edges
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
-from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.bank_builder.methods.felt_form import FeltForm
 from controller.workshop.bank_builder.methods.field_form import FieldForm
 from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlate
@@ -47,54 +47,6 @@ CALMER = 4.0  # an entry that switches too often is improved again, edges costin
 CALMING_PASSES = 4
 CELLS_AT_ONCE = 32  # at most, and as many as fit into
 WORKING_BYTES = 120e6  # of levels, gradients and modal forces
-
-
-@dataclasses.dataclass(frozen=True)
-class DescentAim:
-    """What a waveform is optimised for."""
-
-    name: str
-    # contrast, silence, calm: costs of the mean square field outside the focus (0: it is left alone, which saves most of the
-    # time), of the audible energy and of the edges of all channels, each relative to that of the plain waveform, where the
-    # plain waveform's amplitude is worth about `amplitude`
-    contrast: float
-    silence: float
-    calm: float
-    amplitude: float  # worth of the amplitude that the relaxation begins with
-    steps: int  # of the relaxation
-    passes: int = 1  # of the descent
-    share: float = 1.0  # of the plain amplitude, that the relaxation aims at
-    felt_turns: int = 0  # of relaxation, rounding and descent for the felt amplitude, its derivative computed again before each
-
-
-AIMS = {
-    aim.name: aim
-    for aim in (
-        DescentAim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
-        DescentAim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
-        DescentAim("balanced", contrast=0.1, silence=0.6, calm=0.15, amplitude=0.35, steps=80),
-        DescentAim("loud", contrast=0.0, silence=0.5, calm=0.1, amplitude=1.5, steps=100, share=1.2),
-        DescentAim("cool", contrast=0.0, silence=0.004, calm=1.4, amplitude=0.6, steps=20, passes=3, share=0.95),
-        DescentAim("felt", contrast=0.0, silence=0.5, calm=0.1, amplitude=1.5, steps=100, share=1.4, felt_turns=3),
-    )
-}
-
-
-@dataclasses.dataclass(eq=False)
-class _Cells:
-    """Points that are optimised together; every array has them along its axis `cell`."""
-
-    plain: Floats  # (sample, cell, 32): bits of the plain waveform
-    shapes: Floats  # (cell, mode)
-    places: list[Any]
-    worth: Floats  # (cell,): of the amplitude; changes during the relaxation
-    # amplitude, field, sound, edge: (cell,): worth 1 of amplitude, in the unit of `FieldForm`; cost of a unit of the mean
-    # square field, of audible energy, of an edge
-    amplitude: Floats
-    field: Floats
-    sound: Floats
-    edge: Floats
-    pull: Floats | None = None  # (sample, cell, 32): of the felt amplitude by levels, which then takes the place of `shapes`
 
 
 class Descent:
@@ -149,14 +101,14 @@ class Descent:
         if good.size:
             levels = self._felt(cells, points_m[good]) if self._aim.felt_turns else self._descended(cells)
             for _ in range(CALMING_PASSES):
-                busy = self._own_edges(levels).max(axis=1) > self._most_edges
+                busy = own_edges(levels).max(axis=1) > self._most_edges
                 if not busy.any():
                     break
-                cells.edge[busy] = np.maximum(cells.edge[busy], self._least_edge_cost(cells)[busy]) * CALMER
+                cells.edge[busy] = np.maximum(cells.edge[busy], cells.least_edge_cost(self._idle)[busy]) * CALMER
                 self._pass(cells, levels)
             share = self._amplitude(cells, levels) / cells.amplitude
             fit = (
-                (self._own_edges(levels).max(axis=1) <= self._most_edges)
+                (own_edges(levels).max(axis=1) <= self._most_edges)
                 & (share >= LEAST_SHARE)
                 & (share <= MOST_SHARE * self._aim.share)
             )
@@ -165,13 +117,13 @@ class Descent:
             words[good[fit]] = packed
         return words
 
-    def _descended(self, cells: _Cells) -> Floats:
+    def _descended(self, cells: Cells) -> Floats:
         levels = self._relaxed(cells)
         for _ in range(self._aim.passes + 1):  # the first rounds what is between 0 and 1
             self._pass(cells, levels)
         return levels
 
-    def _felt(self, cells: _Cells, points_m: Floats) -> Floats:
+    def _felt(self, cells: Cells, points_m: Floats) -> Floats:
         """Levels for the felt amplitude, in turns: it is what its derivative at the last ones says, or more."""
         form, levels = FeltForm(self._board, self._model(), points_m), cells.plain
         worth, plain_m = cells.worth, np.zeros(0)
@@ -182,26 +134,25 @@ class Descent:
             levels = self._descended(cells)
         return levels
 
-    def _amplitude(self, cells: _Cells, levels: Floats) -> Floats:
+    def _amplitude(self, cells: Cells, levels: Floats) -> Floats:
         """Amplitude of levels, (cell,), in the unit of `cells.amplitude`."""
         if cells.pull is None:
-            return _dot(cells.shapes, self.field.modal(levels))
+            return amplitudes(cells.shapes, self.field.modal(levels))
         found: Floats = np.sum(cells.pull * (levels - self._idle), axis=(0, 2))
         return found
 
-    def _cells(self, points_m: Floats, words: NDArray[np.uint32]) -> tuple[_Cells, Indices]:
+    def _cells(self, points_m: Floats, words: NDArray[np.uint32]) -> tuple[Cells, Indices]:
         """State of the points at which there is something to optimise, and which they are."""
         plain = np.stack([channel_bits(row) for row in words], axis=1).astype(np.float64)
         shapes = self.field.shapes(points_m)
         places = [self.field.surroundings(point) for point in points_m]
         modal = self.field.modal(plain)
-        amplitude = _dot(shapes, modal)
+        amplitude = amplitudes(shapes, modal)
         outside = self.field.mean_square(modal, places)
         sound = self._audible.energy(plain - self._idle)
         good = np.flatnonzero((amplitude > 0) & (outside > 0) & (sound > 0))
-        edges = self._edges(plain).sum(axis=1)
-        aim = self._aim
-        return _Cells(
+        aim, switched = self._aim, edges(plain, self._idle).sum(axis=1)
+        return Cells(
             plain=np.ascontiguousarray(plain[:, good]),
             shapes=shapes[good],
             places=[places[index] for index in good],
@@ -209,10 +160,10 @@ class Descent:
             amplitude=amplitude[good],
             field=aim.contrast / outside[good],
             sound=aim.silence / sound[good],
-            edge=aim.calm / np.maximum(edges[good], 1),
+            edge=aim.calm / np.maximum(switched[good], 1),
         ), good
 
-    def _relaxed(self, cells: _Cells) -> Floats:
+    def _relaxed(self, cells: Cells) -> Floats:
         """Levels from 0 to 1 in steps of 1 / `LEVELS`, (sample, cell, 32)."""
         share = np.array([place.share for place in cells.places])
         curvature = cells.field * share / 2  # of half the squared modes
@@ -250,7 +201,7 @@ class Descent:
         result: Floats = np.rint(levels * LEVELS) / LEVELS
         return result
 
-    def _pass(self, cells: _Cells, levels: Floats) -> None:
+    def _pass(self, cells: Cells, levels: Floats) -> None:
         """One pass over all samples in time order: levels between 0 and 1 are rounded, then bits are flipped that gain by it.
 
         Everything is divided by the cost of half a squared mode, so that the field's part of the gain of a change d of a bit is
@@ -295,26 +246,3 @@ class Descent:
                 before = levels[sample]
             if changes.any():
                 forces += self._audible.forces(self._audible.spectrum(np.ascontiguousarray(changes.transpose(1, 0, 2)), first))
-
-    def _edges(self, bits: Floats) -> Floats:
-        """Edges of each channel with those from and to the idle word, (cell, 32), of (sample, cell, 32) bits."""
-        ends = np.abs(bits[0] - self._idle) + np.abs(bits[-1] - self._idle)
-        found: Floats = self._own_edges(bits) + ends
-        return found
-
-    @staticmethod
-    def _own_edges(bits: Floats) -> Floats:
-        """Edges of each channel within an emission, (cell, 32), of (sample, cell, 32) bits."""
-        found: Floats = np.abs(np.diff(bits, axis=0)).sum(axis=0)
-        return found
-
-    def _least_edge_cost(self, cells: _Cells) -> Floats:
-        """Where edges cost nothing by the aim, a hundredth of what the amplitude is worth for all of them."""
-        found: Floats = cells.worth / 100 / np.maximum(self._edges(cells.plain).sum(axis=1), 1)
-        return found
-
-
-def _dot(shapes: Floats, modal: Floats) -> Floats:
-    """Sum of products of each row: (cell,)."""
-    found: Floats = np.sum(shapes * rounded(modal, 28, 1), axis=1)
-    return found

@@ -7,7 +7,8 @@ from typing import Any
 from controller.arrays import Words
 from controller.device.board.board import Board
 from controller.device.kernel import Point
-from controller.workshop.bank_builder.methods.descent import AIMS, Descent
+from controller.workshop.bank_builder.methods.aims import AIMS
+from controller.workshop.bank_builder.methods.descent import Descent
 from controller.workshop.bank_builder.methods.design import DesignMethod
 from controller.workshop.bank_builder.methods.exact_composition import ExactComposition
 from controller.workshop.bank_builder.methods.nulls import ExactNulls

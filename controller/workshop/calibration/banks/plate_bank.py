@@ -15,7 +15,7 @@ from controller.errors import CalibrationError, ConfigError
 from controller.workshop.bank_builder.build import BuildReport
 from controller.workshop.bank_builder.compact.design import compact_pitch_m
 from controller.workshop.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
-from controller.workshop.bank_builder.methods.descent import DescentAim
+from controller.workshop.bank_builder.methods.aims import DescentAim
 from controller.workshop.bank_builder.own_bank import SMALLEST_PITCH_MM, Order, chosen, pitch_of
 from controller.workshop.bank_builder.plan import refuse_aim
 from controller.workshop.calibration.banks.bank_figures import plate_figures, plate_notes

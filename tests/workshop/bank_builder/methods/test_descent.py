@@ -13,8 +13,9 @@ from small_plate import small_board
 from tables import each_row
 
 from controller.device.bank.packing import channel_bits, drive_words, edges
+from controller.workshop.bank_builder.methods.aims import AIMS
 from controller.workshop.bank_builder.methods.audible_form import AudibleForm
-from controller.workshop.bank_builder.methods.descent import AIMS, Descent
+from controller.workshop.bank_builder.methods.descent import Descent
 from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.bank_builder.methods.felt_form import FeltForm
 from controller.workshop.bank_builder.methods.field_form import FieldForm
@@ -162,7 +163,8 @@ import numpy as np
 sys.path.insert(0, sys.argv[1])
 from small_plate import small_board
 from controller.workshop.physics.responses.impulse_response import ResponseModel
-from controller.workshop.bank_builder.methods.descent import AIMS, Descent
+from controller.workshop.bank_builder.methods.aims import AIMS
+from controller.workshop.bank_builder.methods.descent import Descent
 board = small_board()
 product = np.sin(np.arange(4e4)).reshape(200, 200)
 print({pool["architecture"] for pool in threadpoolctl.threadpool_info()}, (product @ product).tobytes().hex()[:2000])
