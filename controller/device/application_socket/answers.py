@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from controller.device.application_socket.clients import Clients
 from controller.device.application_socket.connection import Connection, MessageTooLong
 from controller.device.application_socket.counters import SocketCounters
@@ -10,7 +12,8 @@ from controller.device.application_socket.protocol import panel_messages
 from controller.device.application_socket.protocol.client_messages import Id
 from controller.device.application_socket.protocol.panel_messages import Right
 from controller.device.application_socket.tickets import FULL
-from controller.device.loop.layer_source import AcceptedLayer, LayerResult
+from controller.device.loop.preparation import AcceptedLayer, LayerResult
+from controller.errors import ControllerError
 
 REASON_CHARACTERS = 250
 
@@ -59,6 +62,18 @@ class Answers:
             most = max(client.waiting, self._pending.of_user[client.peer.uid])
             self.answer(client, number, "refused", f"{most} commands wait for their outcome already")
         return ticket
+
+    def begin(self, client: Connection, number: Id, order: Callable[[int], None]) -> bool:
+        """Give an order under a ticket, by which its outcome will be answered; whether it was taken: a refusal is answered now."""
+        ticket = self.ticket(client, number)
+        if ticket == FULL:
+            return False
+        try:
+            order(ticket)
+        except ControllerError as error:
+            self.outcome(ticket, "refused", reason=str(error))
+            return False
+        return True
 
     def outcome(self, ticket: int, outcome: panel_messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
         """Answer the command that took a ticket, and send the answer.

@@ -12,7 +12,7 @@ The same from a shell: `python -m controller.device.application_socket.client --
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Self
+from typing import Any, Self, TypedDict, Unpack
 
 import msgspec
 from msgspec import Raw
@@ -34,7 +34,16 @@ from controller.device.application_socket.protocol.panel_messages import (
     Touch,
 )
 
+PointMm = tuple[float, float]
 DEFAULT_PATH = "/run/haptic-panel/panel.sock"
+
+
+class Where(TypedDict, total=False):
+    """For whom an effect is to be played, and how strongly; see `PanelClient.play`."""
+
+    finger: int | None
+    region: str | None
+    amplitude: float | None
 
 
 class PanelClient:
@@ -58,15 +67,7 @@ class PanelClient:
         """End the connection."""
         self._link.close()
 
-    def play(
-        self,
-        effect: str | Mapping[str, Any],
-        *,
-        at_mm: tuple[float, float] | None = None,
-        finger: int | None = None,
-        region: str | None = None,
-        amplitude: float | None = None,
-    ) -> Answer:
+    def play(self, effect: str | Mapping[str, Any], *, at_mm: PointMm | None = None, **where: Unpack[Where]) -> Answer:
         """Play an effect at a point of the plate, at a finger or at all fingers in a region, and wait for the outcome.
 
         The effect is one of `hello().effects`, a name given to `keep_clip`, or a table with the keys of a scene's
@@ -77,28 +78,18 @@ class PanelClient:
         `outcome` of the answer is "played", "merged" (replaced by a newer command), "skipped" or "refused", with its
         `reason`.
         """
-        return self._link.answer(self.start_play(effect, at_mm=at_mm, finger=finger, region=region, amplitude=amplitude))
+        return self._link.answer(self.start_play(effect, at_mm=at_mm, **where))
 
-    def start_play(
-        self,
-        effect: str | Mapping[str, Any],
-        *,
-        at_mm: tuple[float, float] | None = None,
-        finger: int | None = None,
-        region: str | None = None,
-        amplitude: float | None = None,
-    ) -> int:
+    def start_play(self, effect: str | Mapping[str, Any], *, at_mm: PointMm | None = None, **where: Unpack[Where]) -> int:
         """As `play`, but without waiting: returns the id to give to `wait`."""
         x_mm, y_mm = at_mm or (None, None)
-        where: dict[str, Any] = {"x_mm": x_mm, "y_mm": y_mm, "finger": finger, "region": region, "amplitude": amplitude}
-        number = self._link.new_id()
         if isinstance(effect, str):
-            return self._link.ask(client_messages.PlayRequest(id=number, effect=effect, **where))
-        return self._link.ask(client_messages.Clip(id=number, effect=Raw(msgspec.json.encode(effect)), **where))
+            return self._link.ask(client_messages.PlayRequest(effect=effect, x_mm=x_mm, y_mm=y_mm, **where))
+        return self._link.ask(client_messages.Clip(effect=Raw(msgspec.json.encode(effect)), x_mm=x_mm, y_mm=y_mm, **where))
 
     def keep_clip(self, name: str, effect: Mapping[str, Any]) -> None:
         """Have the panel keep an effect, a table with the keys of a scene's [effects.NAME], to be played by that name."""
-        self._link.done(client_messages.Clip(id=self._link.new_id(), effect=Raw(msgspec.json.encode(effect)), name=name))
+        self._link.done(client_messages.Clip(effect=Raw(msgspec.json.encode(effect)), name=name))
 
     def wait(self, number: int) -> Answer:
         """Wait for the outcome of a command given with `start_play`."""
@@ -117,16 +108,13 @@ class PanelClient:
         lies where the one before lay. The answer comes when the layer is in force; its `refused` names the regions that are
         not in it. A layer that is refused as a whole leaves the one before.
         """
-        number = self._link.new_id()
         raw = Raw(msgspec.json.encode(effects or {}))
         tables = tuple(Raw(msgspec.json.encode(region)) for region in regions)
-        return self._link.question(
-            client_messages.Regions(id=number, regions=tables, effects=raw, transform=transform), LayerAnswer
-        )
+        return self._link.question(client_messages.Regions(regions=tables, effects=raw, transform=transform), LayerAnswer)
 
     def move_regions(self, *, x_mm: float = 0.0, y_mm: float = 0.0, scale: float = 1.0) -> None:
         """Move this client's layer: its point (x, y) is at (x_mm + scale x, y_mm + scale y) on the plate."""
-        self._link.done(client_messages.MoveRegions(id=self._link.new_id(), x_mm=x_mm, y_mm=y_mm, scale=scale))
+        self._link.done(client_messages.MoveRegions(x_mm=x_mm, y_mm=y_mm, scale=scale))
 
     def touches(self) -> Iterator[Touch]:
         """Every touch from this call on, until the iterator is closed."""
@@ -138,7 +126,7 @@ class PanelClient:
 
     def subscribe(self, *topics: client_messages.Topic) -> None:
         """Have the panel send what belongs to these topics, for `heard`."""
-        self._link.done(client_messages.Subscribe(id=self._link.new_id(), to=topics))
+        self._link.done(client_messages.Subscribe(to=topics))
 
     def heard(self, kind: type[T], wait_s: float) -> list[T]:
         """What has come of a kind that was subscribed to; if nothing has, wait up to `wait_s` for a message of any kind."""
@@ -166,50 +154,50 @@ class PanelClient:
 
     def arm(self) -> None:
         """Switch the outputs on as soon as the FPGA allows it; `states` reports when they are. For operators."""
-        self._link.done(client_messages.Arm(id=self._link.new_id()))
+        self._link.done(client_messages.Arm())
 
     def disarm(self) -> None:
         """Ramp the outputs down to 0 V; they stay off until a client arms. For operators."""
-        self._link.done(client_messages.Disarm(id=self._link.new_id()))
+        self._link.done(client_messages.Disarm())
 
     def test_channel(self, channel: int) -> Answer:
         """Play a chirp on one channel alone, and wait for the outcome, as of `play`; for operators."""
-        return self._link.answer(self._link.ask(client_messages.ChannelTest(id=self._link.new_id(), channel=channel)))
+        return self._link.answer(self._link.ask(client_messages.ChannelTest(channel=channel)))
 
     def write_trace(self) -> None:
         """Have the service write what its loop did in the last seconds; for operators.
 
         The service's log names the file, `haptic-panel trace` explains it.
         """
-        self._link.done(client_messages.WriteTrace(id=self._link.new_id()))
+        self._link.done(client_messages.WriteTrace())
 
     def stop(self) -> None:
         """As `disarm`, whatever this user's rights are."""
-        self._link.done(client_messages.Stop(id=self._link.new_id()))
+        self._link.done(client_messages.Stop())
 
     def state(self) -> StateAnswer:
         """State of the panel: outputs, cause of a fault, touch panel, temperature."""
-        return self._link.question(client_messages.AskState(id=self._link.new_id()), StateAnswer)
+        return self._link.question(client_messages.AskState(), StateAnswer)
 
     def load_scene(self, name: str) -> None:
         """Load another scene of the board; returns when it is in force. If it is refused, the panel keeps the scene before."""
-        self._link.done(client_messages.LoadScene(id=self._link.new_id(), name=name))
+        self._link.done(client_messages.LoadScene(name=name))
 
     def save_scene(self, name: str, toml: str) -> None:
         """Keep a scene.toml, given as text, on the device, so that `load_scene` finds it by its name."""
-        self._link.done(client_messages.SaveScene(id=self._link.new_id(), name=name, toml=toml))
+        self._link.done(client_messages.SaveScene(name=name, toml=toml))
 
     def figures(self) -> dict[str, Any]:
         """Counters and latencies of the panel so far."""
-        return self._link.question(client_messages.AskFigures(id=self._link.new_id()), FiguresAnswer).figures
+        return self._link.question(client_messages.AskFigures(), FiguresAnswer).figures
 
     def describe(self) -> Description:
         """What the panel is and plays: plate, patches, axes, scene, effects, limits, versions, last faults."""
-        return self._link.question(client_messages.Describe(id=self._link.new_id()), Description)
+        return self._link.question(client_messages.Describe(), Description)
 
     def hello(self) -> Greeting:
         """Version, board, extents in mm, the effects that a command can play, and this user's rights."""
-        return self._link.question(client_messages.Hello(id=self._link.new_id()), Greeting)
+        return self._link.question(client_messages.Hello(), Greeting)
 
 
 if __name__ == "__main__":

@@ -58,32 +58,19 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
             panel.load_scene(options.name)
         case "save":
             panel.save_scene(options.name, _text(options.file))
-        case "arm":
-            panel.arm()
-        case "disarm":
-            panel.disarm()
+        case "arm" | "disarm" | "stop" as order:
+            getattr(panel, order)()
         case "test-channel":
             answer = panel.test_channel(options.channel)
             _show(answer)
             return 0 if answer.outcome == "played" else 1
         case "trace":
             panel.write_trace()
-        case "stop":
-            panel.stop()
-        case "state" if options.follow:
-            for state in panel.states():
-                _show(state)
-        case "state":
-            _show(panel.state())
-        case "figures":
-            _show(panel.figures())
-        case "describe" if options.follow:
-            for description in panel.descriptions():
-                _show(description)
-        case "describe":
-            _show(panel.describe())
-        case "hello":
-            _show(panel.hello())
+        case "state" | "describe" as question if options.follow:
+            for notice in panel.states() if question == "state" else panel.descriptions():
+                _show(notice)
+        case "state" | "figures" | "describe" | "hello" as question:
+            _show(getattr(panel, question)())
     return 0
 
 

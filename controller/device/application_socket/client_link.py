@@ -73,7 +73,7 @@ class PanelLink:
 
     def follow(self, kind: type[T], topic: client_messages.Topic) -> Iterator[T]:
         """Everything of a topic from this call on, until the iterator is closed, which ends all topics."""
-        self.done(client_messages.Subscribe(id=self.new_id(), to=(topic,)))
+        self.done(client_messages.Subscribe(to=(topic,)))
         return self._follow(self._notices[kind])
 
     def heard(self, kind: type[T], wait_s: float) -> list[T]:
@@ -94,27 +94,23 @@ class PanelLink:
                 self._keep(self._receive(None))  # nobody may touch the panel for hours
         except GeneratorExit:
             if self._socket.fileno() >= 0:
-                self.done(client_messages.Unsubscribe(id=self.new_id()))
+                self.done(client_messages.Unsubscribe())
                 for notices in self._notices.values():
                     notices.clear()
 
-    def new_id(self) -> int:
-        """An id that no request has had."""
-        self._last_id += 1
-        return self._last_id
-
     def ask(self, request: AnyRequest) -> int:
-        """Send a request; the id to wait for."""
+        """Send a request under an id that none has had; the id to wait for."""
+        self._last_id += 1
+        numbered = msgspec.structs.replace(request, id=self._last_id)
         try:
             self._socket.settimeout(self._timeout_s)
-            self._socket.sendall(self._encoder.encode(request) + b"\n")
+            self._socket.sendall(self._encoder.encode(numbered) + b"\n")
         except BrokenPipeError:
             self._receive_all()  # its farewell may still be there
             raise LinkError(f"{self._path}: the panel has ended the connection") from None
         except OSError as error:
             raise LinkError(f"{self._path}: the panel does not read what it is sent ({error.strerror or error})") from error
-        assert isinstance(request.id, int)
-        return request.id
+        return self._last_id
 
     def done(self, request: AnyRequest) -> None:
         """Send a request, and wait until it is done; ControllerError if it is refused."""

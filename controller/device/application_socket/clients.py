@@ -7,14 +7,15 @@ import errno
 import math
 import select
 import socket
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import msgspec
 
-from controller.device.application_socket.connection import NOT_LOGGED, UNWATCHED, Connection
+from controller.device.application_socket.connection import UNWATCHED, Connection
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.peers import Peer, Rights
 from controller.device.application_socket.places import offered
+from controller.device.application_socket.protocol.client_messages import Topic
 from controller.device.application_socket.protocol.panel_messages import Farewell, Right
 from controller.device.application_socket.socket_file import SocketFile
 from controller.device.board.devices import ApplicationSocket
@@ -96,7 +97,7 @@ class Clients:
             self.unsubscribe(client)
             client.leave_s = now_s + LEAVE_S
         has_line = client.has_line and not client.leaving_reason
-        over = client.ended and not has_line and not client.waiting and not client.listening
+        over = client.ended and not has_line and not client.waiting and not client.topics
         if (
             (client.leaving_reason and not client.unsent)
             or client.leave_s <= now_s
@@ -119,16 +120,19 @@ class Clients:
         """Stop reading a client that sends too fast, for the longer the more clients there are."""
         client.resume_s = now_s + PAUSE_S * sum(1 for _ in self)
 
-    def subscribe(self, client: Connection, *, touches: bool) -> None:
-        """Have a client receive touches, or no longer."""
-        self.touch_subscribers += touches - client.subscribed
-        client.subscribed = touches
+    def subscribers(self, topic: Topic) -> list[Connection]:
+        """Clients that have subscribed to a topic."""
+        return [client for client in self.places if topic in client.topics]
+
+    def subscribe(self, client: Connection, topics: Iterable[Topic]) -> None:
+        """Have a client receive what belongs to topics, too."""
+        client.topics.update(topics)
+        self.touch_subscribers = len(self.subscribers("touches"))
 
     def unsubscribe(self, client: Connection) -> None:
         """Have a client receive nothing but answers."""
-        self.subscribe(client, touches=False)
-        client.overhears = client.shown_emissions = client.informed = client.described = client.warned = False
-        client.lines_sent = NOT_LOGGED
+        client.topics.clear()
+        self.subscribe(client, ())
 
     def send(self, client: Connection) -> None:
         """Send what is queued for a client; what remains is left to the next turn."""

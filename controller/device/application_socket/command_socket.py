@@ -28,7 +28,7 @@ from controller.device.board.devices import ApplicationSocket
 from controller.device.board.panel_state import Condition
 from controller.device.loop.commands import Outcome
 from controller.device.loop.control import PanelControl
-from controller.device.loop.layer_source import LayerResult
+from controller.device.loop.preparation import LayerResult
 from controller.device.touch.source import TouchSample
 
 LINES_A_TURN = 16  # of all clients
@@ -103,10 +103,9 @@ class CommandSocket:
                 clients.settle(client, now_s)
         if self._scene_changed:
             self._scene_changed = False
-            for client in clients:
-                if client.described:
-                    self._questions.describe_to(client, control)
-                    clients.send(client)
+            for client in clients.subscribers("description"):
+                self._questions.describe_to(client, control)
+                clients.send(client)
         self._emissions.serve(now_s, control, self._notifications.condition.temperature_c)
         self._notifications.lines()
         while clients.gone:

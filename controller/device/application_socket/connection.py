@@ -8,7 +8,7 @@ import socket
 import msgspec
 
 from controller.device.application_socket.peers import Peer
-from controller.device.application_socket.protocol.client_messages import LINE_BYTES
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES, Topic
 from controller.device.application_socket.protocol.panel_messages import AnyMessage, Farewell, Right
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.scene.clips import ClientEffect
@@ -18,7 +18,6 @@ LAYER_BURST = 5  # times that a client may replace its regions at once
 FAREWELL_BYTES = 512  # reserved behind them for the farewell
 CLOSED = -1
 UNWATCHED = -1
-NOT_LOGGED = -1
 NEWLINE = 10
 NOBODY = Peer(-1, -1, frozenset())
 
@@ -45,13 +44,8 @@ class Connection:
         self.peer = NOBODY
         self.rights: tuple[Right, ...] = ()
         self.heard_s = -math.inf  # when its last line arrived, in s of the host's clock
-        self.subscribed = False  # to touches
-        self.overhears = False  # subscribed to contacts
-        self.shown_emissions = False  # subscribed to emissions
-        self.informed = False  # subscribed to states
-        self.described = False  # subscribed to descriptions
-        self.warned = False  # subscribed to faults
-        self.lines_sent = NOT_LOGGED  # of the log, for a subscriber to it
+        self.topics: set[Topic] = set()  # that it has subscribed to
+        self.lines_sent = 0  # of the log, for a subscriber to it
         self.ended = False  # the client sends no more
         self.deaf = False  # the client reads no more
         self.leaving_reason = ""
@@ -79,8 +73,7 @@ class Connection:
         self.peer, self.rights, self.heard_s = peer, rights, now_s
         self.fd = client.fileno()
         self.serial = serial
-        self.subscribed = self.overhears = self.shown_emissions = self.informed = self.described = self.warned = False
-        self.lines_sent = NOT_LOGGED
+        self.topics.clear()
         self.ended = self.deaf = self.layered = self._skipping = False
         self.leaving_reason = ""
         self.leave_s, self.resume_s = math.inf, -math.inf
@@ -105,22 +98,9 @@ class Connection:
         return self.fd != CLOSED
 
     @property
-    def listening(self) -> bool:
-        """Whether it has subscribed to anything."""
-        return (
-            self.subscribed
-            or self.overhears
-            or self.shown_emissions
-            or self.informed
-            or self.described
-            or self.warned
-            or self.lines_sent != NOT_LOGGED
-        )
-
-    @property
     def silent(self) -> bool:
         """Whether it has no subscription, no regions, no pending command, no unanswered line and no farewell."""
-        return not (self.listening or self.layered or self.waiting or self.has_line or self.leaving_reason)
+        return not (self.topics or self.layered or self.waiting or self.has_line or self.leaving_reason)
 
     @property
     def unsent(self) -> bool:

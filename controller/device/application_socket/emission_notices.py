@@ -53,7 +53,7 @@ class EmissionNotices:
         """Send what has happened since, if it is time; `plate_c` is the plate's temperature, None if it is not known."""
         if now_s < self.next_s() or not self._ring.wanted:
             return
-        subscribers = [client for client in self._clients if client.shown_emissions]
+        subscribers = self._clients.subscribers("emissions")
         starts, skipped = self._ring.since(self._sent), self._causes(control)
         lost = self._ring.count - self._sent - len(starts)
         more = {cause: now - before for cause, now, before in zip(NOT_PLAYED, skipped, self._skipped, strict=True) if now != before}

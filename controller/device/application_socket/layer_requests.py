@@ -5,7 +5,6 @@ from __future__ import annotations
 from controller.device.application_socket.answers import Answers
 from controller.device.application_socket.connection import Connection
 from controller.device.application_socket.protocol.client_messages import MoveRegions, Regions, Transform
-from controller.device.application_socket.tickets import FULL
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.control import PanelControl
 from controller.device.scene.layers import Placement
@@ -28,16 +27,10 @@ class LayerRequests:
         if not client.layer_rate.take(now_s):
             self._answers.answer(client, request.id, "refused", "rate")
             return
-        ticket = self._answers.ticket(client, request.id)
-        if ticket == FULL:
-            return
         where = None if request.transform is None else _placement(request.transform)
-        try:
-            control.put_layer(ticket, client.serial, bytes(line), where, now_s)
-        except ControllerError as error:
-            self._answers.outcome(ticket, "refused", reason=str(error))
-        else:
-            client.layered = True
+        client.layered |= self._answers.begin(
+            client, request.id, lambda ticket: control.put_layer(ticket, client.serial, bytes(line), where, now_s)
+        )
 
     def move(self, client: Connection, request: MoveRegions, control: PanelControl) -> None:
         """Move a client's regions."""

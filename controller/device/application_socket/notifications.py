@@ -6,13 +6,15 @@ from collections.abc import Sequence
 from math import isfinite
 
 from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import NOT_LOGGED, Connection
+from controller.device.application_socket.connection import Connection
 from controller.device.application_socket.description import Faults
 from controller.device.application_socket.protocol import client_messages, panel_messages
 from controller.device.board.panel_state import Condition
 from controller.device.loop.control import PanelControl
 from controller.device.touch.source import TouchSample
 from controller.log import LAST_LINES, LOG
+
+NO_LINES = -1  # of the log have been sent
 
 
 class Notifications:
@@ -22,7 +24,7 @@ class Notifications:
         self.condition = Condition()  # as last reported
         self.faults = Faults()
         self._clients = clients
-        self._lines_sent = NOT_LOGGED
+        self._lines_sent = NO_LINES
         self._control: PanelControl | None = None  # whose contacts are heard
         self._logged_to = False  # whether anybody has subscribed to the log
 
@@ -30,24 +32,20 @@ class Notifications:
         """Send the touch samples of one report, lengths in mm."""
         if not self._clients.touch_subscribers:
             return
-        for client in self._clients.places:
-            if client.subscribed:
-                self._send(client, samples, panel_messages.Touch)
+        for client in self._clients.subscribers("touches"):
+            self._send(client, samples, panel_messages.Touch)
 
-    def contacts_to(self, client: Connection, control: PanelControl) -> None:
-        """Have a client receive the contacts of each report from now on."""
-        client.overhears = True
+    def hear_contacts(self, control: PanelControl) -> None:
+        """Have the contacts of each report sent to those who have subscribed to them."""
         self._control = control
         control.hear(self._contacts)
 
     def _contacts(self, samples: Sequence[TouchSample]) -> None:
         """Send the contacts of one report, until the last client that wanted them has gone."""
-        wanted = False
-        for client in self._clients.places:
-            if client.overhears:
-                wanted = True
-                self._send(client, samples, panel_messages.ContactNotice)
-        if not wanted and self._control is not None:
+        subscribers = self._clients.subscribers("contacts")
+        for client in subscribers:
+            self._send(client, samples, panel_messages.ContactNotice)
+        if not subscribers and self._control is not None:
             self._control.hear(None)
 
     def _send(self, client: Connection, samples: Sequence[TouchSample], kind: type[panel_messages.Touch]) -> None:
@@ -69,27 +67,24 @@ class Notifications:
         self.condition = condition
         fault = self.faults.changed(condition, now_s)
         if fault is not None:
-            for client in self._clients.places:
-                if client.warned:
-                    client.put(fault)
-                    self._clients.send(client)
-        for client in self._clients.places:
-            if client.informed:
-                client.put(self.state())
+            for client in self._clients.subscribers("faults"):
+                client.put(fault)
                 self._clients.send(client)
+        for client in self._clients.subscribers("state"):
+            client.put(self.state())
+            self._clients.send(client)
 
     def lines(self) -> None:
         """Send lines of the log to the clients that subscribed to them."""
         if not self.has_lines:
             return
         self._logged_to = False
-        for client in self._clients.places:
-            self._logged_to |= client.lines_sent != NOT_LOGGED
-            if NOT_LOGGED < client.lines_sent < LOG.count:
-                for line in list(LOG.last)[client.lines_sent - LOG.count :]:
-                    client.put(panel_messages.LogLine(time_s=line.time_s, priority=int(line.priority), text=line.text))
-                    self._clients.send(client)  # each at once: all of them may be more than the queue takes
-                client.lines_sent = LOG.count
+        for client in self._clients.subscribers("log"):
+            self._logged_to = True
+            for line in list(LOG.last)[client.lines_sent - LOG.count :] if client.lines_sent < LOG.count else ():
+                client.put(panel_messages.LogLine(time_s=line.time_s, priority=int(line.priority), text=line.text))
+                self._clients.send(client)  # each at once: all of them may be more than the queue takes
+            client.lines_sent = LOG.count
         self._lines_sent = LOG.count
 
     @property
@@ -98,10 +93,9 @@ class Notifications:
         return self._logged_to and self._lines_sent != LOG.count
 
     def log_to(self, client: Connection) -> None:
-        """Have a client receive the last lines of the log, and each one from now on."""
-        if client.lines_sent == NOT_LOGGED:
-            client.lines_sent = max(LOG.count - LAST_LINES, 0)
-            self._logged_to, self._lines_sent = True, NOT_LOGGED
+        """Have a new subscriber receive the last lines of the log, too."""
+        client.lines_sent = max(LOG.count - LAST_LINES, 0)
+        self._logged_to, self._lines_sent = True, NO_LINES
 
     def state(self, number: client_messages.Id = None) -> panel_messages.StateAnswer:
         """The condition as a message: the answer to the request with id `number`, or with None a notification."""

@@ -15,7 +15,6 @@ from controller.device.application_socket.protocol.client_messages import (
     WriteTrace,
 )
 from controller.device.application_socket.switched_off import SwitchedOff
-from controller.device.application_socket.tickets import FULL
 from controller.device.board.board import Board
 from controller.device.loop.control import PanelControl
 from controller.errors import ControllerError
@@ -66,19 +65,14 @@ class OperatorRequests:
         return self._rights.called(client.peer) + (f" for {by}" if by else "")
 
     def _load_or_save(self, client: Connection, request: LoadScene | SaveScene, control: PanelControl) -> None:
-        ticket = self._answers.ticket(client, request.id)
-        if ticket == FULL:
-            return
-        did = "saves" if isinstance(request, SaveScene) else "loads"
-        try:
-            if isinstance(request, SaveScene):
-                control.save_scene(ticket, request.name, request.toml)
-            else:
-                control.load_scene(ticket, request.name)
-        except ControllerError as error:
-            self._answers.loaded(ticket, str(error))
+        if isinstance(request, SaveScene):
+            name, toml, did = request.name, request.toml, "saves"
+            begun = self._answers.begin(client, request.id, lambda ticket: control.save_scene(ticket, name, toml))
         else:
-            log(f"{self._rights.called(client.peer)} {did} the scene {request.name!r}", Event.OPERATED)
+            name, did = request.name, "loads"
+            begun = self._answers.begin(client, request.id, lambda ticket: control.load_scene(ticket, name))
+        if begun:
+            log(f"{self._rights.called(client.peer)} {did} the scene {name!r}", Event.OPERATED)
 
     def _test_channel(self, client: Connection, request: ChannelTest, now_s: float, control: PanelControl) -> None:
         channel, board = request.channel, self._board
@@ -86,13 +80,8 @@ class OperatorRequests:
         if patch is None:
             self._answers.invalid(client, request.id, f"channel {channel} drives no actuator of board {board.name!r}")
             return
-        ticket = self._answers.ticket(client, request.id)
-        if ticket == FULL:
-            return
-        try:
-            control.test_channel(ticket, channel, patch.x_mm * 1e-3, patch.y_mm * 1e-3, now_s)
-        except ControllerError as error:
-            self._answers.outcome(ticket, "refused", reason=str(error))
+        x_m, y_m = patch.x_mm * 1e-3, patch.y_mm * 1e-3
+        self._answers.begin(client, request.id, lambda ticket: control.test_channel(ticket, channel, x_m, y_m, now_s))
 
     def _write_trace(self, client: Connection, request: WriteTrace, control: PanelControl) -> None:
         try:

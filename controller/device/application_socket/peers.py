@@ -24,7 +24,6 @@ CREDENTIALS = struct.Struct("iII")
 GROUP_BYTES = 4
 GROUPS = 64  # room for the first attempt; the kernel reports if there are more
 ROOT = 0
-EVERYBODY = -1
 ALL: tuple[Right, ...] = ("play", "regions", "operate")
 VERBS = {"regions": "lay regions over the scene"}
 LIBC = ctypes.CDLL(None, use_errno=True)  # Python's own getsockopt takes at most 1,024 bytes: 256 groups
@@ -72,9 +71,7 @@ class Rights:
     def __init__(self, settings: ApplicationSocket) -> None:
         self._groups = {"play": settings.play_group, "regions": settings.regions_group, "operate": settings.operate_group}
         self._look = _look(settings.look_group)
-        self._play = _number("play_group", settings.play_group) if settings.play_group else EVERYBODY
-        self._operate = _number("operate_group", settings.operate_group) if settings.operate_group else None
-        self._regions = _number("regions_group", settings.regions_group) if settings.regions_group else None
+        self._numbers = {right: _number(f"{right}_group", group) for right, group in self._groups.items() if group}
         self._masters = {ROOT, os.geteuid()}
         self._names = {user.pw_uid: user.pw_name for user in pwd.getpwall()}
 
@@ -84,10 +81,10 @@ class Rights:
             return ALL
         if self._look in peer.groups:
             return ("look",)
-        if self._operate in peer.groups:
+        if self._numbers.get("operate") in peer.groups:
             return ALL
-        play: tuple[Right, ...] = ("play",) if self._play == EVERYBODY or self._play in peer.groups else ()
-        return (*play, "regions") if self._regions in peer.groups else play
+        play: tuple[Right, ...] = ("play",) if "play" not in self._numbers or self._numbers["play"] in peer.groups else ()
+        return (*play, "regions") if self._numbers.get("regions") in peer.groups else play
 
     def called(self, peer: Peer) -> str:
         """Name of the user with uid and pid, for messages."""

@@ -76,21 +76,17 @@ class Questions:
 
     def _subscribe(self, client: Connection, request: Subscribe, control: PanelControl) -> None:
         to = request.to
-        self._clients.subscribe(client, touches=client.subscribed or "touches" in to)
+        if "log" in to and "log" not in client.topics:
+            self._notifications.log_to(client)
+        self._clients.subscribe(client, to)
         self._answers.answer(client, request.id, "done")
         if "state" in to:
-            client.informed = True
             client.put(self._notifications.state())
-        client.warned |= "faults" in to
-        if "log" in to:
-            self._notifications.log_to(client)
         if "contacts" in to:
-            self._notifications.contacts_to(client, control)
+            self._notifications.hear_contacts(control)
         if "emissions" in to:
-            client.shown_emissions = True
             self._emissions.begin(control)
         if "description" in to:
-            client.described = True
             self.describe_to(client, control)
 
     def _all_figures(self, now_s: float, control: PanelControl) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Protocol
 
 from controller.device.board.panel_state import Condition
-from controller.device.loop.layer_source import LayerResult
+from controller.device.loop.preparation import LayerResult
 from controller.device.touch.source import TouchSample
 
 if TYPE_CHECKING:

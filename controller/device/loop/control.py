@@ -8,7 +8,7 @@ from controller.device.loop.context import LoopContext
 from controller.device.loop.layers import Layers
 from controller.device.loop.outputs import Outputs
 from controller.device.loop.playing.host_timing import HostTiming
-from controller.device.loop.scene_source import SceneChange
+from controller.device.loop.preparation import SceneChange
 from controller.device.loop.scheduler import Scheduler
 from controller.device.scene.clips import ClientEffect
 from controller.device.scene.scene import Scene

@@ -17,12 +17,13 @@ from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.control import PanelControl
 from controller.device.loop.dispatcher import Dispatcher
 from controller.device.loop.fixed_emitters import ROUNDING_S
+from controller.device.loop.idling import Idling
 from controller.device.loop.layers import Layers
 from controller.device.loop.outputs import Outputs
 from controller.device.loop.playing.playback import Playback
 from controller.device.loop.playing.records import Turn
+from controller.device.loop.preparation import SceneChange
 from controller.device.loop.runtime import no_garbage_collection
-from controller.device.loop.scene_source import SceneChange
 from controller.device.loop.scene_takeover import SceneTakeover
 from controller.device.loop.scheduler import Scheduler
 from controller.device.loop.trace_ring import LATE_S
@@ -78,9 +79,8 @@ class EventLoop:
         self._reload = False
         self._stopped = False
         self._slept_until_s = NEVER  # NEVER too if the loop did not sleep before this turn
-        self._idle_after_s = idle_after_s
+        self._idling = Idling(self.outputs, scheduler, playback, idle_after_s)
         self._held = False  # the outputs have just come on for what waits
-        self._active_s = -NEVER  # when something was last touched or played
 
     @property
     def repeating(self) -> bool:
@@ -130,7 +130,7 @@ class EventLoop:
                             self.outputs.disarm()
                         waited = self.outputs.waking
                         if self.outputs.advance(self._clock.now_s()):
-                            self._active_s = self._clock.now_s()
+                            self._idling.active_s = self._clock.now_s()
                             if waited:
                                 self._held = True
                             else:
@@ -196,7 +196,9 @@ class EventLoop:
         if self._layers.pending:
             self._layers.turn(now_s)
         fpga_s = now_s + self._clock_estimate.offset_s
-        if self._idle_after_s != NEVER and self._begins_idle(now_s, touched=report_ns >= 0):
+        if self._idling.after_s != NEVER and self._idling.begins(now_s, touched=report_ns >= 0):
+            self._abandon()
+            self.outputs.begin_idle()
             return now_s  # that the outputs ramp is informed at once
         if self.outputs.waking:  # what is due is played once the outputs are on
             read_s = self._source.next_time_s()
@@ -220,19 +222,6 @@ class EventLoop:
                 spare.use(self._clock.now_s(), then_s)
                 break
         return then_s
-
-    def _begins_idle(self, now_s: float, *, touched: bool) -> bool:
-        """Switch the outputs off when nothing has been touched for long; whether that was done now."""
-        outputs, scheduler = self.outputs, self._scheduler
-        if touched or not outputs.on or scheduler.active or self._playback.accepted is not None or not scheduler.scene.may_idle:
-            self._active_s = now_s
-            if outputs.idle and (not outputs.wanted or not scheduler.scene.may_idle):
-                outputs.wake()
-        elif now_s - self._active_s >= self._idle_after_s and now_s >= self._playback.occupancy.free_s:
-            self._abandon()
-            outputs.begin_idle()
-            return True
-        return False
 
     def _begin_reload(self) -> None:
         """Have the scene read again, as a signal asked for it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from controller.device.loop.commands import CommandSource
-from controller.device.loop.layer_source import AcceptedLayer, LayerPreparation, LayerResult
+from controller.device.loop.preparation import AcceptedLayer, LayerPreparation, LayerResult
 from controller.device.loop.scheduler import Scheduler
 from controller.device.scene.layers import UNMOVED, Layer, Placement
 from controller.device.scene.scene import Scene

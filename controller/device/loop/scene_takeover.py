@@ -8,7 +8,7 @@ from controller.device.loop.commands import CommandSource
 from controller.device.loop.context import LoopContext
 from controller.device.loop.layers import Layers
 from controller.device.loop.playing.playback import Playback
-from controller.device.loop.scene_source import PreparedScene, SceneChange
+from controller.device.loop.preparation import PreparedScene, SceneChange
 from controller.device.loop.scheduler import Scheduler
 
 

@@ -17,7 +17,7 @@ from controller.device.loop.playing.occupancy import Occupancy
 from controller.device.loop.playing.playback import Playback
 from controller.device.loop.playing.records import Played
 from controller.device.loop.playing.sending import Sender
-from controller.device.loop.scene_source import SceneChange
+from controller.device.loop.preparation import SceneChange
 from controller.device.loop.scheduler import Scheduler
 from controller.device.loop.skips import ALL, Skips
 from controller.device.scene.scene import Scene

@@ -36,15 +36,13 @@ class ActiveEffects:
     """Effects that one finger, or one command at a point, has active; every method changes it in place.
 
     Each finger has one from its first sample to its last: a new object for each sample would cost as much as all the rest.
-
-    `owner` is the number of the finger, or the name of the command; `change_scene` takes the effects from another scene.
     """
 
     __slots__ = ("_scene", "_trains", "finger", "next_s", "owner", "period_s", "progress", "region", "x_m", "y_m")
 
     def __init__(self, scene: Scene, owner: int | str, x_m: float, y_m: float) -> None:
         self._scene = scene
-        self.owner = owner
+        self.owner = owner  # number of the finger, or name of the command
         self.finger = owner if isinstance(owner, int) else None  # none for a command at a point
         self.x_m, self.y_m = x_m, y_m
         self.region = OUTSIDE  # index in the scene, or OUTSIDE

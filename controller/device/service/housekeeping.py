@@ -10,7 +10,7 @@ from controller.device.board.board import Board
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.fpga.session import Session
 from controller.device.loop.event_loop import EventLoop
-from controller.device.loop.scene_source import PreparedScene
+from controller.device.loop.preparation import PreparedScene
 from controller.device.service.bit_clock import BitClock
 from controller.device.service.reloading import ReloadFile
 from controller.device.service.systemd import Notifier, Watchdog

@@ -14,7 +14,7 @@ from controller.clocks import NEVER
 from controller.device.board.panel_state import Condition
 from controller.device.loop.commands import Outcome
 from controller.device.loop.control import PanelControl
-from controller.device.loop.layer_source import LayerResult
+from controller.device.loop.preparation import LayerResult
 from controller.device.touch.source import Counts, Heard, TouchSample, TouchSource
 from controller.device.touch_calibration.ghost_figures import MAX_GHOST_LIFE_S, MIN_EMISSIONS, MIN_GHOSTS
 from controller.errors import ControllerError, FaultError

@@ -13,7 +13,7 @@ from controller.device.application_socket.client import PanelClient, Transform
 from controller.device.application_socket.client_commands import main
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.loop.commands import Outcome
-from controller.device.loop.layer_source import AcceptedLayer, LayerResult
+from controller.device.loop.preparation import AcceptedLayer, LayerResult
 from controller.device.scene.layers import Placement, RefusedRegion
 from controller.device.touch.source import TouchSample
 from controller.errors import ControllerError, LinkError

@@ -163,7 +163,8 @@ def test_the_next_client_finds_nothing_of_the_one_before(ends):
     lines_of(connection)
     connection.receive()
     connection.put(Answer(id="secret", outcome="played"))
-    connection.subscribed = connection.deaf = True
+    connection.topics.add("touches")
+    connection.deaf = True
     connection.waiting = 3
     while connection.rate.take(0.0):
         pass
@@ -171,7 +172,7 @@ def test_the_next_client_finds_nothing_of_the_one_before(ends):
     ours, other = socket.socketpair()
     ours.setblocking(False)
     connection.begin(ours, 2, 0.0)
-    kept = (connection.subscribed, connection.ended, connection.deaf, connection.unsent, connection.has_line)
+    kept = (connection.topics, connection.ended, connection.deaf, connection.unsent, connection.has_line)
     assert not any(kept)
     assert connection.waiting == 0
     other.sendall(b"own\n")

@@ -9,7 +9,7 @@ import pytest
 import controller.device.application_socket
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.loop.commands import Outcome
-from controller.device.loop.layer_source import AcceptedLayer, LayerResult
+from controller.device.loop.preparation import AcceptedLayer, LayerResult
 from controller.device.scene.layer_tables import off_plate, read_layer
 from controller.device.scene.layers import UNMOVED
 from controller.device.touch.source import TouchSample

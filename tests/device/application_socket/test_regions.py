@@ -13,7 +13,7 @@ from tables import each_row
 from controller.device.application_socket.connection import LAYER_BURST
 from controller.device.application_socket.peers import Peer
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES
-from controller.device.loop.layer_source import AcceptedLayer, LayerResult
+from controller.device.loop.preparation import AcceptedLayer, LayerResult
 from controller.device.scene.layers import Placement, RefusedRegion
 
 REGIONS_GROUP, OPERATE_GROUP = [group for group in grp.getgrall() if group.gr_gid not in (0, os.getegid(), 65534)][:2]

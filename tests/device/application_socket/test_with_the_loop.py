@@ -17,7 +17,7 @@ from controller.device.application_socket.command_socket import CommandSocket
 from controller.device.bank.reader import Bank
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.context import LoopContext, Watch
-from controller.device.loop.layer_source import AcceptedLayer
+from controller.device.loop.preparation import AcceptedLayer
 from controller.device.loop.wiring import assemble
 from controller.device.scene.layer_tables import off_plate, read_layer
 from controller.device.scene.scene import SpatialIndex, load_scene

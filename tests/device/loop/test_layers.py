@@ -3,8 +3,8 @@
 import pytest
 
 from controller.clocks import FpgaTime
-from controller.device.loop.layer_source import AcceptedLayer
 from controller.device.loop.layers import Layers
+from controller.device.loop.preparation import AcceptedLayer
 from controller.device.loop.scheduler import Scheduler
 from controller.device.scene.layers import UNMOVED, Placement
 from controller.device.scene.scene import Region, Scene, SpatialIndex

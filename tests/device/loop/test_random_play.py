@@ -17,7 +17,7 @@ from pins_and_counters import Damage, Notes, emissions_on_pins, match
 from controller.clocks import VirtualClock
 from controller.device.bank.reader import Bank
 from controller.device.loop.context import LoopContext, Watch
-from controller.device.loop.scene_source import PreparedScene
+from controller.device.loop.preparation import PreparedScene
 from controller.device.loop.wiring import assemble
 from controller.device.scene.scene import load_scene
 from controller.device.service.drivers import open_session, tracked

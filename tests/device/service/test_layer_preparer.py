@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device.bank.reader import Bank
-from controller.device.loop.layer_source import AcceptedLayer
+from controller.device.loop.preparation import AcceptedLayer
 from controller.device.scene.layer_tables import REFUSED_MOST, read_layer
 from controller.device.scene.layers import UNMOVED, Placement
 from controller.device.scene.scene import SpatialIndex

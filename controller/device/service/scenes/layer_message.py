@@ -14,7 +14,7 @@ from msgspec import Meta, Raw, Struct
 
 from controller import __version__
 from controller.device.board.board import Board
-from controller.device.loop.layer_source import AcceptedLayer
+from controller.device.loop.preparation import AcceptedLayer
 from controller.device.scene.layer_tables import REFUSED_MOST
 from controller.device.scene.layers import Placement, RefusedRegion
 from controller.device.scene.scene import Region, SpatialIndex

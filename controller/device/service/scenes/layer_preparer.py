@@ -8,7 +8,7 @@ import msgspec
 
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.loop.layer_source import AcceptedLayer
+from controller.device.loop.preparation import AcceptedLayer
 from controller.device.scene.layers import Placement
 from controller.device.service.scenes.helper_process import Helper
 from controller.device.service.scenes.layer_message import pack_request, pack_setup, unpack_layer

@@ -14,7 +14,7 @@ from controller.device.bank.expectation import Expectation
 from controller.device.bank.file_format import Header
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
-from controller.device.loop.scene_source import PreparedScene
+from controller.device.loop.preparation import PreparedScene
 from controller.device.scene.scene import Scene
 from controller.device.scene.scene_file import find_scene
 from controller.device.service.scenes.helper_process import Helper
