@@ -9,8 +9,7 @@ from controller.device.application_socket.connection import Connection, MessageT
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.pending_commands import PendingCommands
 from controller.device.application_socket.protocol import panel_messages
-from controller.device.application_socket.protocol.client_messages import Id
-from controller.device.application_socket.protocol.panel_messages import Right
+from controller.device.application_socket.protocol.client_messages import Id, Right
 from controller.device.application_socket.tickets import FULL
 from controller.device.loop.preparation import AcceptedLayer, LayerResult
 from controller.errors import ControllerError

@@ -15,8 +15,8 @@ from controller.device.application_socket.connection import UNWATCHED, Connectio
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.peers import Peer, Rights
 from controller.device.application_socket.places import offered
-from controller.device.application_socket.protocol.client_messages import Topic
-from controller.device.application_socket.protocol.panel_messages import Farewell, Right
+from controller.device.application_socket.protocol.client_messages import Right, Topic
+from controller.device.application_socket.protocol.panel_messages import Farewell
 from controller.device.application_socket.socket_file import SocketFile
 from controller.device.board.devices import ApplicationSocket
 

@@ -8,8 +8,8 @@ import socket
 import msgspec
 
 from controller.device.application_socket.peers import Peer
-from controller.device.application_socket.protocol.client_messages import LINE_BYTES, Topic
-from controller.device.application_socket.protocol.panel_messages import AnyMessage, Farewell, Right
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES, Right, Topic
+from controller.device.application_socket.protocol.panel_messages import AnyMessage, Farewell
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.scene.clips import ClientEffect
 

@@ -15,7 +15,7 @@ import socket
 import struct
 from dataclasses import dataclass
 
-from controller.device.application_socket.protocol.panel_messages import Right
+from controller.device.application_socket.protocol.client_messages import Right
 from controller.device.board.devices import LOOK_GROUP, ApplicationSocket
 from controller.errors import ConfigError
 

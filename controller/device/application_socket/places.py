@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from controller.device.application_socket.connection import Connection
 from controller.device.application_socket.peers import Peer, Rights
-from controller.device.application_socket.protocol.panel_messages import Right
+from controller.device.application_socket.protocol.client_messages import Right
 from controller.device.board.devices import ApplicationSocket
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, get_args
-
 import msgspec
 
 from controller.device.application_socket.answers import Answers
@@ -13,26 +11,12 @@ from controller.device.application_socket.layer_requests import LayerRequests
 from controller.device.application_socket.operator_requests import OperatorRequests
 from controller.device.application_socket.play_requests import PlayRequests
 from controller.device.application_socket.protocol import client_messages
-from controller.device.application_socket.protocol.client_messages import LINE_BYTES, AnyRequest, Id
-from controller.device.application_socket.protocol.panel_messages import Right
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES, AnyRequest, Id, Right
 from controller.device.application_socket.questions import Questions
 from controller.device.application_socket.stop_ahead import AHEAD_BYTES, STOP, stop_ahead
 from controller.device.board.descriptions import type_info
 from controller.device.board.validation import NO_JSON, explain
 from controller.device.loop.control import PanelControl
-
-NEEDED: Final[dict[Any, Right]] = {
-    client_messages.PlayRequest: "play",
-    client_messages.Clip: "play",
-    client_messages.Regions: "regions",
-    client_messages.MoveRegions: "regions",
-} | dict.fromkeys(get_args(client_messages.OPERATIONS), "operate")
-NEEDED_TO_FOLLOW: Final[dict[client_messages.Topic, Right]] = {
-    "log": "operate",
-    "contacts": "operate",
-    "touches": "play",
-    "emissions": "play",
-}
 
 
 class Requests:
@@ -153,10 +137,10 @@ class Requests:
 def _lacking(client: Connection, request: AnyRequest) -> Right | None:
     """A right that the request needs and its client does not have."""
     if isinstance(request, client_messages.Subscribe):
-        needed = [right for topic, right in NEEDED_TO_FOLLOW.items() if topic in request.to]
+        needed = [right for topic, right in client_messages.RIGHTS_TO_FOLLOW.items() if topic in request.to]
         return next((right for right in needed if right not in client.rights), None)
-    right = NEEDED.get(type(request))
-    return None if right is None or right in client.rights else right
+    right = client_messages.RIGHTS[type(request)]
+    return None if right == "look" or right in client.rights else right
 
 
 def _why_invalid(line: memoryview, error: Exception) -> str:

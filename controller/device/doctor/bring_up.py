@@ -20,12 +20,7 @@ from controller.device.board.plate.patches import discs
 from controller.device.doctor.bit_errors import BitErrors, bit_errors
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.frames import ALL_CHANNELS, Play
-from controller.device.fpga.registers import (
-    CHANNELS,
-    READ_MEMORY,
-    Register,
-    Start,
-)
+from controller.device.fpga.registers import CHANNELS, READ_MEMORY, Register, Start
 from controller.device.fpga.session import Session
 from controller.errors import LinkError
 

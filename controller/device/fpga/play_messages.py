@@ -11,15 +11,7 @@ from typing import Final
 from controller.device.board.board import Board
 from controller.device.fpga import frames
 from controller.device.fpga.exchange import COMMANDS
-from controller.device.fpga.frames import (
-    FRAME_BYTES,
-    PLAY_FIELDS,
-    SHORT_FIELDS_AT,
-    STORE_FIELDS,
-    Play,
-    ReadyFrames,
-    Waveform,
-)
+from controller.device.fpga.frames import FRAME_BYTES, PLAY_FIELDS, SHORT_FIELDS_AT, STORE_FIELDS, Play, ReadyFrames, Waveform
 from controller.device.fpga.registers import Control
 from controller.device.kernel import pack_loads, renumber_loads, seal_short_frames
 

@@ -263,10 +263,7 @@ class Fault(IntFlag):
     UNDERRUN = 3, "An emission reached words that had not been uploaded yet."
     SHORT_PULSE = 4, "A channel changed twice within limits.min_pulse_us."
     CHANNEL_EDGES = 5, "Edge rate of a channel exceeded limits.max_channel_edge_rate_hz (stage protection)."
-    TOTAL_EDGES = (
-        6,
-        "Total edge rate exceeded limits.max_total_edge_rate_hz (supply protection).",
-    )
+    TOTAL_EDGES = 6, "Total edge rate exceeded limits.max_total_edge_rate_hz (supply protection)."
     LONG_EMISSION = 7, "An emission lasted longer than limits.longest_emission_ms."
     DUTY = 8, "Emissions exceeded the duty limit: limits.max_duty with limits.duty_budget_ms."
 

@@ -7,44 +7,17 @@ from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
+from controller.device.application_socket.protocol.client_messages import RIGHTS, RIGHTS_TO_FOLLOW
 from controller.device.page.addresses import OPAQUE, SELF, Origin, authority, origin_of, shown
 from controller.device.page.settings import PageSettings
 
 LOOPBACK: Final = frozenset({"localhost", "127.0.0.1", "[::1]"})
 
 # The right that a message needs; every page of an allowed origin may look, and stop the outputs.
-RIGHT_OF: Final = {
-    "stop": "look",
-    "hello": "look",
-    "state": "look",
-    "figures": "look",
-    "describe": "look",
-    "subscribe": "look",
-    "unsubscribe": "look",
-    "play": "play",
-    "clip": "play",
-    "regions": "regions",
-    "transform": "regions",
-    "arm": "operate",
-    "disarm": "operate",
-    "load_scene": "operate",
-    "save_scene": "operate",
-    "test_channel": "operate",
-    "trace": "operate",
+RIGHT_OF: Final[dict[str, str]] = {str(kind.__struct_config__.tag): right for kind, right in RIGHTS.items()} | {
     "screen": "screen",  # which the bridge itself answers, and these:
-    "traces": "operate",
-    "read_trace": "operate",
-    "explain_trace": "operate",
-    "calibrate": "operate",
-    "mouse": "operate",
-    "cancel": "operate",
+    **dict.fromkeys(("traces", "read_trace", "explain_trace", "calibrate", "mouse", "cancel"), "operate"),
 }
-TOPICS: Final = {
-    "touches": "play",
-    "emissions": "play",
-    "log": "operate",
-    "contacts": "operate",
-}  # that need another right than to look
 # A right that brings another: whoever may operate may do all, as at the socket.
 BRINGS: Final = {"operate": ("play", "regions", "screen")}
 
@@ -113,7 +86,7 @@ def refused(message: dict[str, Any], rights: frozenset[str]) -> str:
     if needs is None:
         return f"kind = {shown(str(kind))}: must be one of {', '.join(map(repr, RIGHT_OF))}"
     if kind == "subscribe" and needs in rights:
-        for topic, right in TOPICS.items():
+        for topic, right in RIGHTS_TO_FOLLOW.items():
             if topic in _topics(message) and right not in rights:
                 return f"this page's origin may not subscribe to {topic}: the bridge's settings do not give it the right {right!r}"
     return "" if needs in rights else f"this page's origin may not {kind}: the bridge's settings do not give it the right {needs!r}"

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Final
+from typing import Any, Final, get_args
 
 import msgspec
 
-from controller.device.application_socket.protocol.client_messages import LINE_BYTES
+from controller.device.application_socket.protocol.client_messages import LINE_BYTES, LONG
 from controller.device.application_socket.token_bucket import TokenBucket
 from controller.device.page.permissions import refused
 from controller.errors import ControllerError
 
 FRAME_BYTES: Final = 65536  # of what may be long; a page's share of `layer_bytes`
-LONG_KINDS: Final = ("regions", "save_scene")
+LONG_KINDS: Final = [kind.__struct_config__.tag for kind in get_args(LONG)]
 _decoder: Final = msgspec.json.Decoder()
 _encoder: Final = msgspec.json.Encoder()
 NOTHING: Final[Mapping[str, Any]] = {}

@@ -6,7 +6,7 @@ are refused, so that a misspelt key is noticed.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 import msgspec
 from msgspec import Meta, Raw, Struct
@@ -22,6 +22,7 @@ PlainName = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z")]
 BY_CHARACTERS = 120
 LAST_CHANNEL = 127  # of a board of four FPGAs; a client needs no board
 ShiftMm = Annotated[float, Meta(ge=-MOST_SHIFT_MM, le=MOST_SHIFT_MM)]
+Right = Literal["look", "play", "regions", "operate"]
 Topic = Literal["touches", "contacts", "emissions", "state", "description", "faults", "log"]
 
 
@@ -175,6 +176,13 @@ AnyOrder = PlayRequest | Clip | Regions | MoveRegions | Arm | Disarm | Stop | Lo
 AnyQuestion = Subscribe | Unsubscribe | AskFigures | AskState | Describe | Hello
 AnyRequest = AnyOrder | AnyQuestion
 OPERATIONS = Arm | Disarm | LoadScene | SaveScene | ChannelTest | WriteTrace  # for operators
+# The right that each needs; whoever may connect may look
+RIGHTS: dict[type[Request], Right] = {
+    **{PlayRequest: "play", Clip: "play", Regions: "regions", MoveRegions: "regions", Stop: "look"},
+    **dict.fromkeys(get_args(OPERATIONS), "operate"),
+    **dict.fromkeys(get_args(AnyQuestion), "look"),
+}
+RIGHTS_TO_FOLLOW: dict[Topic, Right] = {"log": "operate", "contacts": "operate", "touches": "play", "emissions": "play"}
 LONG = Regions | SaveScene  # lines of these kinds have at most `layer_bytes`
 
 

@@ -10,11 +10,10 @@ from typing import Any, Literal
 import msgspec
 from msgspec import Struct
 
-from controller.device.application_socket.protocol.client_messages import Id
+from controller.device.application_socket.protocol.client_messages import Id, Right
 from controller.device.scene.layers import RefusedRegion
 
 PROTOCOL = 1  # raised when a message changes so that a client has to know
-Right = Literal["look", "play", "regions", "operate"]
 Outcome = Literal["played", "merged", "skipped", "refused", "done"]
 
 
