@@ -9,7 +9,7 @@ from typing import Any
 
 from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.expected import expected_of
-from controller.commands.common.named_board import named_board
+from controller.commands.common.named_board import board_of, named_board
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.worker_options import UNLESS_OPTIMISED, add_worker_options, workers_of_bank
 from controller.console import tell
@@ -19,8 +19,8 @@ from controller.device.bank.lookup import FoundBank, bank_as_it_is, find_bank
 from controller.device.bank.memory import memory_fit
 from controller.device.bank.provenance import MEASURE_AGAIN
 from controller.device.bank.reader import Bank
-from controller.device.board.board import Board, load_board, of_one_fpga
-from controller.device.board.lookup import find_board, fpga_files
+from controller.device.board.board import Board, of_one_fpga
+from controller.device.board.lookup import fpga_files
 from controller.device.board.paths import bank_path, build_line, is_there
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
@@ -113,7 +113,7 @@ def bank_build(options: argparse.Namespace) -> int:
 
 def bank_choices(options: argparse.Namespace) -> int:
     """Show the settings on the front of error, time and bytes for a scene and which `auto` chooses, or what methods buy."""
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     if options.methods is not None:
         of_one_fpga(board)
         with _builder_installed(bank_path(board)):
@@ -159,7 +159,7 @@ def bank_describe(options: argparse.Namespace) -> int:
         from controller.workshop.benchmark.focus.bank_emissions import bank_emissions
         from controller.workshop.benchmark.stage.power import power_report
 
-        board = of_one_fpga(load_board(find_board(options.board)))
+        board = of_one_fpga(board_of(options))
         with Bank.open(_bank_file(options).path, board) as bank:
             report = power_report(board, bank, progress=progress_bar("losses"))
             show(options, report | bank_emissions(board, bank), power_table)
@@ -178,7 +178,7 @@ def bank_describe(options: argparse.Namespace) -> int:
 
 def _expected(options: argparse.Namespace, path: Path) -> dict[str, Any]:
     """What a bank is expected to do on this panel; of a bank of another board only that it is one."""
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     if header_of(path).board_digest != board.fpga_boards[0].digest():
         return {"said": f"nothing: the bank is not of board {board.name!r} (--board says which it is)"}
     with Bank.open(path, board) as bank:
@@ -190,7 +190,7 @@ def _expected(options: argparse.Namespace, path: Path) -> dict[str, Any]:
 def bank_verify(options: argparse.Namespace) -> int:
     """Check every bit of a bank."""
     path = _bank_file(options).path
-    fpgas = 0 if options.file else len(load_board(find_board(options.board)).link.fpga)
+    fpgas = 0 if options.file else len(board_of(options).link.fpga)
     try:
         found = [verify_bank(file, progress_bar("bytes")) for file in fpga_files(path, fpgas)]
     except BankError as error:
@@ -217,7 +217,7 @@ def _bank_file(options: argparse.Namespace) -> FoundBank:
     """The file given, else the bank that the board plays."""
     if options.file:
         return FoundBank(Path(options.file), "given")
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     found = find_bank(board)
     if not is_there(found.path):
         raise BankError(f"{found.path}: there is no such bank yet; build it: {build_line(found.path, board)}")

@@ -5,12 +5,12 @@ import json
 from pathlib import Path
 
 from controller.commands.common.arguments import Declare, natural
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.commands.common.tables import benchmark_table
 from controller.commands.common.worker_options import add_worker_options, workers_of
 from controller.console import tell
-from controller.device.board.board import load_board, of_one_fpga
-from controller.device.board.lookup import find_board
+from controller.device.board.board import of_one_fpga
 from controller.errors import ConfigError
 
 RESULTS = "work_precision.json"
@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
     """Measure, write figures and diagrams, and print the Pareto fronts."""
     from controller.workshop.benchmark.work_precision import FULL, KEPT, QUICK, work_precision
 
-    board = of_one_fpga(load_board(find_board(options.board)))
+    board = of_one_fpga(board_of(options))
     folder = Path(options.out)
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -101,7 +101,7 @@ def skipping(options: argparse.Namespace) -> int:
     """Print what skipping saves; 1 if it changes output bits that it must not change."""
     from controller.workshop.benchmark.device.skipping import all_cases, table
 
-    found = all_cases(of_one_fpga(load_board(find_board(options.board))), options.no_skip, options.repeats, progress_bar("scenes"))
+    found = all_cases(of_one_fpga(board_of(options)), options.no_skip, options.repeats, progress_bar("scenes"))
     show(options, found, lambda figures: "\n\n".join(map(table, figures["cases"])))
     return int(any(case["must_be_exact"] and not case["exact_bits"] for case in found["cases"]))
 
@@ -112,7 +112,7 @@ def paper(options: argparse.Namespace) -> int:
     from controller.workshop.benchmark.paper.paper_row import markdown, paper_table
 
     picture = picture_path(options)
-    board = of_one_fpga(load_board(find_board(options.board)))
+    board = of_one_fpga(board_of(options))
     found = paper_figures(board, QUICK if options.quick else FULL, options.seed, progress_bar("paper"))
     if picture:
         from controller.workshop.benchmark.paper.plot_paper import plot_paper

@@ -8,10 +8,10 @@ from typing import Any
 import msgspec
 
 from controller.commands.common.arguments import Declare
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, show
-from controller.device.board.board import Board, load_board
+from controller.device.board.board import Board
 from controller.device.board.descriptions import unit_of
-from controller.device.board.lookup import find_board
 from controller.device.board.plate.parts import Parts
 from controller.device.board.records import as_record
 from controller.device.board.reference import attributes
@@ -124,7 +124,7 @@ def design(options: argparse.Namespace) -> int:
     if options.find and options.sweep:
         raise ConfigError("--find and --sweep: give one of both")
     picture = picture_path(options)
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     parts = _parts(board, options)
     changes = {name: value for name in NUMBERS if (value := getattr(options, name)) is not None}
     if options.find:

@@ -5,10 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from controller.commands.common.arguments import Declare
+from controller.commands.common.named_board import board_of
 from controller.console import say, tell
-from controller.device.board.board import load_board
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.board.lookup import find_board
 from controller.device.board.validation import nearest
 from controller.errors import ConfigError, ControllerError, UsageError
 
@@ -67,7 +66,7 @@ def import_clips(options: argparse.Namespace) -> int:
     from controller.commands.common.output import show
     from controller.workshop.clips.importing import imported
 
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     text, figures = imported([Path(file) for file in options.files], board, options.when, options.low_hz, options.high_hz)
     if options.out:
         _write(Path(options.out), text)
@@ -91,7 +90,7 @@ def export_effect(options: argparse.Namespace) -> int:
     suffix = out.suffix.lower()
     if suffix not in WRITERS:
         raise UsageError(f"--out {out}: {suffix or 'a file without a suffix'} cannot be written; there are: {', '.join(WRITERS)}")
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     scene = find_scene(board, options.scene)
     effects = load_scene(scene, board).effects
     if options.effect not in effects:

@@ -5,11 +5,11 @@ from pathlib import Path
 from typing import Any
 
 from controller.commands.common.arguments import Declare, natural
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.tables import amplitude_table, plain_table
 from controller.commands.focus_movie import add_movie, film, movie_path
-from controller.device.board.board import Board, load_board, of_one_fpga
-from controller.device.board.lookup import find_board
+from controller.device.board.board import Board, of_one_fpga
 from controller.errors import ConfigError, UsageError
 
 FINGER_MOST = (10e3, 1e3, 1e7)  # mg, N s/m, N/m
@@ -64,7 +64,7 @@ def focus(options: argparse.Namespace) -> int:
     picture, movie = picture_path(options), movie_path(options)
     if options.finger_load and not options.at:
         raise UsageError("--finger-load is of a focus: give --at X_MM Y_MM too")
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     if options.field_out:
         return _write_field(options, board)
     if options.figures:

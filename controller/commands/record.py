@@ -5,11 +5,10 @@ from dataclasses import asdict
 from pathlib import Path
 
 from controller.commands.common.arguments import Declare, seconds
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import show
 from controller.commands.common.tables import plain_table
 from controller.console import tell
-from controller.device.board.board import load_board
-from controller.device.board.lookup import find_board
 from controller.device.service.drivers import open_input, open_panel
 from controller.device.touch.recordings.recorder import open_recording, record
 
@@ -32,7 +31,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 
 def store(options: argparse.Namespace) -> int:
     """Record until Ctrl-C or for the given time, and print what was stored."""
-    reader = open_input(options.device) if options.device else open_panel(load_board(find_board(options.board)))
+    reader = open_input(options.device) if options.device else open_panel(board_of(options))
     try:
         with open_recording(Path(options.out)) as file:
             if not options.json:

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 from controller.commands.common.arguments import Declare, require_within
+from controller.commands.common.named_board import board_of
 from controller.console import tell
 from controller.errors import UsageError
 from controller.programs import SHOWN_EVERY_S, end, repeat
@@ -55,16 +56,14 @@ def run(options: argparse.Namespace) -> int:
     from threadpoolctl import threadpool_limits
 
     from controller.device.bank.reader import Bank
-    from controller.device.board.board import load_board
     from controller.device.board.devices import ApplicationSocket
-    from controller.device.board.lookup import find_board
     from controller.device.board.records import as_record
     from controller.device.touch.recordings.recording import Recording
     from controller.workshop.bank_builder.own_bank import Order
     from controller.workshop.simulation.served_panel import ghostly, moving, replayed, serve
 
     require_within(options, {"touched_s": (0, 1e9), "ghosts": (0, 1)})
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
     settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
     if options.background:

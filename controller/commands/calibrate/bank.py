@@ -5,12 +5,11 @@ from pathlib import Path
 from typing import Any
 
 from controller.commands.calibrate.check import declare_accept
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, progress_bar, show
 from controller.commands.common.worker_options import UNLESS_OPTIMISED, add_worker_options, workers_of_bank
 from controller.console import tell
 from controller.device.bank.lookup import find_bank
-from controller.device.board.board import load_board
-from controller.device.board.lookup import find_board
 
 OF_RECORDS = {"measuring frame": "frame", "mass of the sensor": "sensor_mass"}
 
@@ -58,7 +57,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.duration import foreseen
 
     picture = picture_path(options)
-    board, folder = load_board(find_board(options.board)), Path(options.folder)
+    board, folder = board_of(options), Path(options.folder)
     out, also = (Path(name) if name else None for name in (options.out, options.also))
     wanted = PlateBank(board, folder, out, also=also, **bank_options(options))
     workers = workers_of_bank(options)

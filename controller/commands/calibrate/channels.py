@@ -12,10 +12,10 @@ from typing import Any
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.common.fpga_link import fpga_link, fpga_links
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import show
 from controller.console import tell
-from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import find_board
+from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.device.fpga.links.link import Link
 from controller.device.service.drivers import open_session, open_touch
@@ -54,7 +54,7 @@ def add(step: argparse.ArgumentParser) -> None:
 
 def channels(options: argparse.Namespace) -> int:
     """Buzz on each channel until it was touched; 1 if one moves another disc than its own, or none."""
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     simulated, there = board.link.kind == "simulated", sorted(actuator.channel for actuator in board.actuators)
     asked = options.channel if options.channel is not None else there
     for channel in {*asked, *options.dead, *(one for pair in options.swapped for one in pair)} - set(there):

@@ -4,9 +4,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, progress_bar, show
-from controller.device.board.board import load_board
-from controller.device.board.lookup import find_board
 
 ACCEPTED = ("dead", "swapped", "inverted", "clipped", "unit", "mass", "strength")
 
@@ -40,7 +39,7 @@ def check(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.point_cache import calibration_cache
 
     picture = picture_path(options)
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     folder = Path(options.folder)
     with threadpool_limits(1, "blas"):
         learned = learn(folder, board, cache=calibration_cache(board, folder), progress=progress_bar("points"))

@@ -5,9 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from controller.commands.calibrate.check import declare_accept
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import progress_bar, show
-from controller.device.board.board import load_board
-from controller.device.board.lookup import find_board
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -25,7 +24,7 @@ def clock(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.learning import learn
     from controller.workshop.calibration.point_cache import calibration_cache
 
-    board, folder = load_board(find_board(options.board)), Path(options.folder)
+    board, folder = board_of(options), Path(options.folder)
     with threadpool_limits(1, "blas"):
         found = learn(folder, board, cache=calibration_cache(board, folder), progress=progress_bar("points"))
         fitted = fit_clock(board, found.require(options.accept))

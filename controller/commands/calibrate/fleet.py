@@ -5,11 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from controller.commands.calibrate.bank import bank_options, declare_bank
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import show
 from controller.commands.common.worker_options import add_worker_options, workers_of
 from controller.console import tell
-from controller.device.board.board import load_board
-from controller.device.board.lookup import find_board
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -28,7 +27,7 @@ def calibrate_fleet(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.banks import fleet
     from controller.workshop.calibration.banks.plate_bank import PlateBank
 
-    common = PlateBank(load_board(find_board(options.board)), options.folder, **bank_options(options))
+    common = PlateBank(board_of(options), options.folder, **bank_options(options))
     try:
         report = fleet.calibrate_fleet(options.folder, options.out, common, workers_of(options))
     except KeyboardInterrupt:

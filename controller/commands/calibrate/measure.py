@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.common.arguments import require_within
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import show
 from controller.commands.common.tables import plain_table
 from controller.console import tell
-from controller.device.board.board import Board, load_board
+from controller.device.board.board import Board
 from controller.device.board.identity import panel_identity, simulated_identity
-from controller.device.board.lookup import find_board
 from controller.device.service.drivers import open_link, open_session
 from controller.errors import CalibrationError, LinkError, UsageError
 from controller.programs import ProgramError, run_program
@@ -81,7 +81,7 @@ def measure(options: argparse.Namespace) -> int:
     from controller.workshop.gateware.actual_panel import actual_panel
     from controller.workshop.gateware.wired_fpgas import open_simulated_panel
 
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     _check(options, board)
     sync = min(actuator.channel for actuator in board.actuators) if options.sync is None else options.sync
     ring_s = ringing_s(board)

@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 
 from controller.commands.common.arguments import require_within
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, show
 from controller.console import tell
-from controller.device.board.board import load_board
-from controller.device.board.lookup import find_board
 from controller.errors import ConfigError, UsageError
 
 ENOUGH = 0.97  # of the amplitude, foreseen between the points
@@ -50,7 +49,7 @@ def plan(options: argparse.Namespace) -> int:
     )
 
     picture = picture_path(options)
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     if options.grid and (options.margin_mm is not None or options.avoid_actuators):
         raise UsageError("--grid covers the whole plate: --margin-mm and --avoid-actuators are for scattered points")
     require_within(options, {"record_ms": (1e-3, 1e6), "repetitions": (1, 1e6), "speed_mm_s": (1e-3, 1e6), "settle_ms": (0, 1e6)})

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.commands.common.arguments import require_within
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import plain_table
-from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import find_board
+from controller.device.board.board import Board
 from controller.errors import UsageError
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def simulate(options: argparse.Namespace) -> int:
     )
     from controller.workshop.simulation.other_plate import on_other_plate
 
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     real = on_other_plate(board, options.plate)
     _check(options, board)
     names, points_m = _points(options, board)

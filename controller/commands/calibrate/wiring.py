@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import progress_bar, show
 from controller.console import tell
-from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import find_board
+from controller.device.board.board import Board
 
 if TYPE_CHECKING:
     from controller.workshop.calibration.learning import Learned
@@ -36,7 +36,7 @@ def wiring(options: argparse.Namespace) -> int:
     from controller.workshop.calibration.point_cache import calibration_cache
     from controller.workshop.calibration.records.measurement_file import NAME
 
-    board, folder = load_board(find_board(options.board)), Path(options.folder)
+    board, folder = board_of(options), Path(options.folder)
     if options.points and not (folder / NAME).exists():
         _write(board, Path(options.points), (), np.empty((0, 2)), FIRST_POINTS)
         tell(f"next: haptic-panel calibrate measure {folder} --points {options.points} --board {options.board}, with the sensor")

@@ -5,9 +5,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import show
-from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import find_board
+from controller.device.board.board import Board
 from controller.device.touch.recordings.recording import Recording
 from controller.device.touch_calibration.event_capture import write_recording
 from controller.device.touch_calibration.touch_table import check_writable, value_line, write_value
@@ -27,7 +27,7 @@ def calibrate_value(
 
     Raises ConfigError if board.toml is to be written and cannot be; this is checked before anything is measured.
     """
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     file = board.folder / "board.toml"
     if options.write:
         check_writable(file)

@@ -10,6 +10,11 @@ from controller.errors import UsageError
 from controller.log import Priority
 
 
+def board_of(options: argparse.Namespace) -> Board:
+    """The board of --board; raises ConfigError if there is none, or it is refused."""
+    return load_board(find_board(options.board))
+
+
 def named_board(name: str) -> Board:
     """Read and check a board, and say on stderr what of it is odd.
 

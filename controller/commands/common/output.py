@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import shutil
 import sys
 import textwrap
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from controller.console import say
+from controller.errors import ConfigError
 
 NARROWEST = 40  # characters of a terminal that lines are broken for
 
@@ -52,6 +54,13 @@ def progress_bar(what: str) -> Callable[[int, int], None]:
             bar.close()
 
     return progress
+
+
+def must_be_writable(out: Path) -> None:
+    """Refuse, before minutes of work, a file of --out that cannot be written after it."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    if out.is_dir() or not os.access(out.parent, os.W_OK):
+        raise ConfigError(f"{out}: cannot be written; give another file with --out")
 
 
 def picture_path(options: argparse.Namespace) -> Path | None:

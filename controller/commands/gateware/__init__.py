@@ -13,6 +13,7 @@ import msgspec
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.common.arguments import Declare, require_within
 from controller.commands.common.fpga_link import LINK_RANGES, announced_chirps, fpga_link, fpga_links
+from controller.commands.common.named_board import board_of
 from controller.commands.common.output import progress_bar, show
 from controller.commands.common.tables import check_table
 from controller.commands.gateware import build as gateware_build
@@ -20,8 +21,7 @@ from controller.commands.gateware import info as gateware_info
 from controller.commands.gateware import load as gateware_load
 from controller.commands.gateware import waves as gateware_waves
 from controller.console import tell
-from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import find_board
+from controller.device.board.board import Board
 from controller.device.doctor import bring_up
 from controller.device.doctor.bring_up import Chirps
 from controller.device.doctor.several_fpgas import chirps_of
@@ -71,7 +71,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
 def gateware_check(options: argparse.Namespace) -> int:
     """Check an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
     require_within(options, LINK_RANGES)
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     if options.device:
         if board.link.fpga:
             raise ConfigError("--device: a board of several FPGAs plays over SPI alone: leave it out")

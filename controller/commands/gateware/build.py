@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -14,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from controller.commands.common.named_board import add_fpga, named_board, with_one_fpga
-from controller.commands.common.output import show
+from controller.commands.common.output import must_be_writable, show
 from controller.console import tell
 from controller.device.board.lookup import find_board
 from controller.device.fpga.bitstream import Figures, figures_path
-from controller.errors import ConfigError, GatewareError, UsageError
+from controller.errors import GatewareError, UsageError
 
 if TYPE_CHECKING:
     from controller.workshop.gateware.bitstream_build import FpgaDesign, PlacedDesign
@@ -56,7 +55,7 @@ def gateware_build(options: argparse.Namespace) -> int:
         raise UsageError("--seed and --seeds: a whole number from 1")
     of = f".fpga{options.fpga}" if options.fpga else ""
     out = Path(options.out or f"build/{board.key}{'' if device == part.devices[0] else f'-{device}'}{of}.bit")
-    _must_be_writable(out)
+    must_be_writable(out)
     design = FpgaDesign.of(board, top, part, device)
     if not options.unproven:
         tell(f"proving the safety island with the limits of {board.name}")
@@ -118,13 +117,6 @@ def _work_folder(wanted: str | None) -> Iterator[Path]:
     else:
         with tempfile.TemporaryDirectory(prefix="haptic-panel-") as folder:
             yield Path(folder)
-
-
-def _must_be_writable(out: Path) -> None:
-    """Refuse, before minutes of work, a file that cannot be written after it."""
-    out.parent.mkdir(parents=True, exist_ok=True)
-    if out.is_dir() or not os.access(out.parent, os.W_OK):
-        raise ConfigError(f"{out}: cannot be written; give another file with --out")
 
 
 def _write(path: Path, data: bytes) -> None:

@@ -9,11 +9,10 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
-from controller.commands.common.named_board import add_fpga, with_one_fpga
+from controller.commands.common.named_board import add_fpga, board_of, with_one_fpga
 from controller.commands.common.output import show
 from controller.console import tell
-from controller.device.board.board import Board, load_board
-from controller.device.board.lookup import find_board
+from controller.device.board.board import Board
 from controller.device.fpga.bitstream import differences, read_identity
 from controller.device.fpga.bitstream_loader import ATTEMPTS
 from controller.device.service.drivers import bitstream_path, gateware_hash
@@ -38,7 +37,7 @@ def gateware_load(options: argparse.Namespace) -> int:
 
     All FPGAs are loaded, one after the other, unless one is asked for; and none, unless what is for each would be taken.
     """
-    board = load_board(find_board(options.board))
+    board = board_of(options)
     boards = board.fpga_boards if options.fpga is None else (with_one_fpga(board, options.fpga),)
     if options.file and len(boards) > 1:
         raise UsageError(f"{options.file}: for which FPGA? give --fpga N, from 0 to {len(boards) - 1}")

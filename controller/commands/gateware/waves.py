@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.commands.bank import open_bank
 from controller.commands.common.named_board import named_board
-from controller.commands.common.output import show
+from controller.commands.common.output import must_be_writable, show
 from controller.console import tell
 from controller.device.board.board import of_one_fpga, simulated
 from controller.device.scene.scene import load_scene
@@ -49,9 +48,7 @@ def gateware_waves(options: argparse.Namespace) -> int:
 
     _check(options)
     out = Path(options.out)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    if out.is_dir() or not os.access(out.parent, os.W_OK):
-        raise ConfigError(f"{out}: cannot be written; give another file with --out")
+    must_be_writable(out)
     script = _script(options)
     ticks = _window(options, script)
     per_ms = script.parameters.clock_hz / 1e3

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from controller.arrays import Floats
+from controller.arrays import Floats, Reals
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.device.touch.prediction import Motion
@@ -133,6 +133,15 @@ def _near_edge(random: np.random.Generator, size: Floats) -> Place:
             return x_m, y_m
 
 
+def motion_of(places_m: Floats, times_s: Reals) -> Motion:
+    """What the product knows of a finger by its reports: (report, 2) and (report,)."""
+    reports = zip(*places_m.T.tolist(), times_s.tolist(), strict=True)
+    motion = Motion(*next(reports))
+    for report in reports:
+        motion.report(*report)
+    return motion
+
+
 def _sliding(random: np.random.Generator, point: Place, speed_m_s: float, null: Place) -> tuple[FingerScene, FingerScene]:
     """A finger that moves in a straight line and is at `point` at T: as predicted, and as last reported.
 
@@ -144,10 +153,7 @@ def _sliding(random: np.random.Generator, point: Place, speed_m_s: float, null: 
     arrived_s = (np.arange(REPORTS) - REPORTS + 1) * REPORT_PERIOD_S - waited_s - AHEAD_S  # before T
     places = np.array(point) + velocity * (arrived_s - LAG_S)[:, None] + random.normal(0, NOISE_M, (REPORTS, 2))
     places = np.rint(places / RESOLUTION_M) * RESOLUTION_M
-    motion = Motion(float(places[0, 0]), float(places[0, 1]), float(arrived_s[0]))
-    for (x_m, y_m), time_s in zip(places[1:].tolist(), arrived_s[1:].tolist(), strict=True):
-        motion.report(x_m, y_m, time_s)
-    predicted = motion.predict(0.0, -AHEAD_S, LAG_S, REPORT_PERIOD_S)
+    predicted = motion_of(places, arrived_s).predict(0.0, -AHEAD_S, LAG_S, REPORT_PERIOD_S)
     last = (float(places[-1, 0]), float(places[-1, 1]))
     family = f"1 sliding at {1e3 * speed_m_s:g} mm/s"
     return FingerScene(family, (point,), (predicted,), null), FingerScene(f"{family}, unpredicted", (point,), (last,), null)

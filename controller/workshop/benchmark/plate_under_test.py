@@ -19,7 +19,7 @@ from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.responses.driver import DriverResponse
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.physics.sound import PlateSound
-from controller.workshop.physics.word_capture import volts_above_idle
+from controller.workshop.physics.word_capture import idle_levels, volts_above_idle
 
 POLARITIES = 8  # sets of polarities of which the bound is computed, the most promising first
 ROUGHLY = (1.0, 0.3)  # how exactly these are compared, before the best one's bound is
@@ -54,7 +54,7 @@ class PlateUnderTest:
         self._sound = PlateSound(board, self.model.plate_modes)
         self._prediction = Prediction(board, self.model)
         self._in_drive_order = np.ascontiguousarray(self.model.modal[:, ::-1], np.float32)
-        self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+        self._idle_bits = idle_levels(board)
 
     def volts(self, words: Words) -> Floats:
         """Voltage of each channel above that at rest over the board's whole emission, (sample, 32); shorter ones start later."""

@@ -43,8 +43,7 @@ def fit_decays(responses: Reals, known: Bools, noise: Floats, waveform: Waveform
     reported = of_records[np.isfinite(of_records)]
     floor = float((reported**2).mean()) if reported.size else 0.0
     edges = np.linspace(waveform.band_low_hz, waveform.band_high_hz, PARTS + 1)
-    middle_hz = (waveform.band_low_hz + waveform.band_high_hz) / 2
-    first = int(SPREAD_PERIODS / middle_hz * bit_clock_hz)
+    first = int(SPREAD_PERIODS / waveform.middle_hz * bit_clock_hz)
     found = []
     for low_hz, high_hz in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
         gain = band_gain(frequency_hz, (low_hz, high_hz))

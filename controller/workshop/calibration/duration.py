@@ -47,12 +47,9 @@ class Foreseen(NamedTuple):
 
 
 def foreseen(board: Board, folder: Path, pitch_m: float, clock: Callable[[], float] = time.perf_counter) -> Foreseen | None:
-    """What a bank of a measurement folder takes; None without any record.
-
-    Raises CalibrationError if the folder cannot be read.
-    """
+    """What a bank of a measurement folder takes; None without any record. Raises CalibrationError if it cannot be read."""
     measurement = read_measurement(folder, board)
-    there = [point for point in range(len(measurement.names)) if point not in measurement.missing]
+    there = measurement.there
     if not there:
         return None
     points_m, cells_m = measurement.points_m[there], Grid.of(board.plate, pitch_m).points()

@@ -72,7 +72,7 @@ def learn(
     Raises CalibrationError if the folder cannot be read or determines nothing. What else is wrong is in `findings`.
     """
     measurement = read_measurement(folder, board)
-    there = [point for point in range(len(measurement.names)) if point not in measurement.missing]
+    there = measurement.there
     if not there:
         raise CalibrationError(f"{folder}: no record of any point: {measurement.settings.records.files} names no file")
     first = measurement.records(there[0])

@@ -9,20 +9,18 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Final
 
 import numpy as np
-from msgspec import Meta, Struct, field
+from msgspec import Struct, field
 
 from controller.arrays import Floats
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, bounded, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Number, Tap, Time, Vibration, bounded, decoded_json
 
 LONGEST_S: Final = 30.0  # of an event: Core Haptics plays no longer one
 INTENSITY_CONTROL, SHARPNESS_CONTROL = "HapticIntensityControl", "HapticSharpnessControl"
 WITHOUT_EFFECT: Final = ("AttackTime", "DecayTime", "ReleaseTime")  # at their default, 0
-Time = Annotated[float, Meta(ge=0, le=86400)]
-Number = Annotated[float, Meta(ge=-1e9, le=1e9)]
 
 
 class _Value(Struct, rename="pascal"):

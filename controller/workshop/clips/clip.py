@@ -3,10 +3,11 @@
 import re
 from collections import Counter
 from pathlib import Path
-from typing import NamedTuple, TypeVar
+from typing import Annotated, NamedTuple, TypeVar
 
 import msgspec
 import numpy as np
+from msgspec import Meta
 
 from controller.arrays import Floats
 from controller.device.board.validation import NO_JSON
@@ -20,6 +21,9 @@ SPARE_COMMA = re.compile(
     r'("(?:\\.|[^"\\])*")|,(?=\s*[}\]])'
 )  # behind the last of a list: some tools write it, and Apple's reads it
 NEUTRAL = 0.5  # sharpness, where a file has none
+
+Time = Annotated[float, Meta(ge=0, le=86400)]  # in s
+Number = Annotated[float, Meta(ge=-1e9, le=1e9)]
 
 
 class Curve(NamedTuple):

@@ -6,17 +6,15 @@ vibrates; one without is a tap. Gains of file, track, melody and note are multip
 
 from collections import Counter
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Final
 
-from msgspec import Meta, Struct, field
+from msgspec import Struct, field
 
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, bounded, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Number, Tap, Time, Vibration, bounded, decoded_json
 
 VERSION: Final = "5"
 RATE_HZ: Final = 100.0  # where a note has none
-Time = Annotated[float, Meta(ge=0, le=86400)]
-Number = Annotated[float, Meta(ge=-1e9, le=1e9)]
 
 
 class _Point(Struct, rename=lambda name: f"m_{name}"):

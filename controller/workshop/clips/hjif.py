@@ -15,14 +15,13 @@ from typing import Annotated, Final, Literal, NamedTuple
 from msgspec import Meta, Struct
 
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, bounded, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Number, Tap, Vibration, bounded, decoded_json
 
 FELT: Final = ("Vibrotactile", "Vibration")  # modalities; the second is an older name of the first
 FIRST_YEAR: Final = 2023
 MOST_KEYFRAMES: Final = 1_000_000  # of all effects, each as often as it is referred to
 
 Ticks = Annotated[int, Meta(ge=0, le=86_400 * 48_000)]
-Number = Annotated[float, Meta(ge=-1e9, le=1e9)]
 Hz = Annotated[float, Meta(ge=0, le=1e6)]
 
 

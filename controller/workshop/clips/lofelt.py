@@ -13,10 +13,9 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from controller.errors import ConfigError
-from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Vibration, decoded_json
+from controller.workshop.clips.clip import NEUTRAL, Curve, DesignedClip, Tap, Time, Vibration, decoded_json
 
 MAJOR = 1
-Time = Annotated[float, Meta(ge=0, le=86400)]
 Share = Annotated[float, Meta(ge=0, le=1)]
 
 

@@ -12,7 +12,6 @@ from msgspec import Meta, Struct
 
 from controller.device.board.validation import NO_JSON
 from controller.device.fpga.build_parameters import BuildParameters
-from controller.device.fpga.capture import Capture
 from controller.errors import ConfigError
 from controller.regular_file import read_regular
 from controller.workshop.gateware.gateware import Permit
@@ -26,10 +25,15 @@ Simulated = GatewareModel | RtlGateware
 Tick = Annotated[int, Meta(ge=0, lt=1 << 48)]
 
 
-class PermitStep(Struct, frozen=True, tag_field="do", tag="permit", forbid_unknown_fields=True):
-    """A permit's pin goes to `level`."""
+class _Step(Struct, frozen=True, tag_field="do", forbid_unknown_fields=True):
+    """What is done at a tick, by which `do` it is told from the others in a file."""
 
     tick: Tick
+
+
+class PermitStep(_Step, frozen=True, tag="permit"):
+    """A permit's pin goes to `level`."""
+
     level: bool
     which: Permit
 
@@ -38,10 +42,9 @@ class PermitStep(Struct, frozen=True, tag_field="do", tag="permit", forbid_unkno
         gateware.permit(self.tick, level=self.level, which=self.which)
 
 
-class TriggerStep(Struct, frozen=True, tag_field="do", tag="trigger", forbid_unknown_fields=True):
+class TriggerStep(_Step, frozen=True, tag="trigger"):
     """The trigger is high for some ticks."""
 
-    tick: Tick
     high_ticks: int
 
     def perform(self, gateware: Simulated) -> None:
@@ -49,10 +52,9 @@ class TriggerStep(Struct, frozen=True, tag_field="do", tag="trigger", forbid_unk
         gateware.trigger(self.tick, self.high_ticks)
 
 
-class ExchangeStep(Struct, frozen=True, tag_field="do", tag="exchange", forbid_unknown_fields=True):
+class ExchangeStep(_Step, frozen=True, tag="exchange"):
     """A frame by the SPI."""
 
-    tick: Tick
     release_tick: Tick
     mosi: bytes
 
@@ -61,10 +63,9 @@ class ExchangeStep(Struct, frozen=True, tag_field="do", tag="exchange", forbid_u
         gateware.exchange(self.tick, self.release_tick, self.mosi, memoryview(bytearray(len(self.mosi))))
 
 
-class UartStep(Struct, frozen=True, tag_field="do", tag="uart", forbid_unknown_fields=True):
+class UartStep(_Step, frozen=True, tag="uart"):
     """Bytes by the UART, back to back."""
 
-    tick: Tick
     wire: bytes
 
     def perform(self, gateware: Simulated) -> None:
@@ -106,54 +107,35 @@ class InputScript(Struct, frozen=True, forbid_unknown_fields=True):
         gateware.advance(end_tick)
 
 
-class InputRecorder:
-    """A `Gateware` that notes what is done to the model."""
+class InputRecorder(GatewareModel):
+    """The model, which notes what is done to its pins."""
 
     def __init__(self, parameters: BuildParameters) -> None:
-        self._model = GatewareModel(parameters)
+        super().__init__(parameters)
         self._parameters = parameters
         self._steps: list[Step] = []
-
-    @property
-    def now(self) -> int:
-        """The current tick."""
-        return self._model.now
-
-    @property
-    def fault(self) -> bool:
-        """As of `Gateware`."""
-        return self._model.fault
-
-    def next_change(self) -> int | None:
-        """As of `Gateware`."""
-        return self._model.next_change()
 
     @property
     def script(self) -> InputScript:
         """All of it up to now."""
         return InputScript(self._parameters, self.now, self._steps)
 
-    def advance(self, tick: int) -> None:
-        """As of `Gateware`."""
-        self._model.advance(tick)
-
     def permit(self, tick: int, *, level: bool, which: Permit = Permit.RUN) -> None:
-        """As of `Gateware`."""
-        self._note(PermitStep(tick, level, which))
+        """As of the model."""
+        self._steps.append(PermitStep(tick, level, which))
+        super().permit(tick, level=level, which=which)
 
     def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
-        """As of `Gateware`."""
-        self._note(TriggerStep(tick, high_ticks))
+        """As of the model."""
+        self._steps.append(TriggerStep(tick, high_ticks))
+        super().trigger(tick, high_ticks)
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """As of `Gateware`."""
+        """As of the model."""
         self._steps.append(ExchangeStep(select_tick, release_tick, bytes(mosi)))
-        self._model.exchange(select_tick, release_tick, mosi, miso)
+        super().exchange(select_tick, release_tick, mosi, miso)
 
-    def take_capture(self) -> Capture:
-        """As of `Gateware`."""
-        return self._model.take_capture()
-
-    def _note(self, step: Step) -> None:
-        self._steps.append(step)
-        step.perform(self._model)
+    def uart(self, tick: int, wire: bytes) -> int:
+        """As of the model."""
+        self._steps.append(UartStep(tick, wire))
+        return super().uart(tick, wire)

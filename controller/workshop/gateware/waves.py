@@ -26,20 +26,14 @@ TICKS_PER_S, TRACED_TICKS_PER_S, INSIDE_TICKS_PER_S = 1.5e6, 4e5, 5e4  # simulat
 
 
 def foci(script: InputScript) -> list[int]:
-    """Ticks at which emissions end, by the model.
-
-    Raises ConfigError for what the pins do not allow.
-    """
+    """Ticks at which emissions end, by the model; raises ConfigError for what the pins do not allow."""
     model = GatewareModel(script.parameters)
     _perform(script, model, script.end_tick)
     return [int(tick) for tick in model.take_capture().focus_ticks]
 
 
 def window_of_emission(script: InputScript, number: int) -> range:
-    """Ticks around the end of an emission, counted from 1.
-
-    Raises ConfigError if there are fewer.
-    """
+    """Ticks around the end of an emission, counted from 1; raises ConfigError if there are fewer."""
     found = foci(script)
     if not 1 <= number <= len(found):
         raise ConfigError(f"--emission {number}: {len(found)} emissions end in what is simulated: give --from-ms and --to-ms")

@@ -9,6 +9,12 @@ from controller.device.board.board import Board
 from controller.device.fpga.capture import Capture
 
 
+def idle_levels(board: Board) -> Floats:
+    """Level of each channel at rest, 0 or 1: (channel,)."""
+    levels: Floats = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+    return levels
+
+
 def volts_above_idle(board: Board, words: NDArray[np.uint32]) -> Floats:
     """Voltage of each channel's stage above that at rest: (sample, channel)."""
     above = channel_bits(words).astype(np.float64) - channel_bits(as_words(board.idle_word, words))

@@ -146,7 +146,7 @@ def test_the_command_writes_figures_and_says_where_it_cannot(coarse, monkeypatch
     for place in (module, scene_errors):
         monkeypatch.setattr(place, "scenes", lambda *given: [scene for scene in scenes(*given) if scene.family == "1 off grid"])
     monkeypatch.setattr(registry, "METHODS", (plain_methods,))
-    monkeypatch.setattr(command, "load_board", lambda _folder: coarse)
+    monkeypatch.setattr(command, "board_of", lambda _options: coarse)
     options = ["--quick", "--no-timing", "--no-pictures", "--json", "--workers", "1", "--out"]
     assert main(["benchmark", *options, str(tmp_path / "out")]) == 0
     assert not list((tmp_path / "out").glob(module.KEPT)), "they are in the results"

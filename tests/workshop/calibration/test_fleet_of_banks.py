@@ -89,7 +89,7 @@ def test_a_full_disk_ends_the_fleet_where_it_is_and_the_same_command_goes_on(tmp
         if "b.bank" in str(Path(f"/proc/self/fd/{fd}").readlink()):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr(fleet_command, "load_board", lambda _: small_board())
+    monkeypatch.setattr(fleet_command, "board_of", lambda _: small_board())
     monkeypatch.setattr(fleet, "fit", lambda one: begun.append(one.folder.name) or fitted)  # copies
     monkeypatch.setattr(said_amplitude, "PLACES", 3)  # of each bank, where most of the time goes
     monkeypatch.setattr(os, "posix_fallocate", full)

@@ -52,7 +52,7 @@ class Pulses:
 def in_band_pulses(waveform: Waveform, responses: Floats) -> Pulses:
     """Pulses learned from responses in drive order (response, sample, 32). Raises ConfigError if the band is too high for them."""
     width_hz, samples = waveform.band_high_hz - waveform.band_low_hz, waveform.samples
-    carrier_hz = (waveform.band_low_hz + waveform.band_high_hz) / 2 - LOWERED * width_hz
+    carrier_hz = waveform.middle_hz - LOWERED * width_hz
     even = 2 * np.arange(samples // 2 + compact_twin.EVEN_BEYOND)
     first, envelope = _envelopes(even, max(waveform.bit_clock_hz / (PAIRS_TO_BAND * width_hz), 1.0))
     phase = (2 * np.pi * carrier_hz / waveform.bit_clock_hz * even)[:, None]

@@ -38,6 +38,7 @@ from controller.workshop.bank_builder.methods.measured_plate import MeasuredPlat
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.bank_builder.methods.settling import settle
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import idle_levels
 
 LEVELS = 64  # to which relaxed levels are rounded before they become bits
 STEPS_BEFORE_WEIGHING = 5  # relaxation steps between two corrections of the weight of the amplitude
@@ -57,7 +58,7 @@ class Descent:
         self.name = f"descent: {aim.name}"
         self._aim, self._plate = aim, plate
         self._idle_word = board.idle_word
-        self._idle: Floats = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+        self._idle = idle_levels(board)
         self._most_edges = math.floor(board.limits.max_edge_rate_hz * board.waveform.duration_s)
         self.field: FieldForm = like.field if like else FieldForm(board, plate)
         self._audible: AudibleForm = like._audible if like else AudibleForm(board, plate, SAMPLES_AT_ONCE)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from controller.arrays import Bools, Reals
-from controller.device.bank.packing import CHANNELS, WORD, channel_bits
+from controller.device.bank.packing import CHANNELS, WORD
 from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.device.kernel.amplitude_twin import masking_threshold
@@ -24,6 +24,7 @@ from controller.device.waveforms.composition import BLOCK_S, MAX_FOCI
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
 from controller.workshop.bank_builder.methods.dual import cheapest, farthest, flip, likely_polarities
 from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.physics.word_capture import idle_levels
 
 EQUAL: Final = 5e-4  # of what a point shall get: flips mend a larger difference
 ROUNDS: Final = 3  # of choosing proportions in the band such that whole displacements come out as wanted
@@ -42,8 +43,7 @@ class ExactComposition:
     def __init__(self, board: Board, source: ResponseSource) -> None:
         self.idle_word, self.bit_period_s = board.idle_word, board.waveform.bit_period_s
         self._source = source
-        idle = channel_bits(np.array([board.idle_word], np.uint32))[0]
-        self.volts = np.where(idle, -1.0, 1.0) * board.driver.supply_v  # of a bit that deviates from idle, (32,)
+        self.volts = np.where(idle_levels(board), -1.0, 1.0) * board.driver.supply_v  # of a bit that deviates from idle, (32,)
 
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:
         """As `DesignMethod.design`."""

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.arrays import Floats
-from controller.device.bank.packing import channel_bits
 from controller.device.board.board import Board
 from controller.device.board.panel import CHANNELS
 from controller.workshop.bank_builder.methods.exact import rounded
 from controller.workshop.bank_builder.methods.measured_plate import MeasuredDrive, MeasuredPlate
 from controller.workshop.physics.field import FocusScale, map_axis
 from controller.workshop.physics.responses.impulse_response import ResponseModel
+from controller.workshop.physics.word_capture import idle_levels
 
 TABLE_BITS = 15  # of kernel and forces
 PLACE_BITS = 12  # of mode shapes
@@ -79,7 +79,7 @@ class FieldForm:
         self._drive: ModalDrive | MeasuredDrive = (
             ModalDrive(plate, self._size) if isinstance(plate, ResponseModel) else MeasuredDrive(plate, self._size)
         )
-        self._idle = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+        self._idle = idle_levels(board)
         scale = FocusScale.of(board)
         self._outside_m = scale.outside_m
         self._x_m = map_axis(self._modes.length_m, scale.map_step_m)

@@ -64,5 +64,5 @@ def pulse_matrix(waveform: Waveform, decimation: int) -> Floats:
     away = (samples[:, None] - middles) / decimation
     inside = np.clip(1 - (away / REACH) ** 2, 0, None)
     envelope = np.where(np.abs(away) < REACH, np.sinc(away) * np.i0(KAISER_BETA * np.sqrt(inside)) / np.i0(KAISER_BETA), 0)
-    phase = np.pi * (waveform.band_low_hz + waveform.band_high_hz) * waveform.bit_period_s * samples[:, None]
+    phase = 2 * np.pi * waveform.middle_hz * waveform.bit_period_s * samples[:, None]
     return np.concatenate([envelope * np.cos(phase), envelope * np.sin(phase)], axis=1)

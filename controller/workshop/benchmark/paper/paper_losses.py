@@ -14,7 +14,7 @@ from scipy.stats.qmc import Halton
 from controller.arrays import Floats
 from controller.device.board.plate.plate import Foam
 from controller.device.board.relations.bending_waves import mindlin_shift
-from controller.device.touch.prediction import Motion
+from controller.workshop.benchmark.fingers_scenes import motion_of
 from controller.workshop.benchmark.focus.focus_figures import emit
 from controller.workshop.benchmark.paper.paper_panel import PaperPanel, kept
 from controller.workshop.benchmark.paper.paper_row import Row, rows
@@ -143,10 +143,7 @@ def _predicted_m(random: np.random.Generator, direction: Floats) -> Floats:
     steps = np.arange(1 - REPORTS, 1)
     places = np.outer(steps * period_s * SPEED_M_S, direction) + random.normal(0, NOISE_M, (REPORTS, 2))
     times_s = (steps + REPORTS) * period_s
-    motion = Motion(float(places[0, 0]), float(places[0, 1]), float(times_s[0]))
-    for (x_m, y_m), time_s in zip(places[1:].tolist(), times_s[1:].tolist(), strict=True):
-        motion.report(x_m, y_m, time_s)
-    return np.array(motion.predict(times_s[-1], times_s[-1], LAG_S, period_s))
+    return np.array(motion_of(places, times_s).predict(times_s[-1], times_s[-1], LAG_S, period_s))
 
 
 def _between_cells(panel: PaperPanel, pitch_m: float, *, packed: bool = False) -> tuple[list[float], list[float]]:

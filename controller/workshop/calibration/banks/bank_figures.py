@@ -25,7 +25,7 @@ def plate_notes(
     notes = []
     scale = waves.frequency_scale
     if board.plate.theory == "kirchhoff":
-        scale *= waves.dispersion.slowed_by_shear((board.waveform.band_low_hz + board.waveform.band_high_hz) / 2)
+        scale *= waves.dispersion.slowed_by_shear(board.waveform.middle_hz)
     if abs(scale - 1) > SAID_FREQUENCY + 2 * waves.factor_error:
         notes.append(
             f"the plate's frequencies are {100 * (scale - 1):+.2f} % off those of board.toml's {board.plate.theory.capitalize()}"

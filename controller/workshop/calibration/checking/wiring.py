@@ -38,13 +38,14 @@ class Wiring:
 
 def wiring_of(waves: DirectWaves | None, channels: Sequence[int], alive: Sequence[int], points: int) -> Wiring:
     """Verdict on the channels that are `alive` among all that have an actuator; `points` were measured."""
+    unknown = Wiring(undecided=tuple(alive), points=points, points_needed=max(2 * points, FIRST_POINTS))
     if waves is None:
-        return Wiring(undecided=tuple(alive), points=points, points_needed=max(2 * points, FIRST_POINTS))
+        return unknown
     names, living = np.asarray(channels), np.isin(channels, alive)
     table = np.where(living[:, None], waves.strength[np.ix_(channels, channels)], 0.0)
     error = waves.error[list(channels)]
     if not (living.any() and np.isfinite(table).all() and np.isfinite(error).all() and (error[living] > 0).all()):
-        return Wiring(undecided=tuple(alive), points=points, points_needed=max(2 * points, FIRST_POINTS))
+        return unknown
     of_row, taken = linear_sum_assignment(-abs(table) - ROUND * np.eye(len(table)))  # what is dead keeps its patch, if it is free
     there = table[of_row, taken]
     single, pair = _errors(table, error, living, taken)

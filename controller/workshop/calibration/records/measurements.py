@@ -70,9 +70,14 @@ class Measurement:
         return tuple(dict.fromkeys(file for _, file in self._files(point) if file.exists()))
 
     @cached_property
+    def there(self) -> list[int]:
+        """Points with some record."""
+        return [point for point in range(len(self.names)) if any(self._has(point))]
+
+    @property
     def missing(self) -> tuple[int, ...]:
         """Points without any record."""
-        return tuple(point for point in range(len(self.names)) if not any(self._has(point)))
+        return tuple(sorted({*range(len(self.names))} - {*self.there}))
 
     @cached_property
     def common_files(self) -> tuple[Path, ...]:

@@ -58,7 +58,7 @@ class Movie:
         """
         waveform = twin.board.waveform
         period_s, samples = waveform.bit_period_s, waveform.samples
-        around_s = PERIODS * 2 / (waveform.band_low_hz + waveform.band_high_hz)
+        around_s = PERIODS / waveform.middle_hz
         first_s = max(-around_s if from_s is None else from_s, (1 - samples) * period_s)
         last_s = around_s if to_s is None else to_s
         if not (first_s <= 0 <= last_s <= 10.0):  # NaN too

@@ -73,7 +73,7 @@ def plot_focus(
 def draw_series(figure: Any, board: Board, series: FocusSeries) -> None:
     """Draw voltages, displacement and spectrum of a focus."""
     waveform = board.waveform
-    near_s = PERIODS * 2 / (waveform.band_low_hz + waveform.band_high_hz)
+    near_s = PERIODS / waveform.middle_hz
     time_us, time_ms, u_um = series.time_s * 1e6, series.time_s * 1e3, series.displacement_m * 1e6
     volts, whole, near, spectrum = figure.subplots(4, 1, height_ratios=[1.5, 1, 1, 1.2])
 
