@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from controller.arrays import Words
 from controller.device.bank.file_format import Header
-from controller.device.bank.packing import channel_bits, edges
+from controller.device.bank.packing import channel_bits, edges, framed
 from controller.device.board.board import Board
 from controller.errors import ConfigError
 from controller.workshop.bank_builder.writer import BankWriter
@@ -60,7 +60,7 @@ class Entries:
         """Note the edges of the busiest channel, and of all; refused above the board's limit."""
         board, results = self._board, self._results
         idle = np.array([board.idle_word], np.uint32)
-        counts = edges(np.concatenate([idle, words, idle]))
+        counts = edges(framed(board.idle_word, words, board.idle_word))
         own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
         rate_hz = float(own_edges.max()) / board.waveform.duration_s
         if rate_hz > board.limits.max_edge_rate_hz:

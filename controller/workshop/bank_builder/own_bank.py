@@ -61,7 +61,9 @@ class Order:
     @property
     def cells(self) -> Bools | None:
         """Cells of the grid that the scene can reach; None: all."""
-        return None if self.scene is None or self.compact else reached(self.board, self.scene, self.pitch_m)
+        if self.scene is None or self.compact:
+            return None
+        return cells_needed(self.scene, self.grid.points(), self.pitch_m, MET_AHEAD_M, wave_scale=wave_scale(self.board))
 
     def build(self, path: Path, cells: Bools | None = None, **how: Any) -> BuildReport:
         """Build it, its file beside or in place of another; for several FPGAs a file for each; the report is of all of them.
@@ -116,22 +118,16 @@ def order(board: Board, scene_file: Path | None = None, pitch_mm: float | None =
     if memory.compact and pitch_mm is None and not compact:
         tell(memory.in_words())
         compact = True
+    scene = load_scene(scene_file, board) if scene_file else None
     if compact:
-        scene = load_scene(scene_file, board) if scene_file else None
         return Order(board, compact_pitch_m(board) if pitch_mm is None else pitch_mm * 1e-3, scene, scene_file, compact=True)
     if board.compose.method == "bank" or pitch_mm is not None:
-        scene = load_scene(scene_file, board) if scene_file else None
         return Order(board, pitch_of(board, pitch_mm) * 1e-3, scene, scene_file)
     scene_file = scene_file or find_scene(board)
-    scene = load_scene(scene_file, board)
+    scene = scene or load_scene(scene_file, board)
     choice = chosen(board, scene, scene_file)
     tell(f"{scene_file.name}: {choice['why']}")
     return Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice, choice["compact"])
-
-
-def reached(board: Board, scene: Scene, pitch_m: float) -> Bools:
-    """Cells of the grid of a pitch that a scene can reach."""
-    return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M, wave_scale=wave_scale(board))
 
 
 def pitch_of(board: Board, pitch_mm: float | None) -> float:
@@ -174,16 +170,18 @@ def warn_of_pitch(path: Path, report: BuildReport) -> None:
 
 def _wanted(board: Board, scene: Scene, scene_file: Path, path: Path) -> tuple[Order, Fit]:
     """What the scene needs, and whether the bank at `path` has it."""
+    reason = ""
     if memory_fit(board).compact:
         wanted = Order(board, compact_pitch_m(board), scene, scene_file, compact=True)
-        return wanted, fit(path, board, np.ones(wanted.grid.cells, bool))
-    if board.compose.method == "bank":
+    elif board.compose.method == "bank":
         wanted = Order(board, board.bank.pitch_mm * 1e-3, scene, scene_file)
-        return wanted, fit(path, board, reached(board, scene, wanted.pitch_m))
-    there = choice_of(path)
-    choice = there if there and there["asked"] == asked_of(board, scene_file) else chosen(board, scene, scene_file)
-    wanted = Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice, choice.get("compact", False))
-    cells = np.ones(wanted.grid.cells, bool) if wanted.compact else reached(board, scene, wanted.pitch_m)
-    if there and any(there.get(name, False) != choice.get(name, False) for name in ("pitch_mm", "snap_mm", "composes", "compact")):
-        return wanted, Fit(f"{scene_file.name} needs {choice['why'].partition(':')[0]}", cells)
-    return wanted, fit(path, board, cells)
+    else:
+        there = choice_of(path)
+        choice = there if there and there["asked"] == asked_of(board, scene_file) else chosen(board, scene, scene_file)
+        wanted = Order(board, choice["pitch_mm"] * 1e-3, scene, scene_file, choice, choice.get("compact", False))
+        kinds = ("pitch_mm", "snap_mm", "composes", "compact")
+        if there and any(there.get(name, False) != choice.get(name, False) for name in kinds):
+            reason = f"{scene_file.name} needs {choice['why'].partition(':')[0]}"
+    needed = wanted.cells
+    cells = np.ones(wanted.grid.cells, bool) if needed is None else needed
+    return wanted, Fit(reason, cells) if reason else fit(path, board, cells)

@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from controller.arrays import Floats, Words
-from controller.device.bank.packing import channel_bits
+from controller.device.bank.packing import channel_bits, framed
 from controller.device.board.board import Board
 from controller.device.board.panel import AssumedFinger
 from controller.workshop.bank_builder.methods.aims import AIMS
@@ -92,11 +92,11 @@ class MethodTrial:
         return [focus(one, [1.0], board.idle_word) for one in responses]
 
     def _figures(self, words: Words, place_m: Floats, fingers: Sequence[PadMotion]) -> list[float]:
-        board, idle = self.board, np.array([self.board.idle_word], np.uint32)
+        board = self.board
         found = emit(self._twin, words).focus_metrics(*place_m.tolist())
         off_m = min(float(emit(twin, words).at(place_m)[0]) for twin in self._off)
         volts = volts_above_idle(board, words)[None]
-        levels = channel_bits(np.concatenate([idle, words, idle]).astype("<u4")).astype(np.int8)
+        levels = channel_bits(framed(board.idle_word, words, board.idle_word)).astype(np.int8)
         felt = (float(felt_by_motion_um(one, volts, board.waveform.bit_period_s)[0, 0]) for one in fingers)
         return [
             *(found.amplitude_m * 1e6, off_m * 1e6, *felt, found.contrast, found.spot_m * 1e3),

@@ -15,6 +15,7 @@ from controller.device.waveforms.composition import block_samples
 from controller.workshop.bank_builder.compact.design import CompactDesign
 from controller.workshop.bank_builder.interpolation_error import DIGITS
 from controller.workshop.physics.responses.response_source import ResponseSource
+from controller.workshop.physics.word_capture import idle_levels
 
 PLACES: Final = 48
 SEED: Final = 2  # other places than those from which pulses were learned
@@ -101,5 +102,4 @@ class Trial:
         return kernel.compose(self._words, self._room, self._buffers, [(place[0], place[1], amplitude)]) < 0
 
     def _displacement(self, words: NDArray[np.uint32], whole: Reals) -> float:
-        idle_bits = channel_bits(np.array([self._board.idle_word], np.uint32))[0].astype(np.float64)
-        return float(((channel_bits(words) - idle_bits) * whole).sum())
+        return float(((channel_bits(words) - idle_levels(self._board)) * whole).sum())

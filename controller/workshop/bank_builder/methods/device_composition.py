@@ -12,6 +12,7 @@ from controller.device.board.board import Board
 from controller.device.kernel import Point
 from controller.device.waveforms.composition import Composer
 from controller.workshop.bank_builder.methods.design import Place, WaveformDesign
+from controller.workshop.physics.word_capture import idle_levels
 
 NEAR_S = 25e-6  # a null is evaluated this long before and after T
 
@@ -24,8 +25,7 @@ class DeviceComposition:
     def __init__(self, board: Board, bank: Bank) -> None:
         self._composer = Composer(bank, board.idle_word)
         self._bank = bank
-        idle = channel_bits(np.array([board.idle_word], WORD))[0].astype(np.float64)
-        self._idle_bits, self._supply_v = idle, board.driver.supply_v
+        self._idle_bits, self._supply_v = idle_levels(board), board.driver.supply_v
         self._near_samples = round(NEAR_S / board.waveform.bit_period_s)
 
     def design(self, points: Sequence[Point], nulls: Sequence[Place] = ()) -> WaveformDesign:

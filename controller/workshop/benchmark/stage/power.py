@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.arrays import Floats, blocks
-from controller.device.bank.packing import CHANNELS, WORD, channel_bits
+from controller.device.bank.packing import CHANNELS, WORD, channel_bits, framed
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.panel import Driver
@@ -78,13 +78,12 @@ def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] |
     `progress` is called with the number of entries done and of all entries. Returns (entry, 32) both; 0 for channels without an
     actuator. Raises BankError if an entry is damaged.
     """
-    cells = np.flatnonzero(bank.cells).tolist()
-    idle = channel_bits(np.array([board.idle_word], np.uint32))
+    cells, idle = np.flatnonzero(bank.cells).tolist(), board.idle_word
     edges = np.empty((len(cells), CHANNELS), np.int64)
     loss_j = np.empty((len(cells), CHANNELS))
     for some in blocks(len(cells), ENTRIES_PER_BLOCK):
-        entries = [np.concatenate([idle, channel_bits(np.frombuffer(bank.drive.words(cell), WORD)), idle]) for cell in cells[some]]
-        levels = np.stack(entries, axis=1)
+        entries = [framed(idle, np.frombuffer(bank.drive.words(cell), WORD), idle) for cell in cells[some]]
+        levels = np.stack([channel_bits(words) for words in entries], axis=1)
         edges[some] = (levels[1:] != levels[:-1]).sum(axis=0)
         loss_j[some] = resistor_loss_j(board.driver, levels, 1 / bank.header.bit_clock_hz)
         if progress:
