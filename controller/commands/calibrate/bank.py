@@ -77,14 +77,8 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     built = build(wanted, fitted, workers)
     for note in built.notes:
         tell(note)
-    report = {
-        "path": str(built.path),
-        "cells": built.report.cells,
-        "bytes": built.report.bytes,
-        "optimised": built.report.optimised,
-        "workers": built.report.workers,
-    }
-    show(options, report | fitted.figures | {"notes": built.notes}, _table)
+    report = {name: getattr(built.report, name) for name in ("cells", "bytes", "optimised", "workers")}
+    show(options, {"path": str(built.path), **report, **fitted.figures, "notes": built.notes}, _table)
     if built.path != (played := find_bank(board)).path:
         tell(f"run plays from {played.path} ({played.why}) unless given --bank {built.path}")
     return 0

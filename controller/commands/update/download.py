@@ -1,6 +1,7 @@
 """`haptic-panel update download`: fetch the release that is offered into the store, without installing it."""
 
 import argparse
+from dataclasses import asdict
 from typing import Any
 
 from controller.commands.common.output import progress_bar, show
@@ -24,15 +25,7 @@ def download(options: argparse.Namespace) -> int:
             manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
         except NotYetError as why:
             return nothing_to_do(options, why)
-    reported: dict[str, Any] = {
-        "version": manifest.version,
-        "counter": manifest.counter,
-        "release_bytes": figures.release_bytes,
-        "kept_bytes": figures.kept_bytes,
-        "reused_bytes": figures.reused_bytes,
-        "fetched_bytes": figures.fetched_bytes,
-    }
-    show(options, reported, _table)
+    show(options, {"version": manifest.version, "counter": manifest.counter, **asdict(figures)}, _table)
     return 0
 
 

@@ -17,6 +17,10 @@ from controller.workshop.simulation.simulated_run import Run
 MOST_MODES = 10_000  # with which what is felt takes half a second
 # Host latency from which figures of foci are not those of the panel: a finger moves by a third of a spot meanwhile.
 SPOILED_S = 10e-3
+COUNTED = (  # by the loop, as `Counters` has it
+    *("uploads", "resident", "heartbeats", "host_silent", "scheduled", "late", "due", "foci", "composed_beforehand"),
+    *("kept_still", "prefetched", "prefetch_wasted", "near", "outages"),
+)
 
 
 def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
@@ -47,23 +51,10 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         + ([f"{counters.skipped.bad_entries} × no emission: {counters.bad_entry}"] if counters.bad_entry else []),
         "emissions": int(run.capture.focus_ticks.size),
         "triggers": counters.emissions,
-        "uploads": counters.uploads,
-        "resident": counters.resident,
-        "heartbeats": counters.heartbeats,
-        "host_silent": counters.host_silent,
+        **{name: getattr(counters, name) for name in COUNTED},
         "outputs_off": not (run.capture.hv[-1:].any() or run.capture.words[-1:].any()),
         "bytes_sent": run.link.bytes_sent,
         "gateware_speed": round(run.link.speed, 3),  # times real time
-        "scheduled": counters.scheduled,
-        "late": counters.late,
-        "due": counters.due,
-        "foci": counters.foci,
-        "composed_beforehand": counters.composed_beforehand,
-        "kept_still": counters.kept_still,
-        "prefetched": counters.prefetched,
-        "prefetch_wasted": counters.prefetch_wasted,
-        "near": counters.near,
-        "outages": counters.outages,
         "link_counts": asdict(counters.link),
         "skipped": asdict(counters.skipped),
         "touch": run.touch,

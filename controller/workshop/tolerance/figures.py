@@ -42,10 +42,7 @@ def study_figures(study: Study, plates: int, alone: int, least: float, workers: 
     return {
         "board": study.board.name,
         "plates": plates,
-        "places": study.places,
-        "seed": study.seed,
-        "points": study.points,
-        "snr_db": study.snr_db,
+        **{name: getattr(study, name) for name in ("places", "seed", "points", "snr_db")},
         "least": least,
         "nominal": _median(nominal.figures),
         "banks": {bank: _of_bank(every[:, index], relative[:, index], least) for index, bank in enumerate(BANKS)},
