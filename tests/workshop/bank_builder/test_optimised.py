@@ -63,7 +63,7 @@ def test_who_replaces_an_optimised_bank_by_a_plain_one_is_reported(banks, monkey
     board = msgspec.structs.replace(BOARD, bank=msgspec.structs.replace(BOARD.bank, pitch_mm=PITCH_M * 1e3, coarse=True))
     monkeypatch.setattr(own_bank, "find_bank", lambda _board: FoundBank(path, "given"))
     monkeypatch.setattr(own_bank, "bank_path", lambda *_: path)
-    monkeypatch.setattr(own_bank, "reached", lambda *_: np.ones(CELLS, bool))
+    monkeypatch.setattr(own_bank, "cells_needed", lambda *_, **__: np.ones(CELLS, bool))
     monkeypatch.setattr(own_bank, "build_bank", lambda *_, **__: SimpleNamespace(interpolation_error={}))
     monkeypatch.setattr(own_bank, "warn_of_pitch", lambda *_: None)
     own_bank.own_bank(board, SimpleNamespace(emitters=()), Path("scene.toml")).close()
