@@ -59,14 +59,11 @@ class PanelFigures:
 
     def __call__(self) -> tuple[str, str, dict[str, Any]]:
         """Version, board and figures; raises ControllerError if no panel answers."""
-        kept = self._panel is not None
-        try:
-            return self._ask()
-        except ControllerError:
+        if self._panel is not None:
+            with contextlib.suppress(ControllerError):  # it was restarted, or another client needed the place
+                return self._ask()
             self.close()
-            if not kept:
-                raise
-        try:  # it was restarted, or another client needed the place
+        try:
             return self._ask()
         except ControllerError:
             self.close()

@@ -62,6 +62,12 @@ def contacts_at(
     return contacts
 
 
+def used_without(refused: Sequence[str], bus: str) -> str:
+    """Remark on a chip that refuses registers, given in hex; empty if it refuses none."""
+    registers = ", ".join(f"0x{register}" for register in refused)
+    return f"the touch panel on {bus} refuses registers {registers}: it is used without them" if refused else ""
+
+
 class CountedReads:
     """Transfers of such reports of the chip at an address; counts `ghost_points` and `points_refused`."""
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from controller.device.board.touch_panels import Address, Extent, I2cTouch
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ReportedContact, describe
-from controller.device.touch.drivers.counted_report import CountedReads, CountedReport, contacts_at
+from controller.device.touch.drivers.counted_report import CountedReads, CountedReport, contacts_at, used_without
 from controller.device.touch.drivers.i2c_bus import I2cBus, Transfer
 from controller.errors import TouchError
 
@@ -135,9 +135,7 @@ class Ft5x06:
                 refused.append(DEVICE_MODE[0])
             if not bus.offer(address, bytes((INTERRUPT_MODE, 1))):
                 refused.append(INTERRUPT_MODE)
-            if refused:
-                registers = ", ".join(f"0x{register:02X}" for register in refused)
-                remark = f"the touch panel on {self._settings.bus} refuses registers {registers}: it is used without them"
+            remark = used_without([f"{register:02X}" for register in refused], self._settings.bus)
         self.description = describe(name, firmware, self._settings.width, self._settings.height, sized=False, remark=remark)
         bus.fetch(self._short)
         self._stale = bytes(self._short.data) if self._holds_contacts() else None

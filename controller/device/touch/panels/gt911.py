@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from controller.device.board.touch_panels import I2cTouch
 from controller.device.touch.drivers.contact_events import MAX_CONTACTS, ReportedContact, describe
-from controller.device.touch.drivers.counted_report import CountedReads, CountedReport
+from controller.device.touch.drivers.counted_report import CountedReads, CountedReport, used_without
 from controller.device.touch.drivers.i2c_bus import REFUSED_ERRNOS, I2cBus, write_message
 from controller.device.touch.event_reader import DeviceDescription
 from controller.errors import TouchError
@@ -102,12 +102,10 @@ class Gt911:
         product = self._find(bus, (self._address,) if lines.has_reset and lines.has_interrupt else (self._address, self._other))
         config = bus.ask(self._address, CONFIG, CONFIG_BYTES)
         refused = [register.hex().upper() for register, answer in ((PRODUCT_ID, product), (CONFIG, config)) if answer is None]
-        remark = ""
-        if refused:
-            registers = ", ".join(f"0x{register}" for register in refused)
-            remark = f"the touch panel on {self._settings.bus} refuses registers {registers}: it is used without them"
         name = f"GT{product_of(product, self._settings.bus)}" if product else "Goodix of unknown product"
-        self.description = self._described(name, config, int.from_bytes(product[4:6], "little") if product else 0, remark)
+        self.description = self._described(
+            name, config, int.from_bytes(product[4:6], "little") if product else 0, used_without(refused, self._settings.bus)
+        )
         if config:
             self.rising = config[6] & 0x03 in RISING_INTERRUPT
             self.scan_s = (SHORTEST_SCAN_MS + (config[15] & 0x0F)) * 1e-3
