@@ -123,9 +123,8 @@ class Housekeeping:
         if self._scene is not None:
             self._tell_scene(self._scene)
             self._scene = None
-        if (
-            self._reloads != self._reloads_reported and not loop.reloading
-        ):  # else another one is being prepared, whose result the caller waits for too
+        # While another one is being prepared, the caller waits for its result too
+        if self._reloads != self._reloads_reported and not loop.reloading:
             self._reloads_reported = self._reloads
             self._reload_file.write(self._reloads, self._reload_refused)
         if self._bit_clock is not None and loop.outputs.on:  # skip while the FPGA is unreachable: it cannot accept a new bit clock

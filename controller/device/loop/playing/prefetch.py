@@ -9,9 +9,8 @@ from controller.device.scene.emission import Emission
 from controller.device.waveforms.selection import Key, Selection
 from controller.metrics import Counters
 
-PREFETCH_AFTER_HITS: Final = (
-    2  # this many predictions in a row come true, sent or not, before one is sent; one more of several fingers
-)
+# This many predictions in a row come true, sent or not, before one is sent; one more of several fingers
+PREFETCH_AFTER_HITS: Final = 2
 
 
 class PrefetchRecord:
