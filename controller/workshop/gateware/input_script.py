@@ -26,7 +26,7 @@ Tick = Annotated[int, Meta(ge=0, lt=1 << 48)]
 
 
 class _Step(Struct, frozen=True, tag_field="do", forbid_unknown_fields=True):
-    """What is done at a tick, by which `do` it is told from the others in a file."""
+    """What is done at a tick; in a file, `do` says what."""
 
     tick: Tick
 

@@ -7,6 +7,7 @@ time go through the same ticks.
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from controller.device.board.board import Board
 from controller.device.board.devices import LinkSettings
@@ -23,12 +24,12 @@ SELECT_PAUSE_TICKS = 10  # and at least this many FPGA clocks
 TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger: the frame must have been executed
 
 
+@dataclass
 class Bus:
     """The wires on which frames go, which several FPGAs may share; tick 0 is `start_s` on the loop's clock."""
 
-    def __init__(self, start_s: float, ready_tick: int = READY_TICKS) -> None:
-        self.start_s = start_s
-        self.free_tick = ready_tick  # when they are free
+    start_s: float
+    free_tick: int = READY_TICKS  # when they are free
 
 
 class SimulatedLink:
