@@ -51,7 +51,6 @@ class Tracker:
         self._lag_s = settings.lag_s
         self._confirm_reports = settings.confirm_reports
         self._length_m, self._width_m = length_m, width_m
-        self._ghostly = settings.ghost_s > 0
         self._guard = GhostGuard(settings.ghost_s)
         self._quiet = QuietBudget(settings.ghost_s)
         self._contacts: dict[int, TrackedContact] = {}  # by the source's number
@@ -202,7 +201,7 @@ class Tracker:
             if self._bridged is not None:
                 self._bridged(found.finger, finger)
             return found
-        contact = TrackedContact(finger, Motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
+        contact = TrackedContact(finger, Motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
         contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
         self._due_s = -inf  # it is decided now, or from when on it waits
