@@ -13,7 +13,7 @@ from controller.device.fpga.frames import Play, ReadyFrames, joined, parted
 from controller.device.fpga.recovery import Action, Recovery, action_for
 from controller.device.fpga.registers import Control, Fault, Register, Result, Start, State
 from controller.device.fpga.session import Session
-from controller.device.fpga.wide_session import APART_TICKS, WideSession
+from controller.device.fpga.several.wide_session import APART_TICKS, WideSession
 from controller.device.service.drivers import await_session, open_session
 from controller.errors import FaultError, LinkError
 from controller.workshop.gateware.actual_panel import gateware_of

@@ -18,7 +18,7 @@ from controller.device.fpga.capture import Capture
 from controller.device.fpga.links.link import Link
 from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.session import Session
-from controller.device.fpga.wide_session import APART_TICKS, WideSession
+from controller.device.fpga.several.wide_session import APART_TICKS, WideSession
 from controller.errors import ControllerError
 
 APART_S = 0.2  # between two pulses of the trigger: crystals that differ by 50 ppm are 10 us apart by then

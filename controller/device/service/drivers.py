@@ -17,7 +17,7 @@ from controller.device.fpga.links.lazy_link import LazyGroup, LazyLink
 from controller.device.fpga.links.link import Link
 from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.session import Session
-from controller.device.fpga.wide_session import WideSession
+from controller.device.fpga.several.wide_session import WideSession
 from controller.device.touch import panels
 from controller.device.touch.drivers.awaited_reader import AwaitedReader
 from controller.device.touch.drivers.panel_process import PanelProcess, PanelSettings

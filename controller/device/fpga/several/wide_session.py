@@ -22,7 +22,7 @@ from controller.device.fpga.frames import Play, Waveform, parted
 from controller.device.fpga.links.link_group import LinkGroup
 from controller.device.fpga.registers import Register, Start, State
 from controller.device.fpga.session import Session
-from controller.device.fpga.several_fpgas import NamedFpga, answers_of_all, ask_all, rank
+from controller.device.fpga.several.asking import NamedFpga, answers_of_all, ask_all, rank
 from controller.device.fpga.status import Status
 from controller.device.fpga.supervision import Supervision
 from controller.errors import ControllerError, LinkError

@@ -1,0 +1,1 @@
+"""Several FPGAs that play as one."""
