@@ -31,6 +31,7 @@ from packaging.tags import platform_tags, sys_tags
 SOURCE = "controller/device/kernel/kernel.c"
 WORKSHOP = "controller/workshop"
 EXTENSION = "controller/device/kernel/_kernel.abi3.so"
+FOR_AVX2 = "controller/device/kernel/_kernel_avx2.abi3.so"  # beside it, for those processors of x86-64 that have AVX2
 OPTIONS = (
     *("-std=gnu11", "-O3", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Wextra"),
     *("-shared", "-fPIC", "-fvisibility=hidden", "-DPy_LIMITED_API=0x030B0000", "-Wl,--strip-all,--no-as-needed"),
@@ -54,9 +55,9 @@ class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
             self.app.abort("HAPTIC_PANEL_WING: device, or unset for the whole package")
         if _device_wing_only():
             self.build_config.target_config["exclude"] = [*self.build_config.target_config["exclude"], f"/{WORKSHOP}"]
-        beside_source = Path(self.root, EXTENSION)
         if version == "editable":
-            beside_source.unlink(missing_ok=True)
+            for extension in (EXTENSION, FOR_AVX2):
+                Path(self.root, extension).unlink(missing_ok=True)
         compiler = _compiler()
         headers = sysconfig.get_path("include")
         lacking = "a C compiler" if not compiler else "" if Path(headers, "Python.h").exists() else f"{headers}/Python.h"
@@ -65,15 +66,26 @@ class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
             return
         self._folder = tempfile.TemporaryDirectory()
         folder = Path(self._folder.name)
-        compiled = beside_source if version == "editable" else folder / beside_source.name
-        command = [*compiler, *OPTIONS, f"-I{headers}", *shlex.split(os.environ.get("CFLAGS", "")), SOURCE, "-o", str(compiled)]
-        if subprocess.run(command, cwd=self.root, check=False).returncode:
-            self.app.abort(f"{SOURCE} does not compile: {shlex.join(command)}")
+        platform = next(tag for tag in platform_tags() if tag.startswith("linux_"))
+        kinds = {EXTENSION: ()} | ({FOR_AVX2: ("-mavx2", "-DFOR_AVX2")} if platform == "linux_x86_64" else {})
+        for extension, options in kinds.items():
+            compiled = Path(self.root, extension) if version == "editable" else folder / Path(extension).name
+            command = [
+                *compiler,
+                *OPTIONS,
+                *options,
+                f"-I{headers}",
+                *shlex.split(os.environ.get("CFLAGS", "")),
+                SOURCE,
+                "-o",
+                str(compiled),
+            ]
+            if subprocess.run(command, cwd=self.root, check=False).returncode:
+                self.app.abort(f"{SOURCE} does not compile: {shlex.join(command)}")
+            build_data["force_include"] |= {} if version == "editable" else {str(compiled): extension}
         if version == "editable":
             return
-        platform = next(tag for tag in platform_tags() if tag.startswith("linux_"))
         build_data |= {"pure_python": False, "tag": f"cp311-abi3-{platform}"}
-        build_data["force_include"][str(compiled)] = EXTENSION
         if _wants_mypyc():
             python = next(sys_tags())
             build_data["tag"] = f"{python.interpreter}-{python.abi}-{platform}"

@@ -5,6 +5,7 @@ usage: python -m tests.compiled_copy FOLDER     makes it, in a minute; what then
 """
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -13,7 +14,7 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-KERNEL = "controller/device/kernel/_kernel.abi3.so"
+KERNELS = [f"controller/device/kernel/{name}.abi3.so" for name in ("_kernel", *["_kernel_avx2"] * (platform.machine() == "x86_64"))]
 
 
 def build_wheel(folder, **environment):
@@ -43,7 +44,8 @@ def copy_with(wheel, folder):
     shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(".*", "__pycache__", "build", "dist"))
     with zipfile.ZipFile(wheel) as files:
         files.extractall(folder, [name for name in files.namelist() if name.endswith(".so")])
-    (Path(folder) / KERNEL).touch()  # newer than its source
+    for kernel in KERNELS:
+        (Path(folder) / kernel).touch()  # newer than its source
 
 
 if __name__ == "__main__":

@@ -7,8 +7,8 @@ import sys
 import zipfile
 
 import pytest
-from compiled_copy import KERNEL as EXTENSION
-from compiled_copy import ROOT, build_wheel
+from compiled_copy import KERNELS, ROOT, build_wheel
+from compiled_kernels import COMPILED
 
 
 def build(folder, **environment):
@@ -46,7 +46,7 @@ def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(wheel):
     share = data.removesuffix("/haptic-panel")
     assert {f"{share}/man/man1/haptic-panel.1", f"{share}/bash-completion/completions/haptic-panel"} <= set(names)
     assert {f"{share}/zsh/site-functions/_haptic-panel", f"{data}/boards/board.schema.json", "controller/py.typed"} <= set(names)
-    assert {"controller/cli.py", "controller/device/scene/effects.toml", EXTENSION} <= set(names)
+    assert {"controller/cli.py", "controller/device/scene/effects.toml", *KERNELS} <= set(names)
     assert not any(name.startswith("tests/") or name.endswith("build_hook.py") for name in names)
     assert [name for name in names if name.endswith(".c")] == ["controller/workshop/benchmark/device/compose_reference.c"]
     assert not any(name.startswith("controller/") and name.endswith(".sh") for name in names), "those are for a checkout"
@@ -80,9 +80,10 @@ def test_the_environment_chooses_the_kernel():
     code = "from controller.device import kernel; print(kernel.seal_short_frames.__module__, kernel.COMPILED)"
     assert run(code, kernel="numpy").stdout.split() == ["controller.device.kernel.twin", "False"]
     compiled = run(code, kernel="compiled")
-    assert compiled.stdout.split() == ["controller.device.kernel._kernel", "True"], compiled.stderr
+    assert compiled.stdout.split() == [COMPILED[-1].__name__, "True"], compiled.stderr
     assert run(code).stdout == compiled.stdout
-    assert "HAPTIC_PANEL_KERNEL=fast: compiled, numpy, or unset" in run(code, kernel="fast").stderr
+    assert run(code, kernel="narrow").stdout.split() == ["controller.device.kernel._kernel", "True"]
+    assert "HAPTIC_PANEL_KERNEL=fast: compiled, narrow, numpy, or unset" in run(code, kernel="fast").stderr
 
 
 def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
@@ -92,8 +93,10 @@ def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
     code = f"import sys; sys.path.insert(0, {str(tmp_path)!r})"
     code += "; from controller.device import kernel; print(kernel.COMPILED, kernel.__file__)"
     place = str(tmp_path / "controller" / "device" / "kernel" / "__init__.py")
-    os.utime(tmp_path / EXTENSION, (2e9, 2e9))
+    for kernel in KERNELS:
+        os.utime(tmp_path / kernel, (2e9, 2e9))
     assert run(code).stdout.split() == ["True", place]
-    os.utime(tmp_path / EXTENSION, (1e9, 1e9))
+    for kernel in KERNELS:
+        os.utime(tmp_path / kernel, (1e9, 1e9))
     assert run(code).stdout.split() == ["False", place]
-    assert "_kernel.abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr
+    assert ".abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr

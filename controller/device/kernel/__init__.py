@@ -2,6 +2,7 @@
 
 They are compiled where the package was built with a C compiler, else `twin` and `words_twin` serve, with the same integers.
 `HAPTIC_PANEL_KERNEL=numpy` or `=compiled` in the environment chooses one; a compiled one that is missing is then an error.
+`=narrow` is the compiled one with vectors of 128 bits, also on processors that have AVX2.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import importlib
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 from controller.device.kernel.bank_twin import (
     GROUP_SAMPLES,
@@ -65,35 +66,30 @@ __all__ = [
 _SOURCE = Path(__file__).with_name("kernel.c")  # there in a checkout only
 
 
-def _has_compiled(wanted: str) -> bool:
-    """Whether the compiled kernel is used: it is there, and in a checkout not older than its source."""
-    if wanted not in ("", "compiled", "numpy"):
-        raise UsageError(f"HAPTIC_PANEL_KERNEL={wanted}: compiled, numpy, or unset for what is there")
+def _compiled(wanted: str) -> ModuleType | None:
+    """The compiled kernel that is used, as wide as the processor has vectors; in a checkout it is not older than its source."""
+    if wanted not in ("", "compiled", "narrow", "numpy"):
+        raise UsageError(f"HAPTIC_PANEL_KERNEL={wanted}: compiled, narrow, numpy, or unset for what is there")
     if wanted == "numpy":
-        return False
+        return None
     try:
-        compiled = importlib.import_module("controller.device.kernel._kernel").__file__
+        compiled = importlib.import_module("controller.device.kernel._kernel")
     except ImportError as error:
         if wanted:
-            raise UsageError(f"HAPTIC_PANEL_KERNEL=compiled, but the package was built without a C compiler: {error}") from error
-        return False
-    if compiled and _SOURCE.exists() and _SOURCE.stat().st_mtime > Path(compiled).stat().st_mtime:
+            raise UsageError(f"HAPTIC_PANEL_KERNEL={wanted}, but the package was built without a C compiler: {error}") from error
+        return None
+    if compiled.HAS_AVX2 and wanted != "narrow":
+        compiled = importlib.import_module("controller.device.kernel._kernel_avx2")
+    file = compiled.__file__
+    if file and _SOURCE.exists() and _SOURCE.stat().st_mtime > Path(file).stat().st_mtime:
         if wanted:
-            raise UsageError(f"{compiled} is older than kernel.c: pip install -e . again")
-        return False
-    return True
+            raise UsageError(f"{file} is older than kernel.c: pip install -e . again")
+        return None
+    return compiled
 
 
-COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
+_KERNEL = _compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
+COMPILED = _KERNEL is not None
 
-if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the twin's, whose types it has
-    from controller.device.kernel._kernel import (
-        compose,
-        null_places,
-        pack_loads,
-        renumber_loads,
-        seal_short_frames,
-        start_program,
-        statuses_good,
-        unpack_loads,
-    )
+if _KERNEL:  # what kernel.c has takes the place of the twin's, whose types it has
+    globals().update({name: made for name, made in vars(_KERNEL).items() if name in __all__})

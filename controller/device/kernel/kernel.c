@@ -3,7 +3,7 @@
    Its specification is words_twin.py, compact_twin.py and twin.py, which do the same in NumPy and Python: the same whole numbers, to the bit, and where
    weights and thresholds are set the same IEEE double arithmetic in the same order (so: no contraction to fused operations, no library
    functions). Buffers are the caller's; nothing is allocated, no Python object is touched in loops. Plain loops of a fixed length and
-   vectors of 128 bits, of which compilers make SSE2 and NEON alike. */
+   vectors of 128 bits, of which compilers make SSE2 and NEON alike; of 256 bits for AVX2, in a module of its own. */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 #include <fcntl.h>
@@ -17,7 +17,7 @@
 #include <unistd.h>
 #endif
 #ifdef __SSE2__
-#include <emmintrin.h>
+#include <immintrin.h>
 #elif defined __ARM_NEON
 #include <arm_neon.h>
 #endif
@@ -26,6 +26,20 @@
 #define MACHINE_HAS_CRC (getauxval(AT_HWCAP) >> 7 & 1) /* HWCAP_CRC32: every Raspberry Pi of 64 bits */
 #else
 #define MACHINE_HAS_CRC 0
+#endif
+
+#ifdef __x86_64__
+#define MACHINE_HAS_AVX2 !!__builtin_cpu_supports("avx2")
+#else
+#define MACHINE_HAS_AVX2 0
+#endif
+
+#ifdef FOR_AVX2 /* a module beside the one for all processors */
+#define MODULE "controller.device.kernel._kernel_avx2"
+#define INITIALISE PyInit__kernel_avx2
+#else
+#define MODULE "controller.device.kernel._kernel"
+#define INITIALISE PyInit__kernel
 #endif
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
@@ -146,9 +160,24 @@ struct work {
     double divisor[MAX_FOCI], balance[MAX_FOCI], measured[MAX_FOCI], in_band[MAX_FOCI], wanted[MAX_FOCI];
 };
 
-typedef int16_t shorts __attribute__((vector_size(16)));
-typedef uint16_t ushorts __attribute__((vector_size(16)));
-typedef uint32_t uints __attribute__((vector_size(16)));
+#ifdef __AVX2__
+enum { LANES = 16 };
+#else
+enum { LANES = 8 };
+#endif
+enum { PARTS = CHANNELS / LANES };
+typedef int16_t shorts __attribute__((vector_size(2 * LANES)));
+typedef uint16_t ushorts __attribute__((vector_size(2 * LANES)));
+typedef uint32_t uints __attribute__((vector_size(2 * LANES)));
+
+/* Instructions that both widths have: on halves of 128 bits, one beside the other. */
+#ifdef __AVX2__
+typedef __m256i machine;
+#define X86(name) _mm256_##name
+#elif defined __SSE2__
+typedef __m128i machine;
+#define X86(name) _mm_##name
+#endif
 
 INLINE ushorts load(const void *from) {
     ushorts read;
@@ -163,6 +192,17 @@ INLINE ushorts at_odd(ushorts levels) { return (ushorts)((shorts)levels >> 8); }
 INLINE ushorts at_even(ushorts levels) { return (ushorts)((shorts)(levels << 8) >> 8); }
 
 INLINE ushorts positive(ushorts value) { return (ushorts)((shorts)value > 0); }
+
+/* Halves of 128 bits in the order of values: first those of the lower halves, then those of the upper. */
+INLINE void put_in_order(ushorts *first, ushorts *second) {
+#ifdef __AVX2__
+    machine low = (machine)*first, high = (machine)*second;
+    *first = (ushorts)_mm256_permute2x128_si256(low, high, 0x20);
+    *second = (ushorts)_mm256_permute2x128_si256(low, high, 0x31);
+#else
+    (void)first, (void)second;
+#endif
+}
 
 #ifndef __SSE2__
 /* Halves of 16 bits, all ones or zero, to the bits of 16 channels. */
@@ -180,60 +220,55 @@ INLINE uint32_t bits_of(ushorts even, ushorts odd) {
 /* Bits of the channels whose values are above zero; of values that are all ones or zero, or not above: of all that are ones. */
 INLINE uint32_t word_of(const ushorts *value, int above) {
 #ifdef __SSE2__
-    __m128i even = _mm_packs_epi16((__m128i)value[0], (__m128i)value[2]), odd = _mm_packs_epi16((__m128i)value[1], (__m128i)value[3]);
+#ifdef __AVX2__
+    machine both = _mm256_packs_epi16((machine)value[0], (machine)value[1]);
+    __m128i even = _mm256_castsi256_si128(both), odd = _mm256_extracti128_si256(both, 1);
+#else
+    __m128i even = _mm_packs_epi16((machine)value[0], (machine)value[2]), odd = _mm_packs_epi16((machine)value[1], (machine)value[3]);
+#endif
     __m128i low = _mm_unpacklo_epi8(even, odd), high = _mm_unpackhi_epi8(even, odd), zero = _mm_setzero_si128();
     if (above) low = _mm_cmpgt_epi8(low, zero), high = _mm_cmpgt_epi8(high, zero);
     return (uint32_t)_mm_movemask_epi8(low) | (uint32_t)_mm_movemask_epi8(high) << 16;
 #else
-    ushorts four[4];
-    for (int part = 0; part < 4; part++) four[part] = above ? positive(value[part]) : value[part];
+    ushorts four[PARTS];
+    for (int part = 0; part < PARTS; part++) four[part] = above ? positive(value[part]) : value[part];
     return bits_of(four[0], four[1]) | bits_of(four[2], four[3]) << 16;
 #endif
 }
 
-/* What a channel that idles high turns into: all ones, by which a value is negated, for 16 channels from `first` on. */
-INLINE void turned(uint32_t idle_word, int first, ushorts *even, ushorts *odd) {
-    for (int lane = 0; lane < 8; lane++) {
-        (*even)[lane] = (uint16_t) - (idle_word >> (first + 2 * lane) & 1);
-        (*odd)[lane] = (uint16_t) - (idle_word >> (first + 2 * lane + 1) & 1);
+/* All ones for a channel that idles high, by which a value is negated; else 0. */
+INLINE uint16_t turned(uint32_t idle_word, int channel) { return (uint16_t) - (idle_word >> channel & 1); }
+
+/* Weights of cells for the channels at even and at odd places of what is read at a time; of channels that idle high they are negated. */
+INLINE void turn_weights(uint32_t idle_word, int cells, const int16_t *weights, ushorts (*weight)[PARTS]) {
+    for (int part = 0; part < PARTS; part++) {
+        ushorts turn;
+        for (int lane = 0; lane < LANES; lane++) turn[lane] = turned(idle_word, part / 2 * 2 * LANES + 2 * lane + part % 2);
+        for (int cell = 0; cell < cells; cell++) weight[cell][part] = (((ushorts){0} + (uint16_t)weights[cell]) ^ turn) - turn;
     }
 }
 
-INLINE ushorts negated(ushorts value, ushorts where) { return (value ^ where) - where; }
-
-/* Weights of cells for 8 channels each, in the order of values; of channels that idle high they are negated. */
-INLINE void turn_weights(uint32_t idle_word, int cells, const int16_t *weights, ushorts (*weight)[4]) {
-    for (int half = 0; half < 2; half++) {
-        ushorts even, odd;
-        turned(idle_word, 16 * half, &even, &odd);
-        for (int cell = 0; cell < cells; cell++) {
-            ushorts one = (ushorts){0} + (uint16_t)weights[cell];
-            weight[cell][2 * half] = negated(one, even);
-            weight[cell][2 * half + 1] = negated(one, odd);
-        }
-    }
-}
-
-INLINE void interpolate_sample(const struct patch *patch, int cells, int64_t at, const ushorts (*weight)[4], ushorts *value) {
-    for (int half = 0; half < 2; half++) {
+INLINE void interpolate_sample(const struct patch *patch, int cells, int64_t at, const ushorts (*weight)[PARTS], ushorts *value) {
+    for (int part = 0; part < PARTS; part += 2) {
         ushorts even = {0}, odd = {0};
         for (int cell = 0; cell < cells; cell++) {
-            ushorts levels = load(patch->levels[cell] + at + 16 * half);
-            if (!half) __builtin_prefetch(patch->levels[cell] + at + AHEAD_BYTES); /* the machine does not look beyond a page */
-            even += at_even(levels) * weight[cell][2 * half];
-            odd += at_odd(levels) * weight[cell][2 * half + 1];
+            ushorts levels = load(patch->levels[cell] + at + LANES * part);
+            if (!part) __builtin_prefetch(patch->levels[cell] + at + AHEAD_BYTES); /* the machine does not look beyond a page */
+            even += at_even(levels) * weight[cell][part];
+            odd += at_odd(levels) * weight[cell][part + 1];
         }
-        value[2 * half] = even;
-        value[2 * half + 1] = odd;
+        put_in_order(&even, &odd);
+        value[part] = even;
+        value[part + 1] = odd;
     }
 }
 
 /* Words of a single point at full amplitude. */
 INLINE void sign_of(struct work *work, const struct patch *patch, int cells) {
-    ushorts weight[4][4], value[4];
+    ushorts weight[4][PARTS], value[PARTS];
     turn_weights(work->idle_word, cells, patch->weight, weight);
     for (int64_t at = 0; at < work->values; at += CHANNELS) {
-        interpolate_sample(patch, cells, at, (const ushorts(*)[4])weight, value);
+        interpolate_sample(patch, cells, at, (const ushorts(*)[PARTS])weight, value);
         work->words[at / CHANNELS] = word_of(value, 1) ^ work->idle_word;
     }
 }
@@ -241,35 +276,33 @@ INLINE void sign_of(struct work *work, const struct patch *patch, int cells) {
 INLINE uints add_absolute(uints sum, ushorts value) {
     ushorts sign = (ushorts)((shorts)value >> 15);
 #ifdef __SSE2__
-    return sum + (uints)_mm_madd_epi16((__m128i)value, (__m128i)(sign | 1));
+    return sum + (uints)X86(madd_epi16)((machine)value, (machine)(sign | 1));
 #else
-    uints two = (uints)negated(value, sign); /* an equalised value is above -2^15 */
+    uints two = (uints)((value ^ sign) - sign); /* an equalised value is above -2^15 */
     return sum + (two >> 16) + (two & 0xffff);
 #endif
 }
 
-/* Values of a response of a point, negated in channels that idle high; or half of what is outside the band: `outside` is 0 or 1. */
-INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int outside, int64_t from, int64_t values, int16_t *out) {
-    ushorts weight[WIDE_CELLS][4], value[4];
-    turn_weights(idle_word, cells, outside ? patch->rest_weight : patch->weight, weight);
-    for (int64_t at = 0; at < values; at += CHANNELS) {
-        interpolate_sample(patch, cells, from + at, (const ushorts(*)[4])weight, value);
-        for (int part = 0; part < 4; part++) store(out + at + 8 * part, (ushorts)((shorts)value[part] >> outside));
-    }
+INLINE int64_t sum_of(uints sums) {
+    int64_t sum = 0;
+    for (int lane = 0; lane < LANES / 2; lane++) sum += (int32_t)sums[lane];
+    return sum;
 }
 
-/* ---- words: responses of a compact bank ---- */
-
-INLINE int16_t read_16(const uint8_t *from, int64_t index) {
-    int16_t read;
-    memcpy(&read, from + 2 * index, sizeof read);
-    return read;
+/* Values of a response of a point, negated in channels that idle high; or half of what is outside the band: `outside` is 0 or 1. */
+INLINE void interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int outside, int64_t from, int64_t values, int16_t *out) {
+    ushorts weight[WIDE_CELLS][PARTS], value[PARTS];
+    turn_weights(idle_word, cells, outside ? patch->rest_weight : patch->weight, weight);
+    for (int64_t at = 0; at < values; at += CHANNELS) {
+        interpolate_sample(patch, cells, from + at, (const ushorts(*)[PARTS])weight, value);
+        for (int part = 0; part < PARTS; part++) store(out + at + LANES * part, (ushorts)((shorts)value[part] >> outside));
+    }
 }
 
 /* Products with a tap of less than 2^14, 15 bits of which are dropped. */
 INLINE ushorts high(ushorts value, int16_t tap) {
 #ifdef __SSE2__
-    return (ushorts)_mm_mulhi_epi16((__m128i)value, _mm_set1_epi16((int16_t)(2 * tap)));
+    return (ushorts)X86(mulhi_epi16)((machine)value, X86(set1_epi16)((int16_t)(2 * tap)));
 #elif defined __ARM_NEON
     return (ushorts)vqdmulhq_n_s16((int16x8_t)value, tap);
 #else
@@ -279,22 +312,38 @@ INLINE ushorts high(ushorts value, int16_t tap) {
 #endif
 }
 
+/* ---- words: responses of a compact bank: eight values at a time, as a row of numbers of four bits becomes four times eight ---- */
+
+typedef uint16_t eights __attribute__((vector_size(16)));
+
+INLINE eights load_eight(const void *from) {
+    eights read;
+    memcpy(&read, from, sizeof read);
+    return read;
+}
+
+INLINE int16_t read_16(const uint8_t *from, int64_t index) {
+    int16_t read;
+    memcpy(&read, from + 2 * index, sizeof read);
+    return read;
+}
+
 #ifdef __SSE2__
 enum { DOUBLED = 1 }; /* taps are kept doubled, as the instruction drops 16 bits */
 #else
 enum { DOUBLED = 0 };
 #endif
 
-/* The same, with a tap for each lane. */
-INLINE ushorts high_each(ushorts value, ushorts taps) {
+/* Products with a tap of less than 2^14 for each lane, 15 bits of which are dropped. */
+INLINE eights high_each(eights value, eights taps) {
 #ifdef __SSE2__
-    return (ushorts)_mm_mulhi_epi16((__m128i)value, (__m128i)taps);
+    return (eights)_mm_mulhi_epi16((__m128i)value, (__m128i)taps);
 #elif defined __ARM_NEON
-    return (ushorts)vqdmulhq_s16((int16x8_t)value, (int16x8_t)taps);
+    return (eights)vqdmulhq_s16((int16x8_t)value, (int16x8_t)taps);
 #else
-    shorts product;
-    for (int lane = 0; lane < 8; lane++) product[lane] = (int16_t)((int32_t)(int16_t)value[lane] * (int16_t)taps[lane] >> TAP_BITS);
-    return (ushorts)product;
+    eights product;
+    for (int lane = 0; lane < 8; lane++) product[lane] = (uint16_t)((int32_t)(int16_t)value[lane] * (int16_t)taps[lane] >> TAP_BITS);
+    return product;
 #endif
 }
 
@@ -309,19 +358,19 @@ APART void scale_channels(int16_t *restrict scaled, int16_t *restrict driven, co
 }
 
 /* Weights of a cell's numbers in a block, doubled, as numbers are half of the level above the lowest; their sums. */
-INLINE void block_weights(ushorts *weight, ushorts *sum, const uint8_t *parts, const ushorts *scaled) {
+INLINE void block_weights(eights *weight, eights *sum, const uint8_t *parts, const eights *scaled) {
     enum { UP = TAP_BITS - 6 + DOUBLED }; /* 6 bits of products are dropped */
-    ushorts four = load(parts), mask = (ushorts){0} + (LOUDEST << UP), one = (ushorts){0} + (1 << UP);
-    ushorts taps[4] = {(four << UP & mask) + one, (four << (UP - 4) & mask) + one, (four << (UP - 8) & mask) + one, (four >> (12 - UP) & mask) + one};
+    eights four = load_eight(parts), mask = (eights){0} + (LOUDEST << UP), one = (eights){0} + (1 << UP);
+    eights taps[4] = {(four << UP & mask) + one, (four << (UP - 4) & mask) + one, (four << (UP - 8) & mask) + one, (four >> (12 - UP) & mask) + one};
     for (int part = 0; part < 4; part++) {
-        ushorts of_block = high_each(scaled[part], taps[part]);
+        eights of_block = high_each(scaled[part], taps[part]);
         sum[part] += of_block;
         weight[part] = of_block + of_block;
     }
 }
 
-INLINE void add_numbers(ushorts *sum, ushorts numbers, const ushorts *weight) {
-    ushorts fifteen = (ushorts){0} + 15;
+INLINE void add_numbers(eights *sum, eights numbers, const eights *weight) {
+    eights fifteen = (eights){0} + 15;
     sum[0] += (numbers & fifteen) * weight[0];
     sum[1] += (numbers >> 4 & fifteen) * weight[1];
     sum[2] += (numbers >> 8 & fifteen) * weight[2];
@@ -329,80 +378,75 @@ INLINE void add_numbers(ushorts *sum, ushorts numbers, const ushorts *weight) {
 }
 
 /* Two rows of numbers at a time. */
-APART void add_cells(ushorts *sum, int rows, const uint8_t *const *levels, int64_t at, const ushorts (*weight)[4], const ushorts *lowest, int cells) {
+APART void add_cells(eights *sum, int rows, const uint8_t *const *levels, int64_t at, const eights (*weight)[4], const eights *lowest, int cells) {
     int row = 0;
     for (; row + 1 < rows; row += 2, at += CHANNELS, sum += 8) {
-        ushorts one[4], other[4];
+        eights one[4], other[4];
         for (int part = 0; part < 4; part++) one[part] = other[part] = lowest[part];
         for (int cell = 0; cell < cells; cell++) {
-            add_numbers(one, load(levels[cell] + at), weight[cell]);
-            add_numbers(other, load(levels[cell] + at + CHANNELS / 2), weight[cell]);
+            add_numbers(one, load_eight(levels[cell] + at), weight[cell]);
+            add_numbers(other, load_eight(levels[cell] + at + CHANNELS / 2), weight[cell]);
         }
         memcpy(sum, one, sizeof one);
         memcpy(sum + 4, other, sizeof other);
     }
     if (row == rows) return;
     memcpy(sum, lowest, 4 * sizeof *sum);
-    for (int cell = 0; cell < cells; cell++) add_numbers(sum, load(levels[cell] + at), weight[cell]);
+    for (int cell = 0; cell < cells; cell++) add_numbers(sum, load_eight(levels[cell] + at), weight[cell]);
 }
 
 /* Weights of a place: the sum of its cells'. Channels in which any may not be 0 have a bit in `driven`. */
-static void sum_weights(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, ushorts *sum, int16_t *driven) {
+static void sum_weights(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, eights *sum, int16_t *driven) {
     int bases = layer->weights * (CHANNELS / 2);
-    ushorts scaled[MAX_CELLS][4], weight[MAX_CELLS][4];
+    eights scaled[MAX_CELLS][4], weight[MAX_CELLS][4];
     int16_t turn[CHANNELS];
-    for (int half = 0; half < 2; half++) {
-        ushorts even, odd;
-        turned(idle_word, 16 * half, &even, &odd);
-        store(turn + 16 * half, even);
-        store(turn + 16 * half + 8, odd);
-    }
+    for (int i = 0; i < CHANNELS; i++) turn[i] = (int16_t)turned(idle_word, (i & 16) + (i & 7) * 2 + (i >> 3 & 1));
     for (int cell = 0; cell < cells; cell++) scale_channels((int16_t *)scaled[cell], driven, levels[cell] + bases, turn, share[cell]);
     for (int block = 0, row = 0; row < layer->weights; block++, row += layer->block_rows) {
         int left = layer->weights - row, rows = left < layer->block_rows ? left : layer->block_rows;
-        ushorts together[4] = {{0}}, lowest[4];
+        eights together[4] = {{0}}, lowest[4];
         for (int cell = 0; cell < cells; cell++)
             block_weights(weight[cell], together, levels[cell] + bases + CHANNELS + block * (CHANNELS / 2), scaled[cell]);
-        for (int part = 0; part < 4; part++) lowest[part] = (ushorts){0} - together[part] * LOUDEST;
-        add_cells(sum + 4 * row, rows, levels, row * (CHANNELS / 2), (const ushorts(*)[4])weight, lowest, cells);
+        for (int part = 0; part < 4; part++) lowest[part] = (eights){0} - together[part] * LOUDEST;
+        add_cells(sum + 4 * row, rows, levels, row * (CHANNELS / 2), (const eights(*)[4])weight, lowest, cells);
     }
 }
 
 /* Sums of the weights of a place, and what shifts of its outputs drop. */
 struct weighed {
     const struct layer *layer;
-    ushorts sum[4 * MAX_WEIGHTS], dropped[4];
+    eights sum[4 * MAX_WEIGHTS], dropped[4];
 };
 
-INLINE const ushorts *first_weight(const ushorts *sum, const uint8_t *pulse, int last) {
+INLINE const eights *first_weight(const eights *sum, const uint8_t *pulse, int last) {
     int first = read_16(pulse, 0);
     return sum + 4 * (first < 0 ? 0 : first < last ? first : last);
 }
 
 /* Eight taps, for `add_tap`. */
-INLINE void prepare_taps(const uint8_t *from, ushorts *prepared) {
-    ushorts taps = load(from) << DOUBLED;
+INLINE void prepare_taps(const uint8_t *from, eights *prepared) {
+    eights taps = load_eight(from) << DOUBLED;
 #ifdef __SSE2__
-    prepared[0] = (ushorts)_mm_unpacklo_epi16((__m128i)taps, (__m128i)taps);
-    prepared[1] = (ushorts)_mm_unpackhi_epi16((__m128i)taps, (__m128i)taps);
+    prepared[0] = (eights)_mm_unpacklo_epi16((__m128i)taps, (__m128i)taps);
+    prepared[1] = (eights)_mm_unpackhi_epi16((__m128i)taps, (__m128i)taps);
 #else
     prepared[0] = taps;
 #endif
 }
 
 /* Adds products with one of the taps, whose number is a constant. */
-INLINE void add_tap(ushorts *total, const ushorts *from, const ushorts *prepared, int number) {
+INLINE void add_tap(eights *total, const eights *from, const eights *prepared, int number) {
 #ifdef __SSE2__
     __m128i four = (__m128i)prepared[number / 4];
-    ushorts tap;
+    eights tap;
     switch (number % 4) {
-    case 0: tap = (ushorts)_mm_shuffle_epi32(four, 0x00); break;
-    case 1: tap = (ushorts)_mm_shuffle_epi32(four, 0x55); break;
-    case 2: tap = (ushorts)_mm_shuffle_epi32(four, 0xAA); break;
-    default: tap = (ushorts)_mm_shuffle_epi32(four, 0xFF);
+    case 0: tap = (eights)_mm_shuffle_epi32(four, 0x00); break;
+    case 1: tap = (eights)_mm_shuffle_epi32(four, 0x55); break;
+    case 2: tap = (eights)_mm_shuffle_epi32(four, 0xAA); break;
+    default: tap = (eights)_mm_shuffle_epi32(four, 0xFF);
     }
 #else
-    ushorts tap = (ushorts){0} + prepared[0][number];
+    eights tap = (eights){0} + prepared[0][number];
 #endif
     for (int part = 0; part < 4; part++) {
         total[part] += high_each(from[part], tap);
@@ -412,24 +456,25 @@ INLINE void add_tap(ushorts *total, const ushorts *from, const ushorts *prepared
     }
 }
 
-APART void outputs_of(const struct weighed *place, int64_t first, int64_t end, ushorts *out) {
+APART void outputs_of(const struct weighed *place, int64_t first, int64_t end, eights *out) {
     int taps = place->layer->taps, last = place->layer->weights - taps;
     const uint8_t *pulse = place->layer->pulses + 2 * first * (1 + taps);
     for (; first < end; first++, out += 4, pulse += 2 * (1 + taps)) {
-        const ushorts *from = first_weight(place->sum, pulse, last);
+        const eights *from = first_weight(place->sum, pulse, last);
         memcpy(out, place->dropped, 4 * sizeof *out);
         for (int tap = 0; tap < taps; tap++, from += 4)
-            for (int part = 0; part < 4; part++) out[part] += high(from[part], read_16(pulse, 1 + tap));
+            for (int part = 0; part < 4; part++)
+                out[part] += high_each(from[part], ((eights){0} + (uint16_t)read_16(pulse, 1 + tap)) << DOUBLED);
     }
 }
 
 /* The same of four or eight taps, a constant; eight are read, as behind pulses lie other parts of the tables. */
-INLINE void outputs_of_some(int taps, const struct weighed *place, int64_t first, int64_t end, ushorts *out) {
+INLINE void outputs_of_some(int taps, const struct weighed *place, int64_t first, int64_t end, eights *out) {
     int last = place->layer->weights - taps;
     const uint8_t *pulse = place->layer->pulses + 2 * first * (1 + taps);
     for (; first < end; first++, out += 4, pulse += 2 * (1 + taps)) {
-        const ushorts *from = first_weight(place->sum, pulse, last);
-        ushorts prepared[2], total[4];
+        const eights *from = first_weight(place->sum, pulse, last);
+        eights prepared[2], total[4];
         prepare_taps(pulse + 2, prepared);
         memcpy(total, place->dropped, sizeof total);
         add_tap(total, from + 0, prepared, 0);
@@ -446,19 +491,19 @@ INLINE void outputs_of_some(int taps, const struct weighed *place, int64_t first
     }
 }
 
-APART void outputs_of_four(const struct weighed *place, int64_t first, int64_t end, ushorts *out) { outputs_of_some(4, place, first, end, out); }
+APART void outputs_of_four(const struct weighed *place, int64_t first, int64_t end, eights *out) { outputs_of_some(4, place, first, end, out); }
 
-APART void outputs_of_eight(const struct weighed *place, int64_t first, int64_t end, ushorts *out) { outputs_of_some(8, place, first, end, out); }
+APART void outputs_of_eight(const struct weighed *place, int64_t first, int64_t end, eights *out) { outputs_of_some(8, place, first, end, out); }
 
 static void weigh_place(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, struct weighed *place) {
     int16_t driven[CHANNELS] = {0};
     place->layer = layer;
     sum_weights(idle_word, layer, levels, share, cells, place->sum, driven);
     for (int i = 0; i < CHANNELS; i++) driven[i] = driven[i] ? (int16_t)(layer->taps / 2) : 0; /* half of a bit for each tap */
-    for (int part = 0; part < 4; part++) place->dropped[part] = load(driven + 8 * part);
+    for (int part = 0; part < 4; part++) place->dropped[part] = load_eight(driven + 8 * part);
 }
 
-static void outputs(const struct weighed *place, int64_t first, int64_t end, ushorts *out) {
+static void outputs(const struct weighed *place, int64_t first, int64_t end, eights *out) {
     switch (place->layer->taps) {
     case 4: outputs_of_four(place, first, end, out); break;
     case 8: outputs_of_eight(place, first, end, out); break;
@@ -466,35 +511,36 @@ static void outputs(const struct weighed *place, int64_t first, int64_t end, ush
     }
 }
 
-/* A sample's part of 8 channels, between the even one that is given and the next; before the first one lie zeros. */
-INLINE ushorts between(const ushorts *even, int16_t near, int16_t far) {
-    ushorts inner = even[0] + even[4], outer = even[8] + even[-4];
+/* Some channels of a sample, between the even one that is given and the next; before the first one lie zeros. */
+INLINE ushorts between(const int16_t *even, int16_t near, int16_t far) {
+    ushorts inner = load(even) + load(even + CHANNELS), outer = load(even + 2 * CHANNELS) + load(even - CHANNELS);
     return (ushorts)((shorts)inner >> 1) + high(inner, near) - high(outer, far);
 }
 
 enum { AT_A_TIME = 32, BESIDE = 1 + EVEN_BEYOND }; /* even samples, and those around them that odd ones lie between */
 
-APART void words_between(const ushorts *even, int16_t near, int16_t far, uint32_t idle_word, int64_t samples, uint32_t *words) {
-    ushorts part[4];
-    for (int64_t sample = 0; sample < samples; sample += 2, even += 4) {
-        words[sample] = word_of(even, 1) ^ idle_word;
+APART void words_between(const int16_t *even, int16_t near, int16_t far, uint32_t idle_word, int64_t samples, uint32_t *words) {
+    ushorts value[PARTS];
+    for (int64_t sample = 0; sample < samples; sample += 2, even += CHANNELS) {
+        for (int part = 0; part < PARTS; part++) value[part] = load(even + LANES * part);
+        words[sample] = word_of(value, 1) ^ idle_word;
         if (sample + 1 == samples) break;
-        for (int i = 0; i < 4; i++) part[i] = between(even + i, near, far);
-        words[sample + 1] = word_of(part, 1) ^ idle_word;
+        for (int part = 0; part < PARTS; part++) value[part] = between(even + LANES * part, near, far);
+        words[sample + 1] = word_of(value, 1) ^ idle_word;
     }
 }
 
 /* Half of each value; returns the sums of absolute values. */
-APART uints halves_between(const ushorts *even, int16_t near, int16_t far, int64_t samples, int16_t *out) {
+APART uints halves_between(const int16_t *even, int16_t near, int16_t far, int64_t samples, int16_t *out) {
     uints sum = {0};
-    for (int64_t sample = 0; sample < samples; sample += 2, even += 4)
-        for (int i = 0; i < 4; i++) {
-            ushorts half = (ushorts)((shorts)even[i] >> 1);
-            store(out + sample * CHANNELS + 8 * i, half);
+    for (int64_t sample = 0; sample < samples; sample += 2, even += CHANNELS)
+        for (int i = 0; i < CHANNELS; i += LANES) {
+            ushorts half = (ushorts)((shorts)load(even + i) >> 1);
+            store(out + sample * CHANNELS + i, half);
             sum = add_absolute(sum, half);
             if (sample + 1 == samples) continue;
             half = (ushorts)((shorts)between(even + i, near, far) >> 1);
-            store(out + (sample + 1) * CHANNELS + 8 * i, half);
+            store(out + (sample + 1) * CHANNELS + i, half);
             sum = add_absolute(sum, half);
         }
     return sum;
@@ -504,7 +550,8 @@ APART uints halves_between(const ushorts *even, int16_t near, int16_t far, int64
 static int64_t compact_samples(uint32_t idle_word, const struct patch *patch, int64_t samples, uint32_t *words, int16_t *out) {
     const struct layer *layer = &patch->tables->in_band;
     struct weighed place;
-    ushorts even[4 * (BESIDE + AT_A_TIME)] = {{0}};
+    eights even[4 * (BESIDE + AT_A_TIME)] = {{0}};
+    const int16_t *first_even = (const int16_t *)(even + 4);
     int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
     uints sum = {0};
     weigh_place(idle_word, layer, patch->levels, patch->weight, patch->cells, &place);
@@ -513,22 +560,23 @@ static int64_t compact_samples(uint32_t idle_word, const struct patch *patch, in
         int64_t left = samples - sample, now = left < 2 * AT_A_TIME ? left : 2 * AT_A_TIME, first = sample / 2 + EVEN_BEYOND;
         outputs(&place, first, first + now / 2, even + 4 * BESIDE);
         if (words)
-            words_between(even + 4, near, far, idle_word, now, words + sample);
+            words_between(first_even, near, far, idle_word, now, words + sample);
         else
-            sum += halves_between(even + 4, near, far, now, out + sample * CHANNELS);
+            sum += halves_between(first_even, near, far, now, out + sample * CHANNELS);
         memcpy(even, even + 4 * AT_A_TIME, 4 * BESIDE * sizeof *even);
     }
-    return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
+    return sum_of(sum);
 }
 
 static void compact_rests(uint32_t idle_word, const struct patch *patch, int64_t rows, int16_t *out) {
     struct weighed place;
-    ushorts some[4 * AT_A_TIME];
+    eights some[4 * AT_A_TIME];
     weigh_place(idle_word, &patch->tables->rest, patch->rest, patch->rest_weight, patch->rests, &place);
     for (int64_t row = 0; row < rows; row += AT_A_TIME) {
         int64_t end = row + AT_A_TIME < rows ? row + AT_A_TIME : rows;
         outputs(&place, row, end, some);
-        for (int64_t i = 0; i < (end - row) * 4; i++) store(out + row * CHANNELS + 8 * i, (ushorts)((shorts)some[i] >> 1));
+        for (int64_t i = 0; i < (end - row) * CHANNELS; i += LANES)
+            store(out + row * CHANNELS + i, (ushorts)((shorts)load((const int16_t *)some + i) >> 1));
     }
 }
 
@@ -553,13 +601,13 @@ APART void interpolate_rest(uint32_t idle_word, const struct patch *patch, int64
 APART int64_t equalise(const int16_t *restrict met, int64_t apart, int16_t tap, int64_t values, int16_t *restrict out) {
     uints sum = {0};
     for (int64_t at = 0; at < values; at += CHANNELS)
-        for (int i = 0; i < CHANNELS; i += 8) {
+        for (int i = 0; i < CHANNELS; i += LANES) {
             const int16_t *from = met + at + i;
             ushorts value = (ushorts)((shorts)load(from) >> 1) - high(load(from - apart), tap) - high(load(from + apart), tap);
             store(out + at + i, value);
             sum = add_absolute(sum, value);
         }
-    return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
+    return sum_of(sum);
 }
 
 /* Response of a point, equalised, with some room for it; returns the sum of absolute values in the band. */
@@ -593,21 +641,25 @@ APART void compose_one(struct work *work, const struct patch *patch) {
     }
 }
 
-#ifndef __SSE2__
-APART void add_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
-    for (int i = 0; i < ROW; i++) sum[i] += p * a[i];
+INLINE void store_sums(int32_t *to, uints low, uints high) {
+    ushorts first = (ushorts)low, second = (ushorts)high;
+    put_in_order(&first, &second);
+    store(to, first);
+    store(to + LANES / 2, second);
 }
 
-APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
-    for (int i = 0; i < ROW; i++) sum[i] += p * a[i] + q * b[i];
+INLINE void load_sums(const int32_t *from, uints *low, uints *high) {
+    ushorts first = load(from), second = load(from + LANES / 2);
+    put_in_order(&first, &second); /* as they were: it changes places */
+    *low = (uints)first;
+    *high = (uints)second;
 }
-#endif
 
 /* Adds values of two responses, each times its weight: of a pair that is repeated. */
 INLINE void add_pair(uints *low, uints *high, ushorts a, ushorts b, ushorts pair) {
 #ifdef __SSE2__
-    *low += (uints)_mm_madd_epi16(_mm_unpacklo_epi16((__m128i)a, (__m128i)b), (__m128i)pair);
-    *high += (uints)_mm_madd_epi16(_mm_unpackhi_epi16((__m128i)a, (__m128i)b), (__m128i)pair);
+    *low += (uints)X86(madd_epi16)(X86(unpacklo_epi16)((machine)a, (machine)b), (machine)pair);
+    *high += (uints)X86(madd_epi16)(X86(unpackhi_epi16)((machine)a, (machine)b), (machine)pair);
 #elif defined __ARM_NEON
     int16x4_t two = vget_low_s16((int16x8_t)pair);
     *low = (uints)vmlal_lane_s16((int32x4_t)*low, vget_low_s16((int16x8_t)a), two, 0);
@@ -625,7 +677,7 @@ INLINE void add_pair(uints *low, uints *high, ushorts a, ushorts b, ushorts pair
 /* Where sums are positive: -1, else 0. */
 INLINE ushorts above_zero(uints low, uints high) {
 #ifdef __SSE2__
-    return positive((ushorts)_mm_packs_epi32((__m128i)low, (__m128i)high));
+    return positive((ushorts)X86(packs_epi32)((machine)low, (machine)high));
 #elif defined __ARM_NEON
     return positive((ushorts)vcombine_s16(vqmovn_s32((int32x4_t)low), vqmovn_s32((int32x4_t)high)));
 #else
@@ -637,7 +689,7 @@ INLINE ushorts above_zero(uints low, uints high) {
 
 INLINE uints add_products(uints sum, ushorts a, ushorts b) {
 #ifdef __SSE2__
-    return sum + (uints)_mm_madd_epi16((__m128i)a, (__m128i)b);
+    return sum + (uints)X86(madd_epi16)((machine)a, (machine)b);
 #elif defined __ARM_NEON
     int32x4_t more = vmlal_s16((int32x4_t)sum, vget_low_s16((int16x8_t)a), vget_low_s16((int16x8_t)b));
     return (uints)vmlal_s16(more, vget_high_s16((int16x8_t)a), vget_high_s16((int16x8_t)b));
@@ -646,8 +698,6 @@ INLINE uints add_products(uints sum, ushorts a, ushorts b) {
     return sum;
 #endif
 }
-
-INLINE int64_t sum_of(uints four) { return (int64_t)(int32_t)four[0] + (int32_t)four[1] + (int32_t)four[2] + (int32_t)four[3]; }
 
 /* Weights of the points in pairs; of an odd number the last one's is 0. */
 INLINE void pair_weights(int count, const int16_t *weight, ushorts *pair) {
@@ -669,12 +719,11 @@ INLINE void load_points(int count, int16_t *const *response, int64_t at, ushorts
 INLINE void add_some(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
     ushorts pair[(MAX_FOCI + 1) / 2], value[MAX_FOCI];
     pair_weights(count, weight, pair);
-    for (int i = 0; i < ROW; i += 8) {
+    for (int i = 0; i < ROW; i += LANES) {
         uints low, high;
         load_points(count, response, at + i, value);
         add_points(count, value, pair, &low, &high);
-        memcpy(sum + i, &low, sizeof low);
-        memcpy(sum + i + 4, &high, sizeof high);
+        store_sums(sum + i, low, high);
     }
 }
 
@@ -683,7 +732,7 @@ INLINE void measure_some(int count, int64_t rests, int16_t *const *response, int
     ushorts pair[(MAX_FOCI + 1) / 2], value[MAX_FOCI];
     uints given[MAX_FOCI] = {{0}}, beside[MAX_FOCI] = {{0}}, low, high;
     pair_weights(count, weight, pair);
-    for (int64_t at = 0; at < rests; at += 8) {
+    for (int64_t at = 0; at < rests; at += LANES) {
         int64_t first = at + (at & -CHANNELS) * (REST_SAMPLES - 1);
         ushorts both = {0};
         for (int sample = 0; sample < REST_SAMPLES; sample++) {
@@ -703,12 +752,12 @@ INLINE void measure_some(int count, int64_t rests, int16_t *const *response, int
 }
 
 INLINE void write_some(int count, struct work *work, const int16_t *weight) {
-    ushorts pair[(MAX_FOCI + 1) / 2], value[MAX_FOCI], above[4];
+    ushorts pair[(MAX_FOCI + 1) / 2], value[MAX_FOCI], above[PARTS];
     pair_weights(count, weight, pair);
     for (int64_t at = 0; at < work->values; at += CHANNELS) {
-        for (int part = 0; part < 4; part++) {
+        for (int part = 0; part < PARTS; part++) {
             uints low, high;
-            load_points(count, work->response, at + 8 * part, value);
+            load_points(count, work->response, at + LANES * part, value);
             add_points(count, value, pair, &low, &high);
             above[part] = above_zero(low, high);
         }
@@ -766,12 +815,11 @@ APART void compare_nothing(int16_t *restrict above, const int32_t *restrict sum)
 /* Of values that are a multiple of the channels. */
 APART int32_t inner_product(const int16_t *restrict a, const int16_t *restrict b, int values) {
 #ifdef __SSE2__
-    __m128i sums[4] = {_mm_setzero_si128(), _mm_setzero_si128(), _mm_setzero_si128(), _mm_setzero_si128()};
+    uints sums[PARTS] = {{0}}, all = {0};
     for (int i = 0; i < values; i += CHANNELS)
-        for (int k = 0; k < 4; k++)
-            sums[k] = _mm_add_epi32(sums[k], _mm_madd_epi16((__m128i)load(a + i + 8 * k), (__m128i)load(b + i + 8 * k)));
-    uints four = (uints)_mm_add_epi32(_mm_add_epi32(sums[0], sums[1]), _mm_add_epi32(sums[2], sums[3]));
-    return (int32_t)(four[0] + four[1] + four[2] + four[3]);
+        for (int part = 0; part < PARTS; part++) sums[part] = add_products(sums[part], load(a + i + LANES * part), load(b + i + LANES * part));
+    for (int part = 0; part < PARTS; part++) all += sums[part];
+    return (int32_t)sum_of(all);
 #else
     int32_t sum = 0;
     for (int i = 0; i < values; i++) sum += a[i] * b[i];
@@ -788,8 +836,9 @@ APART void add_strength(int32_t *restrict strength, const int32_t *restrict sum,
 }
 
 INLINE uint32_t word_at(const int16_t *above) {
-    ushorts four[4] = {load(above), load(above + 8), load(above + 16), load(above + 24)};
-    return word_of(four, 0);
+    ushorts value[PARTS];
+    for (int part = 0; part < PARTS; part++) value[part] = load(above + LANES * part);
+    return word_of(value, 0);
 }
 
 INLINE void write_words(const struct work *work, int64_t at, int samples, const int16_t *above) {
@@ -1732,47 +1781,27 @@ static void prepare_still(struct nulls *nulls, struct still *still) {
 
 /* Inner products of bits, -1 or 0, with a response at all times; `last` is how it is met latest. */
 APART void products_of_times(const int16_t *restrict above, const int16_t *restrict last, int64_t step, int64_t values, int64_t *restrict product) {
-#ifdef __SSE2__
-    __m128i sum[TIMES];
-    for (int j = 0; j < TIMES; j++) sum[j] = _mm_setzero_si128();
-    for (int64_t i = 0; i < values; i += 8) {
-        __m128i bits = _mm_loadu_si128((const __m128i *)(above + i));
-        for (int j = 0; j < TIMES; j++)
-            sum[j] = _mm_add_epi32(sum[j], _mm_madd_epi16(bits, _mm_loadu_si128((const __m128i *)(last + j * step + i))));
-    }
-    for (int j = 0; j < TIMES; j++) {
-        int32_t four[4];
-        memcpy(four, sum + j, sizeof four);
-        product[TIMES - 1 - j] = (int64_t)four[0] + four[1] + four[2] + four[3];
-    }
-#else
-    for (int j = 0; j < TIMES; j++) product[TIMES - 1 - j] = inner_product(above, last + j * step, (int)values);
-#endif
+    uints sum[TIMES] = {{0}};
+    for (int64_t i = 0; i < values; i += LANES)
+        for (int j = 0; j < TIMES; j++) sum[j] = add_products(sum[j], load(above + i), load(last + j * step + i));
+    for (int j = 0; j < TIMES; j++) product[TIMES - 1 - j] = sum_of(sum[j]);
 }
 
 /* Add a response at all times, each with its weight, to the sums of eight samples. */
 APART void add_times(int32_t *restrict sum, const int16_t *restrict last, int64_t step, const int16_t *restrict weight) {
-#ifdef __SSE2__
-    __m128i pair[TIMES / 2 + 1];
-    for (int j = 0; j < TIMES; j += 2) {
-        int32_t two = (uint16_t)weight[TIMES - 1 - j] | (j + 1 < TIMES ? (int32_t)((uint32_t)(uint16_t)weight[TIMES - 2 - j] << 16) : 0);
-        pair[j / 2] = _mm_set1_epi32(two);
-    }
-    for (int i = 0; i < ROW; i += 8) {
-        __m128i low = _mm_loadu_si128((__m128i *)(sum + i)), high = _mm_loadu_si128((__m128i *)(sum + i + 4));
+    int16_t from_last[TIMES];
+    ushorts pair[TIMES / 2 + 1];
+    for (int j = 0; j < TIMES; j++) from_last[j] = weight[TIMES - 1 - j];
+    pair_weights(TIMES, from_last, pair);
+    for (int i = 0; i < ROW; i += LANES) {
+        uints low, high;
+        load_sums(sum + i, &low, &high);
         for (int j = 0; j < TIMES; j += 2) {
-            __m128i one = _mm_loadu_si128((const __m128i *)(last + j * step + i)), other = one;
-            if (j + 1 < TIMES) other = _mm_loadu_si128((const __m128i *)(last + (j + 1) * step + i));
-            low = _mm_add_epi32(low, _mm_madd_epi16(_mm_unpacklo_epi16(one, other), pair[j / 2]));
-            high = _mm_add_epi32(high, _mm_madd_epi16(_mm_unpackhi_epi16(one, other), pair[j / 2]));
+            const int16_t *one = last + j * step + i;
+            add_pair(&low, &high, load(one), load(j + 1 < TIMES ? one + step : one), pair[j / 2]);
         }
-        _mm_storeu_si128((__m128i *)(sum + i), low);
-        _mm_storeu_si128((__m128i *)(sum + i + 4), high);
+        store_sums(sum + i, low, high);
     }
-#else
-    for (int j = 0; j + 1 < TIMES; j += 2) add_two(sum, last + j * step, last + (j + 1) * step, weight[TIMES - 1 - j], weight[TIMES - 2 - j]);
-    if (TIMES % 2) add_one(sum, last + (TIMES - 1) * step, weight[0]);
-#endif
 }
 
 /* Weigh the bits against what they give to a sum, and set them again. */
@@ -1821,7 +1850,7 @@ APART void sums_of_ring(const int16_t *restrict met, int64_t apart, int16_t *con
 
 INLINE ushorts add_saturated(ushorts a, ushorts b) {
 #ifdef __SSE2__
-    return (ushorts)_mm_adds_epi16((__m128i)a, (__m128i)b);
+    return (ushorts)X86(adds_epi16)((machine)a, (machine)b);
 #elif defined __ARM_NEON
     return (ushorts)vqaddq_s16((int16x8_t)a, (int16x8_t)b);
 #else
@@ -1838,7 +1867,7 @@ INLINE ushorts add_saturated(ushorts a, ushorts b) {
 APART void add_rests(int16_t *response, const int16_t *rest, int64_t values) {
     enum { BOTH = REST_SAMPLES * CHANNELS };
     for (int64_t at = 0; at < values; at += BOTH, rest += CHANNELS)
-        for (int i = 0; i < CHANNELS; i += 8)
+        for (int i = 0; i < CHANNELS; i += LANES)
             for (int64_t to = at + i; to < at + BOTH; to += CHANNELS)
                 store(response + to, (ushorts)((shorts)add_saturated(load(response + to), load(rest + i)) >> SUM_SHIFT));
 }
@@ -2330,9 +2359,11 @@ static PyMethodDef methods[] = {
     {NULL, NULL, 0, NULL},
 };
 
-static struct PyModuleDef module = {PyModuleDef_HEAD_INIT, .m_name = "controller.device.kernel._kernel", .m_size = -1, .m_methods = methods};
+static struct PyModuleDef module = {PyModuleDef_HEAD_INIT, .m_name = MODULE, .m_size = -1, .m_methods = methods};
 
-PyMODINIT_FUNC PyInit__kernel(void) {
+PyMODINIT_FUNC INITIALISE(void) {
     fill_tables();
-    return PyModule_Create(&module);
+    PyObject *made = PyModule_Create(&module);
+    if (made && PyModule_AddIntConstant(made, "HAS_AVX2", MACHINE_HAS_AVX2)) Py_CLEAR(made);
+    return made;
 }

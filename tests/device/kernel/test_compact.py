@@ -1,21 +1,14 @@
 """Responses of a compact bank: the compiled kernel gives the bits of its twin, which agrees with sums written out here."""
 
-import importlib
-
 import numpy as np
 import pytest
+from compiled_kernels import COMPILED, needs_compiled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device import kernel
 from controller.device.kernel import bank_twin, compact_twin, null_twin, words_twin
-
-try:
-    compiled = importlib.import_module("controller.device.kernel._kernel")
-except ImportError:
-    compiled = None
-needs_compiled = pytest.mark.skipif(compiled is None, reason="built without a C compiler")
 
 PITCH_M = 4e-3
 UNDRIVEN = np.flatnonzero(compact_twin.ORDER == 21)[0]  # where the scale of channel 21 lies among those of a block
@@ -92,13 +85,13 @@ def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x
 )
 def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, across, rest_across, taps, idle_word, points):
     found = []
-    for composes, nulls in ((compiled, compiled), (words_twin, null_twin)):
+    for composes, nulls in ((words_twin, null_twin), *zip(COMPILED, COMPILED, strict=True)):
         words, room, bank = buffers(seed, samples, across, rest_across, taps, idle_word)
         assert composes.compose(words, room, bank, points) == -1
         composed = bytes(words)
         assert nulls.null_places(words, room, bank, points, [(11e-3, 13e-3, 1.0)]) == -1
         found.append((composed, bytes(words)))
-    assert found[0] == found[1]
+    assert all(words == found[0] for words in found)
     assert not ((np.frombuffer(b"".join(found[0]), "<u4") ^ idle_word) & 1 << 21).any(), "a channel without weights stays idle"
 
 
@@ -156,7 +149,7 @@ def test_numbers_are_packed_and_unpacked():
     assert np.array_equal(compact_twin.unpacked(compact_twin.packed(numbers)), numbers)
 
 
-@pytest.mark.parametrize("one", [words_twin, pytest.param(compiled, marks=needs_compiled)], ids=["twin", "compiled"])
+@each_row("one", [words_twin, *COMPILED])
 @each_row("at", [0, 4, 8, 12, 16, 20, 40, 44, 48, 52, 56])
 def test_tables_that_cannot_be_are_refused(one, at):
     words, room, bank = buffers(1)
@@ -181,11 +174,11 @@ def test_pulses_beyond_their_weights_are_refused():
     tables[at : at + 18] = np.array([0] + [2048] * 8, "<i2").tobytes()
     with pytest.raises(ValueError, match="taps"):
         compact_twin.CompactTables(tables, 96, 24)
-    if compiled:  # it stays within its buffers all the same
+    for compiled in COMPILED:  # it stays within its buffers all the same
         compiled.compose(words, room, bank._replace(tables=bytes(tables)), [(9e-3, 9e-3, 1.0)])
 
 
-@pytest.mark.parametrize("one", [words_twin, pytest.param(compiled, marks=needs_compiled)], ids=["twin", "compiled"])
+@each_row("one", [words_twin, *COMPILED])
 def test_a_cell_that_may_not_be_used_yet_is_named(one):
     words, room, bank = buffers(2)
     bank.good[0] = 0

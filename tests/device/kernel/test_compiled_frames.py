@@ -1,15 +1,17 @@
 """Frames: the compiled kernel does what its twin does, to the byte, with whatever lengths and pages."""
 
+from itertools import product
 from random import Random
 
 import pytest
+from compiled_kernels import COMPILED, needs_compiled
 from hypothesis import given
 from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device.kernel import twin
 
-compiled = pytest.importorskip("controller.device.kernel._kernel", reason="built without a C compiler")
+pytestmark = needs_compiled
 
 lengths = st.one_of(st.sampled_from([0, 3, 4, 20, 500, 504, 3996, 4000, 4004]), st.integers(0, 4100))
 pages = st.one_of(st.sampled_from([0, 32, 512, 544, 4064, 4096, 4128]), st.integers(0, 4200))
@@ -26,9 +28,10 @@ def outcome(one, name, room, *arguments):
 
 
 def same(name, room, *arguments):
-    found = outcome(compiled, name, room, *arguments)
-    assert found == outcome(twin, name, room, *arguments)
-    return found
+    expected = outcome(twin, name, room, *arguments)
+    for compiled in COMPILED:
+        assert outcome(compiled, name, room, *arguments) == expected
+    return expected
 
 
 @given(lengths, sequences, st.sampled_from([0, 0, 0, 1, 600]), st.builds(Random, st.integers(0, 1 << 64)))
@@ -59,13 +62,14 @@ def test_short_frames_are_sealed_alike(start, count, sequence, random):
 
 @each_row("name", ["pack_loads", "renumber_loads", "unpack_loads", "seal_short_frames", "statuses_good", "compose"])
 def test_it_refuses_arguments_of_another_number_or_kind(name):
-    function = getattr(compiled, name)
-    for arguments in ((), (1,), (None, None), (bytearray(9), None, None), ("", "", ""), (bytearray(9), 1.5, b"", b""), (1,) * 8):
+    for compiled, arguments in product(
+        COMPILED, ((), (1,), (None, None), (bytearray(9), None, None), ("", "", ""), (bytearray(9), 1.5, b"", b""), (1,) * 8)
+    ):
         with pytest.raises((TypeError, BufferError)):
-            function(*arguments)
+            getattr(compiled, name)(*arguments)
 
 
 def test_a_bank_that_is_no_tuple_of_six_buffers_is_refused():
-    for bank in (b"", [b""] * 6, (b"",) * 5, (b"",) * 7, (b"", b"", b"", b"", b"", 1)):
+    for compiled, bank in product(COMPILED, (b"", [b""] * 6, (b"",) * 5, (b"",) * 7, (b"", b"", b"", b"", b"", 1))):
         with pytest.raises(TypeError):
             compiled.compose(bytearray(9), bytearray(9), bank, [(0.0, 0.0, 1.0)])

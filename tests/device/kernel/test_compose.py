@@ -1,10 +1,10 @@
 """Points to drive words: the compiled kernel and its twin give the same bits, and refuse the same buffers."""
 
-import importlib
 import math
 
 import numpy as np
 import pytest
+from compiled_kernels import COMPILED, needs_compiled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tables import each_row
@@ -12,12 +12,7 @@ from tables import each_row
 from controller.device import kernel
 from controller.device.kernel import words_twin
 
-try:
-    compiled = importlib.import_module("controller.device.kernel._kernel")
-except ImportError:
-    compiled = None
-needs_compiled = pytest.mark.skipif(compiled is None, reason="built without a C compiler")
-both = pytest.mark.parametrize("one", [words_twin, pytest.param(compiled, marks=needs_compiled)], ids=["twin", "compiled"])
+each = each_row("one", [words_twin, *COMPILED])
 
 PITCH_M = 2.5e-3
 
@@ -108,7 +103,8 @@ on_cells = st.tuples(st.integers(-1, 5), st.integers(-1, 5), amplitudes).map(
 def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idle_word, block, bank, points):
     random = np.random.default_rng(seed)
     made = buffers(random, samples, *size, idle_word, block, **bank)
-    assert outcome(compiled, made, points) == outcome(words_twin, made, points)
+    for compiled in COMPILED:
+        assert outcome(compiled, made, points) == outcome(words_twin, made, points)
 
 
 @needs_compiled
@@ -129,10 +125,11 @@ def test_it_refuses_what_its_twin_refuses(data):
             made[index] = bytes(made[index][: data.draw(st.integers(0, len(made[index])))])
     coordinate = st.one_of(st.floats(0, 20e-3), st.floats())
     points = data.draw(st.lists(st.tuples(coordinate, coordinate, st.one_of(st.floats(0.1, 1), st.floats())), max_size=12))
-    assert outcome(compiled, made, points) == outcome(words_twin, made, points)
+    for compiled in COMPILED:
+        assert outcome(compiled, made, points) == outcome(words_twin, made, points)
 
 
-@both
+@each
 def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     made[5][4] = 0
@@ -143,7 +140,7 @@ def test_a_cell_without_a_good_response_is_named_and_nothing_written(one):
     assert any(made[0])
 
 
-@both
+@each
 @each_row("samples", [0, -1, 2001, 1 << 40])
 def test_lengths_that_cannot_be_composed_are_refused(one, samples):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
@@ -154,7 +151,7 @@ def test_lengths_that_cannot_be_composed_are_refused(one, samples):
         kernel.room_bytes(samples)
 
 
-@both
+@each
 @each_row("which", range(7))
 def test_a_buffer_that_is_too_short_is_refused(one, which):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
@@ -163,7 +160,7 @@ def test_a_buffer_that_is_too_short_is_refused(one, which):
         compose_with(one, made, [(5e-3, 6e-3, 1.0), (5e-3 + 2 * PITCH_M, 6e-3 + PITCH_M, 1.0)])
 
 
-@both
+@each
 @each_row("scale", [math.nan, math.inf, -1e-11])
 def test_a_scale_that_cannot_be_is_refused(one, scale):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
@@ -172,7 +169,7 @@ def test_a_scale_that_cannot_be_is_refused(one, scale):
         compose_with(one, made, [(6e-3, 7e-3, 1.0)])
 
 
-@both
+@each
 def test_a_plan_is_read_only_and_what_is_filled_is_not(one):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
     for which in (0, 1):
@@ -181,7 +178,7 @@ def test_a_plan_is_read_only_and_what_is_filled_is_not(one):
             compose_with(one, wrong, [(5e-3, 6e-3, 1.0)])
 
 
-@both
+@each
 def test_polarities_that_other_words_have_are_taken_and_those_chosen_are_given(one):
     rng = np.random.default_rng(5)
     given_buffers = buffers(rng, 200, 4, 4, 0x69969669, 48)

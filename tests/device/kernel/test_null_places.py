@@ -1,20 +1,15 @@
 """Words that leave places still: the compiled kernel and its twin give the same bits, and refuse the same buffers."""
 
-import importlib
-
 import numpy as np
 import pytest
+from compiled_kernels import COMPILED, needs_compiled
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tables import each_row
 
 from controller.device import kernel
 from controller.device.kernel import null_twin
-from tests.device.kernel.test_compose import buffers, compose_with, needs_compiled, on_cells, places
-
-try:
-    compiled = importlib.import_module("controller.device.kernel._kernel")
-except ImportError:
-    compiled = None
+from tests.device.kernel.test_compose import buffers, compose_with, on_cells, places
 
 
 def outcome(one, given_buffers, points, nulls):
@@ -55,7 +50,8 @@ def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idl
     given_buffers[0][:] = random.bytes(4 * samples)
     if composed:
         compose_with(kernel, given_buffers, points)
-    assert outcome(compiled, given_buffers, points, nulls) == outcome(null_twin, given_buffers, points, nulls)
+    for compiled in COMPILED:
+        assert outcome(compiled, given_buffers, points, nulls) == outcome(null_twin, given_buffers, points, nulls)
 
 
 @pytest.mark.slow
@@ -66,7 +62,7 @@ def test_the_compiled_kernel_gives_the_bits_of_its_twin_in_many_cases(**case):
     test_the_compiled_kernel_gives_the_bits_of_its_twin.hypothesis.inner_test(**case)
 
 
-@pytest.mark.parametrize("one", [null_twin, pytest.param(compiled, marks=needs_compiled)], ids=["twin", "compiled"])
+@each_row("one", [null_twin, *COMPILED])
 def test_refuses_what_compose_refuses_and_leaves_words_alone_without_a_response(one):
     given_buffers = buffers(np.random.default_rng(1), 100, 3, 3, 0x69969669, 48)
     here, there = (6e-3, 7e-3, 1.0), (9e-3, 10e-3, 1.0)
