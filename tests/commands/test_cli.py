@@ -517,7 +517,7 @@ def test_a_wrong_setting_of_the_environment_is_one_line(monkeypatch):
     monkeypatch.setenv("HAPTIC_PANEL_KERNEL", "fast")
     code, _, said = without([], "run", "--speed", "max")
     assert (code, said.count("\n")) == (2, 1)
-    assert "HAPTIC_PANEL_KERNEL=fast: compiled, numpy, or unset" in said
+    assert "HAPTIC_PANEL_KERNEL=fast: compiled, narrow, numpy, or unset" in said
     assert without([], "--version")[0] == 0
 
 

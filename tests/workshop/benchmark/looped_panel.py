@@ -42,13 +42,16 @@ class _Pipe:
 
 
 class _Reports:
-    """One recording, report by report; ends with all fingers lifted."""
+    """One recording, report by report; ends with all fingers lifted.
+
+    Before it comes a report without contacts: the state that a driver reports of a device that it has opened.
+    """
 
     def __init__(self, recording: Recording) -> None:
         axes = {ev.ABS_MT_SLOT: AxisInfo(0, LAST_SLOT)}
         axes |= {code: AxisInfo(a.minimum, a.maximum) for code, a in zip(ev.POSITIONS, (recording.x, recording.y), strict=True)}
         self.description = DeviceDescription(recording.name, axes=axes)
-        events = [*recording.events]
+        events = [(ev.EV_SYN, ev.SYN_REPORT, 0, -PAUSE_S / 2), *recording.events]
         end_s = recording.duration_s + 0.01
         used = {value for kind, code, value, _ in events if (kind, code) == (ev.EV_ABS, ev.ABS_MT_SLOT)}
         for slot in sorted(used):

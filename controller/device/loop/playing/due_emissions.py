@@ -74,7 +74,7 @@ class DueEmissions:
             self.by_owner.clear()
         else:
             due = tuple(self.by_owner.values())
-            if not due[0].period_s and now_s - due[0].time_s < MAX_DEFERRAL_S:
+            if not due[0].period_s and now_s - due[0].time_s < MAX_DEFERRAL_S and not all(map(_has_no_pulse, due)):
                 due = tuple(sorted(due, key=_has_no_pulse))
             first, rest = select_batch(due, duration_s, self._max_foci, self._wave_scale)
             chosen = list(first)
