@@ -58,31 +58,26 @@ def select_batch(
 
 
 def _conflicts(emission: Emission, chosen: Sequence[Emission], wave_scale: float) -> bool:
-    merge_m2, separation_m2, crowd_m2 = (
-        _square(MERGE_RADIUS_M * wave_scale),
-        _square(SEPARATION_M * wave_scale),
-        _square(CROWD_M * wave_scale),
-    )
-    x_m, y_m = emission.x_m, emission.y_m
+    merge_m, separation_m, crowd_m = MERGE_RADIUS_M * wave_scale, SEPARATION_M * wave_scale, CROWD_M * wave_scale
     near = []
     for other in chosen:
-        apart_m2 = _square(x_m - other.x_m) + _square(y_m - other.y_m)
-        if apart_m2 >= crowd_m2:
+        apart_m2 = _apart_m2(emission, other)
+        if apart_m2 >= crowd_m * crowd_m:
             continue
-        if apart_m2 < separation_m2 and emission.amplitude != other.amplitude:
+        if apart_m2 < separation_m * separation_m and emission.amplitude != other.amplitude:
             return True
-        if apart_m2 >= merge_m2:
+        if apart_m2 >= merge_m * merge_m:
             near.append(other)
-    return len(near) > MAX_NEIGHBOURS or any(_neighbours(other, chosen, merge_m2, crowd_m2) >= MAX_NEIGHBOURS for other in near)
+    return len(near) > MAX_NEIGHBOURS or any(_neighbours(other, chosen, merge_m, crowd_m) >= MAX_NEIGHBOURS for other in near)
 
 
-def _neighbours(emission: Emission, chosen: Sequence[Emission], merge_m2: float, crowd_m2: float) -> int:
+def _neighbours(emission: Emission, chosen: Sequence[Emission], merge_m: float, crowd_m: float) -> int:
     count = 0
     for other in chosen:
-        apart_m2 = _square(emission.x_m - other.x_m) + _square(emission.y_m - other.y_m)
-        count += merge_m2 <= apart_m2 < crowd_m2
+        count += merge_m * merge_m <= _apart_m2(emission, other) < crowd_m * crowd_m
     return count
 
 
-def _square(value: float) -> float:
-    return value * value  # a power is a call of a function, with floats as objects
+def _apart_m2(one: Emission, other: Emission) -> float:
+    x_m, y_m = one.x_m - other.x_m, one.y_m - other.y_m
+    return x_m * x_m + y_m * y_m  # `**` would call a function, with objects in place of floats
