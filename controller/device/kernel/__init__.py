@@ -78,7 +78,7 @@ def _compiled(wanted: str) -> ModuleType | None:
         if wanted:
             raise UsageError(f"HAPTIC_PANEL_KERNEL={wanted}, but the package was built without a C compiler: {error}") from error
         return None
-    if compiled.HAS_AVX2 and wanted != "narrow":
+    if getattr(compiled, "HAS_AVX2", False) and wanted != "narrow":  # one older than its source may not say
         compiled = importlib.import_module("controller.device.kernel._kernel_avx2")
     file = compiled.__file__
     if file and _SOURCE.exists() and _SOURCE.stat().st_mtime > Path(file).stat().st_mtime:
