@@ -70,6 +70,7 @@ enum {
     STRENGTH_SHIFT = 8,
     SKETCHED_PER_BLOCK = 16,
     SKETCH_SHIFT = 4,
+    LARGEST_SKETCHED = 1023,
     PRODUCT_BITS = 30,
     THRESHOLD_BITS = 24,
     NEAR_LEVEL_SHIFT = 3,
@@ -1091,11 +1092,20 @@ APART void sketch_line(int16_t *restrict to, const int16_t *restrict from) {
     for (int i = 0; i < CHANNELS; i++) to[i] = (int16_t)(from[i] >> SKETCH_SHIFT);
 }
 
-static void take_sketch(struct work *work) {
+/* The same of a compact bank, whose responses are too faint to lose bits. */
+APART void sketch_faint_line(int16_t *restrict to, const int16_t *restrict from) {
+    for (int i = 0; i < CHANNELS; i++) {
+        int16_t value = from[i];
+        value = value > LARGEST_SKETCHED ? LARGEST_SKETCHED : value;
+        to[i] = value < -LARGEST_SKETCHED ? -LARGEST_SKETCHED : value;
+    }
+}
+
+static void take_sketch(struct work *work, int faint) {
     int64_t samples = work->values / CHANNELS;
     for (int i = 0; i < work->count; i++) {
         int16_t *to = work->sketch[i], *end = to + work->sketch_rows * ROW;
-        for (int64_t n = 0; n < samples; n += work->sketch_step, to += CHANNELS) sketch_line(to, work->response[i] + n * CHANNELS);
+        for (int64_t n = 0; n < samples; n += work->sketch_step, to += CHANNELS) (faint ? sketch_faint_line : sketch_line)(to, work->response[i] + n * CHANNELS);
         memset(to, 0, (size_t)(end - to) * sizeof *to);
     }
 }
@@ -1242,7 +1252,7 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
     memset(work->strength, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->strength);
     work->balance[0] = 1;
     if (work->count > 1) {
-        take_sketch(work);
+        take_sketch(work, patches->tables != NULL);
         polarise(work, asked, polarity);
         balance_sketch(work);
     }

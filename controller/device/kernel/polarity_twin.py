@@ -17,6 +17,7 @@ Signs = NDArray[np.int8]
 
 POINT_WEIGHT_SUM: Final = 32767  # of the points
 SKETCH_SHIFT: Final = 4  # bits that responses lose there, so that 256 products add up to less than 2^31
+LARGEST_SKETCHED: Final = (1 << 10) - 1  # for the same reason, of a compact bank's responses, which are too faint to lose bits
 PRODUCT_BITS: Final = 30  # of the largest inner product of two responses
 MAX_CORRECTION: Final = 2.0  # of a weight in a round
 ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
@@ -26,9 +27,10 @@ RATIO_SLOPE: Final = 30.0  # by which ratio amplitudes may differ, for each corr
 class Sketch:
     """One of each `step` samples of the points' responses, and their inner products."""
 
-    def __init__(self, in_band: Numbers, step: int) -> None:
-        count = len(in_band)
-        self._rows = (in_band[:, ::step] >> SKETCH_SHIFT).reshape(count, -1)
+    def __init__(self, in_band: Numbers, step: int, *, faint: bool) -> None:
+        count, some = len(in_band), in_band[:, ::step]
+        rows = np.clip(some, -LARGEST_SKETCHED, LARGEST_SKETCHED) if faint else some >> SKETCH_SHIFT
+        self._rows = rows.reshape(count, -1)
         self._gram: Numbers = np.array([[(one * other).sum() for other in self._rows] for one in self._rows])
 
     def polarised(self, asked: list[float], norms: list[float], polarities: Signs) -> tuple[list[float], list[float]]:

@@ -102,7 +102,7 @@ class _Composition:
     def __init__(self, bank: Responses, patches: list[PlaceCells]) -> None:
         responses = np.array([bank.equalised(patch) for patch in patches], np.int32)
         self.in_band, self.whole = responses[:, : bank.samples], bank.whole(responses)  # (points, samples, 32)
-        self._sketch_step = bank.sketch_step
+        self._sketch_step, self._faint = bank.sketch_step, bank.tables is not None
         # Sums of their absolute values in the band; inf for a response of zeros, which has no part in any sum
         self.norms = [float(np.abs(response).sum()) or math.inf for response in self.in_band]
         self._block_samples = bank.block_samples
@@ -111,7 +111,7 @@ class _Composition:
         """Where the words deviate from idle, (samples, 32), for these amplitudes; `polarities` as in `Sketch.polarised`."""
         divisors, balance = self.norms, [1.0]
         if len(asked) > 1:
-            sketch = Sketch(self.in_band, self._sketch_step)
+            sketch = Sketch(self.in_band, self._sketch_step, faint=self._faint)
             asked, divisors = sketch.polarised(asked, self.norms, polarities)
             balance = sketch.balanced(divisors)
         weighted, unit = self.weighted(balance, divisors)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.device import kernel
-from controller.device.kernel import bank_twin, compact_twin, null_twin, words_twin
+from controller.device.kernel import bank_twin, compact_twin, null_twin, polarity_twin, words_twin
 
 PITCH_M = 4e-3
 UNDRIVEN = np.flatnonzero(compact_twin.ORDER == 21)[0]  # where the scale of channel 21 lies among those of a block
@@ -184,3 +184,14 @@ def test_a_cell_that_may_not_be_used_yet_is_named(one):
     bank.good[0] = 0
     assert one.compose(words, room, bank, [(5e-3, 6e-3, 1.0)]) == 0
     assert not any(words)
+
+
+def test_a_sketch_of_a_compact_bank_loses_no_bits():
+    """Its weights are those of responses 16 times as strong; what lies beyond 10 bits is cut off, with either sign."""
+    faint = np.random.default_rng(5).normal(0, 30, (3, 96, 32)).astype(np.int32)
+    norms = [float(np.abs(response).sum()) for response in faint]
+    found = polarity_twin.Sketch(faint, 3, faint=True).balanced(norms)
+    assert found == polarity_twin.Sketch(16 * faint, 3, faint=False).balanced([16 * norm for norm in norms])
+    assert found != pytest.approx(polarity_twin.Sketch(faint, 3, faint=False).balanced(norms), abs=0.01)
+    strong, cut = (polarity_twin.Sketch(np.int32([[[-size]], [[size]]]), 1, faint=True)._gram for size in (20_000, 1023))
+    assert strong.tolist() == cut.tolist()

@@ -143,7 +143,7 @@ def test_amplitudes_and_several_fingers_come_out_as_from_a_plain_bank(board, ban
     assert alone.mean(axis=1) == pytest.approx(known_alone.mean(axis=1), abs=0.01), "without the gain of the rest 0.010, 0.021"
     assert alone == pytest.approx(known_alone, abs=0.06)
     shares = three / known_three
-    assert (shares.max(axis=1) / shares.min(axis=1)).max() < 1.1
+    assert (shares.max(axis=1) / shares.min(axis=1)).max() < 1.075, "1.087 with a sketch of four bits less"
     assert shares.mean() > 0.98
 
 
