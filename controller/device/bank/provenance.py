@@ -11,8 +11,8 @@ from controller.device.board.digest import sha256
 
 # Of the plate model (physics/) and of what is kept of it, by any way of making words. Raised whenever a response that it computes
 # changes by more than rounding; a bank of another version is built again. tests/workshop/physics/test_model_version.py compares
-# responses with those of this version. 2: what a slope takes is kept; 3: for each 2 samples
-MODEL_VERSION = 3
+# responses with those of this version. 2: what a slope takes is kept; 3: for each 2 samples; 4: lifted
+MODEL_VERSION = 4
 MOST_FILES = 8  # of a folder and a kind that a header names one by one
 MEASURE_AGAIN = "haptic-panel calibrate bank FOLDER"  # what builds a bank from measurements
 

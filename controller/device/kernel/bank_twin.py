@@ -149,11 +149,11 @@ class Responses:
         iy, up = self._along(y_m - self.y0_m, self.ny - 1)
         along_x, along_y = right * (1 - right), up * (1 - up)
         between, more = along_x + along_y, abs(along_x - along_y) / 2
-        cells = self._cells(_row(ix, right, more * (along_y > along_x)), _row(iy, up, more * (along_x > along_y)))
+        cells = self._cells(row_shares(ix, right, more * (along_y > along_x)), row_shares(iy, up, more * (along_x > along_y)))
         if wide and more > LEAST_MORE and all(map(self._has, cells)):
             between += 2 * more
         else:
-            cells = self._cells(_row(ix, right), _row(iy, up))
+            cells = self._cells(row_shares(ix, right), row_shares(iy, up))
         numbers, shares, total = [], [], 0.0
         for cell, share in cells.items():
             entry, scale = self._entry(cell)
@@ -270,7 +270,7 @@ class Responses:
         return index, beyond * 1e-6
 
 
-def _row(index: int, beyond: float, more: float = 0.0) -> Shares:
+def row_shares(index: int, beyond: float, more: float = 0.0) -> Shares:
     """Indices of cells along an axis and their shares of a place `beyond` the first; with `more`, of three, farther apart."""
     if not more:
         return [(index, 1 - beyond), (index + 1, beyond)]

@@ -17,7 +17,7 @@ from controller.workshop.bank_builder.optimised import kept_path
 from controller.workshop.bank_builder.plan import BankPlan, inputs_sha256
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.physics.memory import BASE_BYTES, require
-from controller.workshop.physics.plate import rest_lift
+from controller.workshop.physics.responses.kept_rest import rest_lift
 from controller.workshop.physics.responses.response_source import ResponseSource
 from controller.workshop.workers.map_kept import Mapped, map_kept
 

@@ -2,7 +2,6 @@
 
 import math
 
-from controller.device.bank.file_format import REST_SAMPLES
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.kernel import LARGEST_EQUALISER
@@ -14,8 +13,6 @@ MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
 ENOUGH_HZ = 100e3  # bits of a low band still excite what lies far above it: their corners pass the driver up to here
 FEW_MODES = 2_200  # as many as can be computed whatever the edges
 LEAST_TILT = 1.0  # of an equaliser
-MOST_BETWEEN = 0.5  # that is given back: coarser grids lose all of it in some places
-FAINTEST = 0.1  # power of bits far above the band, over that below
 
 
 def mode_cut_hz(board: Board) -> float:
@@ -50,43 +47,23 @@ def equaliser(board: Board, pitch_m: float) -> float:
 
 
 def band_lost(board: Board, pitch_m: float) -> float:
-    """What a bank's `band_lost` is: what interpolation takes from the middle of the band in spite of the equaliser, over `a`.
+    """What a bank's `band_lost` is: `lost_between`, by which the rest is weighed less.
 
-    As it is in the middle of a cell; elsewhere it goes with `a` to 0.5 % (50 places). With a slope, what a response leaves out
-    lies in the band too and loses there as well: half of it is right for slopes of -1, -0.5 and 1, to 1 % of the displacement.
+    With a slope, what a response leaves out lies in the band too and loses there as well: half of it is right for slopes of -1,
+    -0.5 and 1, to 1 % of the displacement.
+    """
+    return float(f"{lost_between(board, pitch_m) / (2 if board.waveform.slope else 1):.3g}")
+
+
+def lost_between(board: Board, pitch_m: float) -> float:
+    """What interpolation takes from the middle of the band in spite of the equaliser, over `a`.
+
+    As it is in the middle of a cell; elsewhere it goes with `a` to 0.5 % (50 places).
     """
     turned, a = 2 * math.pi * board.waveform.middle_hz * EQUALISER_S, 0.5
     taken = _taken(board, pitch_m) * a
     kept = (1 - taken + taken**2 / 4) * (1 - 2 * equaliser(board, pitch_m) * a * math.cos(turned))
-    lost = (1 - kept) / a / (2 if board.waveform.slope else 1)
-    return float(f"{min(max(lost, 0.0), 1.0):.3g}")
-
-
-def rest_lift(board: Board, pitch_m: float) -> tuple[float, float]:
-    """What a row of the rest is multiplied with in a bank, and what is taken of the rows beside it.
-
-    It gives back what is lost on average over places and directions, right in the middle of what lies below the band and of what
-    lies just above it: between cells (k pitch)^2 / 12; and by rows of two samples, whose images matter the less, the less bits have
-    at those high frequencies. With a slope, whose rest lies in the band too, and above what rows can follow it stays as it is.
-    """
-    waveform = board.waveform
-    period_s, edge_hz = REST_SAMPLES * waveform.bit_period_s, waveform.band_high_hz * 10 / 7
-    middles_hz = waveform.band_low_hz / 2, (waveform.band_high_hz + edge_hz) / 2
-    if waveform.slope or middles_hz[1] * period_s > 0.5:
-        return 1.0, 0.0
-
-    def power(hz: float) -> float:
-        return FAINTEST + (1 - FAINTEST) / (1 + (hz / edge_hz) ** 4)
-
-    gains, turns = [], []
-    for hz in middles_hz:
-        kept = math.cos(math.pi * hz * waveform.bit_period_s) ** 2
-        by_rows = kept + (1 - kept) * power(1 / period_s - hz) / power(hz)
-        between = (2 * math.pi * pitch_m / bending_wavelength_m(board.plate, hz)) ** 2 / 12
-        gains.append((1 + min(between, MOST_BETWEEN)) / by_rows)
-        turns.append(2 * math.cos(2 * math.pi * hz * period_s))
-    beside = (gains[1] - gains[0]) / (turns[0] - turns[1])
-    return gains[0] + turns[0] * beside, beside
+    return min(max((1 - kept) / a, 0.0), 1.0)
 
 
 def _taken(board: Board, pitch_m: float) -> float:
