@@ -24,9 +24,10 @@ BURST_LIVES = 4  # the same in multiples of G, if that is longer
 
 
 class GhostGuard:
-    """Ghost windows of the last emissions. `ghost_s` is G of the rule; with 0 no contact is a suspect."""
+    """Ghost windows of the last emissions. `ghost_s` is G of the rule; with 0 nothing need be announced or asked."""
 
     def __init__(self, ghost_s: float) -> None:
+        self.expects_ghosts = ghost_s > 0
         self._ghost_s = ghost_s
         self._previous = (-inf, -inf)  # begin and end of the last but one window: reports are read later than they were made
         self._start_s = self._end_s = -inf  # of the newest emission's own window
@@ -50,8 +51,6 @@ class GhostGuard:
 
     def suspects(self, first_s: float) -> bool:
         """Whether a contact first reported at `first_s` may be a ghost."""
-        if self._ghost_s == 0:
-            return False
         begin_s, end_s = self._window(first_s)
         return begin_s <= first_s < end_s or self._previous[0] <= first_s < self._previous[1]
 

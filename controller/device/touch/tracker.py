@@ -4,7 +4,7 @@ States of a contact:
 
 - It waits until its `confirm_reports`-th report, or until the time in which that many reports would have shown its release; a
   suspect (`ghost_guard.py`) waits until it is cleared. Then it is a finger; its first sample has the time of this decision.
-- A lost finger may be found again (`lost_fingers.py`). A release therefore reaches the loop that much later, with the time at
+- A lost finger may be found again (`contacts.py`). A release therefore reaches the loop that much later, with the time at
   which the panel reported it. One that has become a palm does not wait.
 """
 
@@ -17,12 +17,11 @@ from math import inf
 from typing import Any, Final
 
 from controller.device.board.touch_panels import TouchPanel
+from controller.device.touch.contacts import LostFingers, TrackedContact, TrackerCounts
 from controller.device.touch.ghost_guard import GhostGuard, QuietBudget
-from controller.device.touch.lost_fingers import LostFingers
-from controller.device.touch.prediction import MAX_INTERVAL_S, SILENT_PERIODS, Motion
+from controller.device.touch.prediction import MAX_INTERVAL_S, SILENT_PERIODS
 from controller.device.touch.reports import ReportRate
 from controller.device.touch.source import Counts, Heard, TouchSample, TouchSource
-from controller.device.touch.tracked_contact import TrackedContact, TrackerCounts
 
 MISSED_REPORT_PERIODS: Final = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
 CONFIRMING_REPORTS: Final = 2
@@ -151,6 +150,8 @@ class Tracker:
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
         """Announce an emission from `start_s` to `end_s`, repeated every `period_s` if above 0; see `TrackedTouch.emitted`."""
+        if not self._guard.expects_ghosts:
+            return
         self._guard.emitted(start_s, end_s, period_s)
         for contact in self._contacts.values():  # the end of a repetition clears suspects earlier
             if contact.suspect and not contact.played:
@@ -201,7 +202,8 @@ class Tracker:
             if self._bridged is not None:
                 self._bridged(found.finger, finger)
             return found
-        contact = TrackedContact(finger, Motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
+        guard = self._guard
+        contact = TrackedContact(finger, x_m, y_m, time_s, suspect=guard.expects_ghosts and guard.suspects(time_s))
         contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
         self._due_s = -inf  # it is decided now, or from when on it waits

@@ -154,8 +154,8 @@ def test_under_an_endless_spot_full_of_ghosts_real_fingers_are_played_and_ghosts
     assert max(begun_s - tap[0] for (begun_s, _, _), tap in zip(fingers, taps, strict=True)) <= longest_s
 
 
-def held_until(first_s, *emissions, ghost_s=GHOST_S):
-    guard = GhostGuard(ghost_s)
+def held_until(first_s, *emissions):
+    guard = GhostGuard(GHOST_S)
     for emission in emissions:
         guard.emitted(*emission)
     return guard.cleared_s(first_s) if guard.suspects(first_s) else None
@@ -213,7 +213,6 @@ def test_a_shadow_ends_when_nothing_more_is_played():
 
 
 def test_a_panel_without_ghosts_holds_nobody_back():
-    assert held_until(1.001, (1.0, 1.002), ghost_s=0.0) is None
     t = Tracker(ScriptedSource((1.001, [touch(0, 100)])), msgspec.structs.replace(TOUCH, ghost_ms=0.0), 0.210, 0.148)
     t.emitted(1.0, 1.002, 0.01)
     assert len(t.read(1.001)) == 1

@@ -1,17 +1,18 @@
-"""Fingers that a panel has lost for a moment: a contact that begins near where one would be meanwhile is the same finger.
+"""Contacts of a source as the tracker has them, and fingers that a panel has lost for a moment.
 
-A lost finger is kept for `BRIDGE_PERIODS` of the panel's own period. Until that is measured, a finger that is lost soon after a
-report is taken to have been lost by the next, as late as it may be on a panel of `SLOW_PERIOD_S`; one that was released and is back
-sooner than any hand shows the period.
+A contact that begins near where a lost finger would be meanwhile is the same finger. A lost finger is kept for `BRIDGE_PERIODS`
+of the panel's own period. Until that is measured, a finger that is lost soon after a report is taken to have been lost by the next,
+as late as it may be on a panel of `SLOW_PERIOD_S`; one that was released and is back sooner than any hand shows the period.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import hypot, inf
 from typing import Final
 
+from controller.device.touch.prediction import Motion
 from controller.device.touch.reports import MAX_PERIOD_S, ReportRate
-from controller.device.touch.tracked_contact import TrackedContact
 
 BRIDGE_RADIUS_M: Final = 5e-3  # from its predicted position, at least
 BRIDGE_SPEED: Final = 0.25  # m/s: by so much its velocity may have been unknown; on a slow panel that is farther
@@ -19,6 +20,44 @@ BRIDGE_SHARE: Final = 0.5  # of the way from its last report: the same of a fast
 BRIDGE_PERIODS: Final = 1.5  # the panel finds it one period after it has reported the loss
 SLOW_PERIOD_S: Final = 30e-3  # it takes 45 ms at most to come back: nobody taps again in less than 50
 UNKNOWN_LOSSES: Final = 3  # after this many, a panel without a measured period reports taps that do not move, and loses none
+
+
+class TrackedContact:
+    """One contact of the source: waiting or played."""
+
+    __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "reports", "size_m", "suspect")
+
+    def __init__(self, finger: int, x_m: float, y_m: float, time_s: float, *, suspect: bool) -> None:
+        self.finger = finger  # number in the loop's samples: the source's number of its first contact
+        self.first_s = time_s
+        self.motion = Motion(x_m, y_m, time_s)
+        self.reports = 1
+        self.size_m = 0.0
+        self.suspect = suspect
+        self.played = False
+        self.lost_s = inf  # time of its release by the panel
+
+
+@dataclass(slots=True)
+class TrackerCounts:
+    """Contacts that were not simply fingers."""
+
+    held_back: int = 0  # suspects
+    ghosts: int = 0  # suspects released before they were cleared
+    flickers: int = 0  # contacts released before `confirm_reports` reports
+    bridged: int = 0  # fingers lost and found again
+    listened_s: float = 0.0  # time in which emissions were held back to judge suspects
+    longest_hold_s: float = 0.0  # longest time from the first report of a suspect to its first sample
+    # Longest time from first report to release of a ghost; if it is close to `ghost_ms`, that is too short
+    longest_ghost_s: float = 0.0
+
+    def count_unplayed(self, contact: TrackedContact, released_s: float) -> None:
+        """Count a contact that was released before it was played."""
+        if contact.suspect:
+            self.ghosts += 1
+            self.longest_ghost_s = max(self.longest_ghost_s, released_s - contact.first_s)
+        else:
+            self.flickers += 1
 
 
 class LostFingers:
