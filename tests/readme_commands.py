@@ -1,5 +1,7 @@
 """Every `haptic-panel` line of every README's sh blocks, one after the other: `python readme_commands.py FOLDER [sh]`.
 
+Scripts of `tests` in such a block run too: they make what its next lines read.
+
 Blocks marked `sh slow` hold what takes longer: `python readme_commands.py FOLDER "sh slow"`. They run in FOLDER/checkout, where
 `tests` and `boards` lead to the checkout's; 1 at the first that does not end with 0, or if git sees what they leave there.
 A third argument chooses `run`, or all `others`: neither needs what the other makes.
@@ -20,13 +22,14 @@ ROOT = Path(__file__).parent.parent
 
 
 def commands(mark="sh", part="all"):
-    """Lines of blocks so marked that call haptic-panel and nothing else, or make a folder for it, each once."""
+    """Lines of blocks so marked that call haptic-panel or a script of tests and nothing else, or make a folder, each once."""
     readmes = sorted(path for path in ROOT.rglob("README.md") if not any(p.startswith(".") for p in path.relative_to(ROOT).parts))
     text = "\n".join(path.read_text() for path in readmes)
     blocks = re.findall(rf"^```{mark}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     lines = [line.split("  #")[0].strip() for block in blocks for line in block.splitlines()]
     words = {"all": "", "run": "run ", "others": "(?!run )"}[part]
-    return list(dict.fromkeys(line for line in lines if re.match(rf"(\.venv/bin/)?haptic-panel {words}|mkdir -p ", f"{line} ")))
+    meant = rf"(\.venv/bin/)?haptic-panel {words}|\.venv/bin/python tests/|mkdir -p "
+    return list(dict.fromkeys(line for line in lines if re.match(meant, f"{line} ")))
 
 
 def run_all(folder, mark, part="all"):
@@ -51,7 +54,8 @@ def run_all(folder, mark, part="all"):
         if program == "mkdir":
             Path(arguments[-1]).mkdir(parents=True, exist_ok=True)
             continue
-        code = main(arguments)
+        script = program.endswith("python")
+        code = subprocess.run([sys.executable, *arguments], check=False).returncode if script else main(arguments)
         if code:
             print(f"ended with {code}", flush=True)
             return 1
