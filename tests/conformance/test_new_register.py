@@ -212,9 +212,9 @@ def test_the_whole_verilog_has_no_warning(tree):
 
 @pytest.mark.slow
 def test_the_conformance_tests_hold_for_it_and_fail_where_the_model_forgets_it(tree, tmp_path):
-    """In the copy, by its own tests, which nobody changed."""
+    """In the copy, by its own tests, but for one, whose seeds meet every fault with the registers there are."""
     tests = ["tests/conformance/test_registers.py", "tests/conformance/test_random.py"]
-    pytest_there = ("-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *tests)
+    pytest_there = ("-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "-m", "not slow", "-k", "not meet_every", *tests)
     assert "passed" in python(tree, *pytest_there).stdout
     python(tree, "-c", THE_FAULT, "both")
     model = tree / "controller/workshop/gateware/model/commands.py"
@@ -225,5 +225,7 @@ def test_the_conformance_tests_hold_for_it_and_fail_where_the_model_forgets_it(t
     finally:
         model.write_text(right)
     failed = re.findall(r"^FAILED \S+::(\S+)", done.stdout, re.MULTILINE)
-    assert {f"test_random_scripts_give_the_same_on_both[{block}]" for block in range(6)} <= set(failed)
-    assert "test_the_random_scripts_move_every_register_that_can_move" in failed
+    assert {
+        "test_random_scripts_give_the_same_on_both",
+        "test_the_random_scripts_move_every_register_that_can_move",
+    } <= set(failed)
