@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.commands.common.tables import service_table
-from controller.device.touch.plausibility import figures
 from controller.device.touch.source import Counts as TouchCounts
 from controller.metrics import BOUNDS_US, P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
 
@@ -100,7 +99,7 @@ def test_the_table_of_a_service_says_how_it_ended():
         "cause": "there is no serial port",
         "warnings": [],
     }
-    said["touch"] = {"plausibility": figures(TouchCounts(), {})}
+    said["touch"] = {"plausibility": TouchCounts().plausibility({})}
     table = service_table(Counters().export() | said)
     assert "bank: panel.bank\nmemory: 8 GB\nat the end: waiting for FPGA (there is no serial port)\n" in table
     assert "at the end: armed\n" in service_table(Counters().export() | said | {"state": "armed", "cause": ""})
