@@ -239,6 +239,8 @@ class Responses:
         beside = np.pad(met[: self.samples].astype(np.int32), ((self.step, self.step), (0, 0))) * patch.tap >> TAP_BITS
         halved: Numbers = met >> 1
         halved[: self.samples] -= (beside[: self.samples] + beside[2 * self.step :]).astype(np.int16)
+        if self.tables:
+            halved[self.samples :] += self.tables.of_band.rows(halved[: self.samples]).astype(np.int16)
         return halved
 
     def whole(self, equalised: Numbers) -> Numbers:

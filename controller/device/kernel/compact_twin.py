@@ -3,7 +3,8 @@
 A cell has weights of pulses in place of samples, in four bits, with a scale for each channel and one of four bits for each block of
 its weights. A place is
 served by `across` x `across` cells, whose shares are tabulated. Sums of weights times pulses ("taps") are even samples; odd ones
-lie between four of these. What the band leaves out has cells, weights and pulses of its own.
+lie between four of these. What the band leaves out has cells, weights and pulses of its own; but what a slope leaves out within the
+band is made of the band: each row is a share of its two samples, and one of those a quarter of a wave before and after.
 
 All that reaches a sample is whole numbers; shifts round down.
 """
@@ -23,6 +24,7 @@ CHANNELS: Final = 32
 # in the band and beside it: cells across a stencil, its steps a pitch, weights, weights of a block, taps; then taps of odd samples;
 # cells of the rest along x and y; their pitch, x and y of the first in m
 HEAD: Final = struct.Struct("<14i3d")
+OF_BAND: Final = struct.Struct("<3i")  # behind HEAD: samples between own and outer ones, tap of the sum of the own two, of the outer two
 TABLES_AT: Final = 128
 LINE: Final = 64
 LOUDEST: Final = 15  # levels are the odd numbers from -15 to 15
@@ -35,6 +37,8 @@ MAX_ACROSS: Final = 6
 MAX_WEIGHTS: Final = 1024
 MAX_TAPS: Final = 16
 MAX_STEPS: Final = 64
+MAX_APART: Final = 256  # samples
+LARGEST_OF_BAND: Final = 24_000  # taps together, so that with the rest's own share a row is within 16 bits
 # Channels in the order in which they are kept: as 16 bytes of four-bit numbers fall into four vectors of 16 bits
 ORDER: Final = np.array([first + 2 * lane for first in (0, 1, 16, 17) for lane in range(8)])
 
@@ -71,6 +75,36 @@ class PulseLayer(NamedTuple):
     taps: int
 
 
+class OfBand(NamedTuple):
+    """What of the rest is made of the band: nothing, unless the band has a slope."""
+
+    apart: int = 0
+    own: int = 0
+    outer: int = 0
+
+    @property
+    def possible(self) -> bool:
+        """Whether each number is within its range."""
+        taps = abs(self.own), abs(self.outer)
+        return 0 <= self.apart <= MAX_APART and max(taps) < 1 << 14 and sum(taps) <= LARGEST_OF_BAND
+
+    def rows(self, halved: Numbers) -> Numbers:
+        """What it adds to rows of the rest, (row, 32), from halves of samples (sample, 32)."""
+        own, outer = self.pairs(halved.astype(np.int32))
+        dropped = (own | outer) != 0  # half of a bit each, on average
+        return (own * self.own >> TAP_BITS) + (outer * self.outer >> TAP_BITS) + dropped
+
+    def pairs(self, samples: Numbers) -> tuple[Numbers, Numbers]:
+        """Sums of the own two samples (.., sample, 32) of each row, and of the outer two; there is nothing beyond the ends."""
+        before, count = self.apart, samples.shape[-2]
+        padded = np.pad(samples, [(0, 0)] * (samples.ndim - 2) + [(before, before + 1), (0, 0)])
+        first, last = slice(before, before + count, 2), slice(before + 1, before + 1 + count, 2)
+        return (
+            padded[..., first, :] + padded[..., last, :],
+            padded[..., 0:count:2, :] + padded[..., 2 * before + 1 : 2 * before + 1 + count : 2, :],
+        )
+
+
 class CompactTables:
     """What a compact bank has for all its cells. Raises ValueError if it is not as it should be."""
 
@@ -82,10 +116,12 @@ class CompactTables:
         self.in_band, self.rest = PulseLayer(*numbers[:5]), PulseLayer(*numbers[5:10])
         self.odd_near, self.odd_far, self.rest_nx, self.rest_ny = numbers[10:14]
         self.pitch_m, self.x0_m, self.y0_m = numbers[14:]
+        self.of_band = OfBand(*OF_BAND.unpack_from(view, HEAD.size))
         even = samples // 2 + EVEN_BEYOND
         if not (
             all(_possible(layer) for layer in (self.in_band, self.rest))
             and all(0 <= tap < 1 << 14 for tap in (self.odd_near, self.odd_far))
+            and self.of_band.possible
             and self.rest.across <= min(self.rest_nx, self.rest_ny)
             and max(self.rest_nx, self.rest_ny) < 1 << 15
             and 0 < self.pitch_m < math.inf

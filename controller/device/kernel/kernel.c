@@ -110,6 +110,8 @@ enum {
     MAX_WEIGHTS = 1024,
     MAX_TAPS = 16,
     MAX_STEPS = 64,
+    MAX_APART = 256,
+    LARGEST_OF_BAND = 24000,
     MAX_EVEN = MAX_SAMPLES / 2 + EVEN_BEYOND,
 };
 
@@ -124,6 +126,7 @@ struct tables {
     int there; /* whether the bank is a compact one */
     struct layer in_band, rest;
     int32_t odd_near, odd_far, rest_nx, rest_ny;
+    int32_t apart, own, outer;  /* of the rest's part that is made of the band: samples between its own two and the outer, taps of both sums */
     double pitch_m, x0_m, y0_m; /* of the rest */
     const uint8_t *rest_scales, *rest_rows;
 };
@@ -581,6 +584,23 @@ static void compact_rests(uint32_t idle_word, const struct patch *patch, int64_t
     }
 }
 
+/* To rows of the rest what a slope leaves out within the band: of halves of samples, so that the sum of two is within 16 bits. */
+APART void add_of_band(const struct tables *tables, const int16_t *response, int64_t values, int64_t rows, int16_t *out) {
+    static const int16_t nothing[CHANNELS];
+    int16_t own = (int16_t)tables->own, outer = (int16_t)tables->outer;
+    int64_t apart = (int64_t)tables->apart * CHANNELS;
+    for (int64_t row = 0, at = 0; row < rows; row++, at += REST_SAMPLES * CHANNELS, out += CHANNELS) {
+        int64_t next = at + CHANNELS;
+        const int16_t *a = response + at, *b = next < values ? response + next : nothing;
+        const int16_t *before = at >= apart ? a - apart : nothing, *after = next + apart < values ? response + next + apart : nothing;
+        for (int i = 0; i < CHANNELS; i += LANES) {
+            ushorts inner = load(a + i) + load(b + i), beside = load(before + i) + load(after + i);
+            ushorts dropped = (ushorts)((shorts)(inner | beside) != 0); /* half of a bit each, on average */
+            store(out + i, load(out + i) + high(inner, own) + high(beside, outer) - dropped);
+        }
+    }
+}
+
 INLINE void interpolate(uint32_t idle_word, const struct patch *patch, int outside, int64_t from, int64_t values, int16_t *out) {
     switch (patch->cells) {
     case 1: interpolate_cells(idle_word, patch, 1, outside, from, values, out); break;
@@ -622,11 +642,12 @@ static int64_t respond(const struct work *work, const struct patch *patch, int16
     return equalise(met, apart, patch->tap, work->values, response);
 }
 
-/* Half of what bits do at a point outside the band. */
-static void respond_outside(const struct work *work, const struct patch *patch, int16_t *rest) {
-    if (patch->tables)
+/* Half of what bits do at a point outside the band, whose response is known. */
+static void respond_outside(const struct work *work, const struct patch *patch, const int16_t *response, int16_t *rest) {
+    if (patch->tables) {
         compact_rests(work->idle_word, patch, work->rests / CHANNELS, rest);
-    else
+        if (patch->tables->own || patch->tables->outer) add_of_band(patch->tables, response, work->values, work->rests / CHANNELS, rest);
+    } else
         interpolate_rest(work->idle_word, patch, work->values, work->rests, rest);
 }
 
@@ -1242,7 +1263,7 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
     }
     for (int i = 0; i < work->count; i++) {
         int64_t norm = respond(work, patches + i, work->response[i], (int16_t *)work->strength);
-        respond_outside(work, patches + i, work->rest[i]);
+        respond_outside(work, patches + i, work->response[i], work->rest[i]);
         work->divisor[i] = norm ? (double)norm : INFINITY;
         memset(work->response[i] + work->values, 0, (size_t)(work->rows * ROW - work->values) * sizeof(int16_t));
         memset(work->rest[i] + work->rests, 0, (size_t)(work->rows * ROW / REST_SAMPLES - work->rests) * sizeof(int16_t));
@@ -1463,6 +1484,12 @@ static int valid_layer(const struct layer *layer) {
            layer->block_rows >= 1 && layer->block_rows <= layer->weights;
 }
 
+/* Taps of less than 2^14, which with the rest's own share are within 16 bits. */
+static int valid_of_band(const struct tables *tables) {
+    int64_t own = tables->own < 0 ? -(int64_t)tables->own : tables->own, outer = tables->outer < 0 ? -(int64_t)tables->outer : tables->outer;
+    return tables->apart >= 0 && tables->apart <= MAX_APART && own < 1 << 14 && outer < 1 << 14 && own + outer <= LARGEST_OF_BAND;
+}
+
 /* The next part of tables; 0 if there is none as long as that. */
 static const uint8_t *take_part(const Py_buffer *buffer, int64_t *at, int64_t size) {
     if (size > buffer->len - *at) return NULL;
@@ -1482,7 +1509,7 @@ static int take_layer(struct layer *layer, int64_t outputs, const Py_buffer *buf
 
 /* The tables of a compact bank, whose numbers of pulses were checked by `compact_twin.Tables`; 0 with an exception. */
 static int take_tables(const Py_buffer *buffer, int64_t samples, struct tables *tables) {
-    int32_t number[14];
+    int32_t number[14], of_band[3];
     double place[3];
     int64_t at = TABLES_AT;
     tables->there = buffer->len > 0;
@@ -1493,12 +1520,14 @@ static int take_tables(const Py_buffer *buffer, int64_t samples, struct tables *
     }
     memcpy(number, buffer->buf, sizeof number);
     memcpy(place, (const uint8_t *)buffer->buf + sizeof number, sizeof place);
+    memcpy(of_band, (const uint8_t *)buffer->buf + sizeof number + sizeof place, sizeof of_band);
     tables->in_band = (struct layer){.across = number[0], .steps = number[1], .weights = number[2], .block_rows = number[3], .taps = number[4]};
     tables->rest = (struct layer){.across = number[5], .steps = number[6], .weights = number[7], .block_rows = number[8], .taps = number[9]};
     tables->odd_near = number[10], tables->odd_far = number[11], tables->rest_nx = number[12], tables->rest_ny = number[13];
+    tables->apart = of_band[0], tables->own = of_band[1], tables->outer = of_band[2];
     tables->pitch_m = place[0], tables->x0_m = place[1], tables->y0_m = place[2];
     int64_t rest = tables->rest.across, cells = (int64_t)tables->rest_nx * tables->rest_ny;
-    if (!(valid_layer(&tables->in_band) && valid_layer(&tables->rest) && number[10] >= 0 && number[10] < 1 << 14 && number[11] >= 0 &&
+    if (!(valid_of_band(tables) && valid_layer(&tables->in_band) && valid_layer(&tables->rest) && number[10] >= 0 && number[10] < 1 << 14 && number[11] >= 0 &&
           number[11] < 1 << 14 && number[12] >= rest && number[12] < 1 << 15 && number[13] >= rest && number[13] < 1 << 15 &&
           place[0] > 0 && place[0] < INFINITY && isfinite(place[1]) && isfinite(place[2]))) {
         PyErr_SetString(PyExc_ValueError, "a number of the compact bank's tables is beyond its range");
@@ -1891,7 +1920,7 @@ static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct
     for (int place = 0; place < PLACES; place++) {
         int16_t *here = met + place * padded;
         respond(work, patches + place, here, beyond);
-        respond_outside(work, patches + place, beyond);
+        respond_outside(work, patches + place, here, beyond);
         add_rests(here, beyond, work->values);
     }
     sums_of_ring(met, padded, sums, nulls->values);

@@ -29,9 +29,10 @@ def rows_of(random, cells, layer, stride):
     return made.tobytes()
 
 
-def tables_of(random, samples, in_band, rest, rest_nx, rest_ny, odd=(2867, 3744)):
+def tables_of(random, samples, in_band, rest, rest_nx, rest_ny, of_band=(0, 0, 0), odd=(2867, 3744)):
     """Tables of a compact bank, with random shares, taps and weights."""
     made = bytearray(compact_twin.HEAD.pack(*in_band, *rest, *odd, rest_nx, rest_ny, 2 * PITCH_M, 7e-3, 8e-3))
+    made += compact_twin.OF_BAND.pack(*of_band)
     made += bytes(compact_twin.TABLES_AT - len(made))
     cells = rest_nx * rest_ny
     for layer, outputs in ((in_band, samples // 2 + 2), (rest, bank_twin.rest_rows(samples))):
@@ -47,7 +48,7 @@ def tables_of(random, samples, in_band, rest, rest_nx, rest_ny, odd=(2867, 3744)
     return bytes(made)
 
 
-def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x69969669):
+def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x69969669, of_band=(2, 1769, -11973)):
     random = np.random.default_rng(seed)
     nx, ny = random.integers(across, across + 4, 2).tolist()
     rest_nx, rest_ny = random.integers(rest_across, rest_across + 3, 2).tolist()
@@ -65,7 +66,7 @@ def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x
         scales.tobytes(),
         bytearray(b"\1" * (nx * ny)),
         rows_of(random, nx * ny, in_band, stride),
-        tables_of(random, samples, in_band, rest, rest_nx, rest_ny),
+        tables_of(random, samples, in_band, rest, rest_nx, rest_ny, of_band),
     )
     return bytearray(4 * samples), bytearray(kernel.room_bytes(samples)), bank
 
@@ -79,14 +80,15 @@ def buffers(seed, samples=96, across=4, rest_across=3, taps=(8, 4), idle_word=0x
     rest_across=st.integers(2, 4),
     taps=st.sampled_from([(8, 4), (6, 3), (1, 1), (16, 16)]),
     idle_word=st.sampled_from([0, 0x69969669, 0xFFFFFFFF]),
+    of_band=st.sampled_from([(0, 0, 0), (2, 1769, -11973), (1, 16383, 7617), (256, -16383, -7617)]),
     points=st.lists(
         st.tuples(st.floats(0, 40e-3), st.floats(0, 40e-3), st.sampled_from([1.0, 1.0, 0.5, 0.2])), min_size=1, max_size=4
     ),
 )
-def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, across, rest_across, taps, idle_word, points):
+def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, across, rest_across, taps, idle_word, of_band, points):
     found = []
     for composes, nulls in ((words_twin, null_twin), *zip(COMPILED, COMPILED, strict=True)):
-        words, room, bank = buffers(seed, samples, across, rest_across, taps, idle_word)
+        words, room, bank = buffers(seed, samples, across, rest_across, taps, idle_word, of_band)
         assert composes.compose(words, room, bank, points) == -1
         composed = bytes(words)
         assert nulls.null_places(words, room, bank, points, [(11e-3, 13e-3, 1.0)]) == -1
@@ -149,14 +151,22 @@ def test_numbers_are_packed_and_unpacked():
     assert np.array_equal(compact_twin.unpacked(compact_twin.packed(numbers)), numbers)
 
 
+OF_BAND_BEYOND = [(-1, 0, 0), (257, 0, 0), (2, 1 << 14, 0), (2, 0, -(1 << 14)), (2, -12001, 12000), (2, -(1 << 31), 0)]
+
+
 @each_row("one", [words_twin, *COMPILED])
-@each_row("at", [0, 4, 8, 12, 16, 20, 40, 44, 48, 52, 56])
-def test_tables_that_cannot_be_are_refused(one, at):
+@each_row(
+    "at, given",
+    [
+        *[(at, b"\xff" * 4) for at in (0, 4, 8, 12, 16, 20, 40, 44, 48, 52)],
+        (56, np.float64(np.nan).tobytes()),
+        *[(compact_twin.HEAD.size, compact_twin.OF_BAND.pack(*numbers)) for numbers in OF_BAND_BEYOND],
+    ],
+)
+def test_tables_that_cannot_be_are_refused(one, at, given):
     words, room, bank = buffers(1)
     wrong = bytearray(bank.tables)
-    wrong[at : at + 4] = b"\xff" * 4
-    if at == 56:
-        wrong[56:64] = np.float64(np.nan).tobytes()
+    wrong[at : at + len(given)] = given
     for tables in (bytes(wrong), bank.tables[:-64], bank.tables[:100]):
         with pytest.raises(ValueError, match="compact bank"):
             one.compose(words, room, bank._replace(tables=tables), [(9e-3, 9e-3, 1.0)])

@@ -18,6 +18,7 @@ from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_wavelength_m
 from controller.device.kernel import compact_twin
 from controller.errors import ConfigError
+from controller.workshop.bank_builder.compact.of_band import of_band, without
 from controller.workshop.bank_builder.compact.pulses import Pulses, in_band_pulses, rest_pulses
 from controller.workshop.bank_builder.compact.rounding import rounded
 from controller.workshop.bank_builder.compact.stencils import CompactStencil, stencil
@@ -50,6 +51,7 @@ class CompactDesign:
     rest_pulses: Pulses
     stencil: CompactStencil
     rest_stencil: CompactStencil
+    of_band: compact_twin.OfBand
     samples: int
 
     @classmethod
@@ -61,7 +63,9 @@ class CompactDesign:
         points_m = random.uniform((0, 0), (plate.length_m, plate.width_m), (PLACES, 2))
         rows = waveform.samples + math.ceil(waveform.samples / REST_SAMPLES)
         responses = source.entry_responses(points_m, out=np.empty((PLACES, rows, board.channels), np.float32)).astype(np.float64)
-        in_band, rest = responses[:, : waveform.samples], responses[:, waveform.samples :]
+        in_band = responses[:, : waveform.samples]
+        made = of_band(waveform, in_band, responses[:, waveform.samples :])
+        rest = without(made, responses, waveform.samples)
         beyond_hz = BEYOND_BAND * (waveform.band_high_hz - waveform.band_low_hz)
         power, hz = _spectrum(in_band, waveform.bit_period_s)
         inside = (hz > waveform.band_low_hz - beyond_hz) & (hz < waveform.band_high_hz + beyond_hz)
@@ -75,6 +79,7 @@ class CompactDesign:
                 *pulses,
                 stencil(plate, grid.pitch_m, ACROSS, STEPS, power[inside], hz[inside]),
                 stencil(plate, rest_grid.pitch_m, REST_ACROSS, REST_STEPS, rest_power[below], rest_hz[below]),
+                made,
                 waveform.samples,
             )
             for grid, rest_grid in zip(grids, rest_grids, strict=True)
@@ -137,7 +142,8 @@ class CompactDesign:
         count = self.samples + math.ceil(self.samples / REST_SAMPLES)
 
         def responses(points_m: Reals, cells: list[int]) -> Reals:
-            return source.entry_responses(points_m, out=np.empty((len(cells), count, CHANNELS), np.float32))[:, self.samples :]
+            found = source.entry_responses(points_m, out=np.empty((len(cells), count, CHANNELS), np.float32))
+            return without(self.of_band, found, self.samples)
 
         everywhere = np.ones(self.rest_grid.cells, bool)
         weights = _fitted(self.rest_grid, self.rest_stencil, self.rest_pulses, everywhere, responses)
@@ -149,6 +155,7 @@ class CompactDesign:
         head = compact_twin.HEAD.pack(
             *self.layers[0], *self.layers[1], *self.pulses.odd, grid.nx, grid.ny, grid.pitch_m, grid.x0_m, grid.y0_m
         )
+        head += compact_twin.OF_BAND.pack(*self.of_band)
         parts: list[NDArray[Any]] = []
         for pulses, own in ((self.pulses, self.stencil), (self.rest_pulses, self.rest_stencil)):
             parts += [own.table.astype("<i2"), np.column_stack([pulses.first, pulses.taps]).astype("<i2")]
