@@ -24,7 +24,8 @@ CHANNELS: Final = 32
 # in the band and beside it: cells across a stencil, its steps a pitch, weights, weights of a block, taps; then taps of odd samples;
 # cells of the rest along x and y; their pitch, x and y of the first in m
 HEAD: Final = struct.Struct("<14i3d")
-OF_BAND: Final = struct.Struct("<3i")  # behind HEAD: samples between own and outer ones, tap of the sum of the own two, of the outer two
+# behind it: samples from the own two of a row to the outer two, tap of the sum of the own, of the outer
+OF_BAND: Final = struct.Struct("<3i")
 TABLES_AT: Final = 128
 LINE: Final = 64
 LOUDEST: Final = 15  # levels are the odd numbers from -15 to 15
@@ -92,7 +93,8 @@ class OfBand(NamedTuple):
         """What it adds to rows of the rest, (row, 32), from halves of samples (sample, 32)."""
         own, outer = self.pairs(halved.astype(np.int32))
         dropped = (own | outer) != 0  # half of a bit each, on average
-        return (own * self.own >> TAP_BITS) + (outer * self.outer >> TAP_BITS) + dropped
+        rows: Numbers = (own * self.own >> TAP_BITS) + (outer * self.outer >> TAP_BITS) + dropped
+        return rows
 
     def pairs(self, samples: Numbers) -> tuple[Numbers, Numbers]:
         """Sums of the own two samples (.., sample, 32) of each row, and of the outer two; there is nothing beyond the ends."""

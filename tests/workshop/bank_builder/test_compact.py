@@ -15,6 +15,7 @@ from controller.device.bank.packing import channel_bits
 from controller.device.bank.provenance import Provenance
 from controller.device.bank.reader import Bank
 from controller.device.board.panel import AssumedFinger
+from controller.device.kernel import compact_twin
 from controller.device.scene.scene import load_scene
 from controller.device.service.scenes.prepare_scene import populate
 from controller.device.waveforms.composition import Composer
@@ -145,6 +146,29 @@ def test_amplitudes_and_several_fingers_come_out_as_from_a_plain_bank(board, ban
     shares = three / known_three
     assert (shares.max(axis=1) / shares.min(axis=1)).max() < 1.075, "1.087 with a sketch of four bits less"
     assert shares.mean() > 0.98
+
+
+def test_with_a_slope_the_device_knows_what_it_leaves_out(board, tmp_path, monkeypatch):
+    """Half of full amplitude is half of the displacement of all modes; by cells alone it is not."""
+    sloped = msgspec.structs.replace(board, waveform=msgspec.structs.replace(board.waveform, slope=-1.0))
+    model, points_m = ResponseModel(sloped), places(6)
+    idle = channel_bits(np.array([sloped.idle_word], np.uint32))[0].astype(np.float64)
+    whole = model.responses(points_m)[:, ::-1]
+    most = [((response > 0) - idle) for response in model.drive_order_responses(points_m)]
+
+    def errors(name):
+        build_bank(BankRequest(sloped, tmp_path / name, compact_pitch_m(sloped), compact=True))
+        found = []
+        with Bank.open(tmp_path / name, sloped) as opened:
+            composer = Composer(opened, sloped.idle_word)
+            for place, moves, bits in zip(points_m.tolist(), whole, most, strict=True):
+                words = np.frombuffer(composer.compose([(*place, 0.5)]), "<u4")
+                found.append(((channel_bits(words) - idle) * moves).sum() / (bits * moves).sum() / 0.5 - 1)
+        return float(np.sqrt(np.mean(np.square(found))))
+
+    assert errors("made") < 0.025
+    monkeypatch.setattr(module, "of_band", lambda *_: compact_twin.OfBand())
+    assert errors("cells") > 0.04
 
 
 def test_selection_composes_every_place_and_checks_the_cells_it_needs(board, bank):

@@ -1,6 +1,9 @@
-"""What a slope leaves out within the band, made of the band: a filter of two taps for all places, of which cells need say nothing."""
+"""What a slope leaves out within the band, made of the band: by two taps for all places. Cells say nothing of it."""
+
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from controller.arrays import Floats, Reals
 from controller.device.bank.file_format import REST_SAMPLES
@@ -8,11 +11,11 @@ from controller.device.board.panel import Waveform
 from controller.device.kernel import compact_twin
 from controller.device.kernel.compact_twin import OfBand
 
-WHOLE = 1 << compact_twin.TAP_BITS
+WHOLE: Final = 1 << compact_twin.TAP_BITS
 
 
 def of_band(waveform: Waveform, in_band: Floats, rest: Floats) -> OfBand:
-    """Taps that leave the least of the rest (response, row, 32) between the band's ends, by least squares; zeros without a slope."""
+    """Taps that leave the least of the rest (response, row, 32) between the band's ends; zeros without a slope."""
     if not waveform.slope:
         return OfBand()
     # A quarter of the middle wave from the row's own middle: what is added falls through the band, and is zero in the middle of it
@@ -27,7 +30,7 @@ def of_band(waveform: Waveform, in_band: Floats, rest: Floats) -> OfBand:
     return OfBand(apart, *np.rint(taps).astype(int).tolist())
 
 
-def without(made: OfBand, responses: Reals, samples: int) -> Reals:
+def without(made: OfBand, responses: Reals, samples: int) -> NDArray[Any]:
     """Rests (response, row, 32) of entries (response, sample and row, 32), less what is made of the band."""
     rest = responses[:, samples:]
     if not made.apart:
