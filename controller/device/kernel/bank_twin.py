@@ -239,7 +239,7 @@ class Responses:
         beside = np.pad(met[: self.samples].astype(np.int32), ((self.step, self.step), (0, 0))) * patch.tap >> TAP_BITS
         halved: Numbers = met >> 1
         halved[: self.samples] -= (beside[: self.samples] + beside[2 * self.step :]).astype(np.int16)
-        if self.tables:
+        if self.tables and self.tables.of_band.there:
             halved[self.samples :] += self.tables.of_band.rows(halved[: self.samples]).astype(np.int16)
         return halved
 

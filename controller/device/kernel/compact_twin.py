@@ -84,6 +84,11 @@ class OfBand(NamedTuple):
     outer: int = 0
 
     @property
+    def there(self) -> bool:
+        """Whether there is such a part."""
+        return self.own != 0 or self.outer != 0
+
+    @property
     def possible(self) -> bool:
         """Whether each number is within its range."""
         taps = abs(self.own), abs(self.outer)

@@ -33,7 +33,7 @@ def of_band(waveform: Waveform, in_band: Floats, rest: Floats) -> OfBand:
 def without(made: OfBand, responses: Reals, samples: int) -> NDArray[Any]:
     """Rests (response, row, 32) of entries (response, sample and row, 32), less what is made of the band."""
     rest = responses[:, samples:]
-    if not made.apart:
+    if not made.there:
         return rest
     own, outer = made.pairs(responses[:, :samples])
     left: Reals = rest - (own * made.own + outer * made.outer) / WHOLE
