@@ -40,6 +40,7 @@ from controller.device.service.drivers import await_session, open_link
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.request import BankRequest
+from controller.workshop.gateware.wired_fpgas import LINE_TICKS
 
 NAMES = ["TRIGGER", "PERMIT", "CONFIGURED0", "CONFIGURED1"]
 SIMULATED = load_board(find_board("simulated_64"))
@@ -153,13 +154,8 @@ class Panel:
         self.far_end.close()
 
 
-@contextlib.contextmanager
 def panel():
-    opened = Panel(FarEnd(BOARD, NAMES, slowness=SLOWNESS))
-    try:
-        yield opened
-    finally:
-        opened.close()
+    return contextlib.closing(Panel(FarEnd(BOARD, NAMES, slowness=SLOWNESS)))
 
 
 def test_all_links_are_open_or_none_and_only_then_is_the_permit_given():
@@ -266,20 +262,20 @@ def test_one_that_misses_the_trigger_is_out_of_step_and_nothing_is_armed_until_i
 
 def test_the_verilog_at_both_chip_selects_plays_in_the_same_ticks_and_heat_at_one_shuts_both():
     board = at_1_mhz(BOARD)
-    there = Panel(FarEnd(board, NAMES, HostGateware), board, MonotonicClock())
-    there.come_on()
-    assert there.hv() == [1, 1]
-    there.plays()
-    there.far_end.ask("temperature", 1, False)
-    assert there.hv() == [0, 0]
-    error = there.lost()
-    assert isinstance(error, FaultError), error
-    assert (error.faults, str(error)[:7]) == (Fault.OVER_TEMPERATURE, "FPGA 1:")
-    there.far_end.ask("temperature", 1, True)
-    there.recover(error)
-    assert there.hv() == [1, 1]
-    there.plays()
-    there.close()
+    with contextlib.closing(Panel(FarEnd(board, NAMES, HostGateware), board, MonotonicClock())) as there:
+        there.come_on()
+        assert there.hv() == [1, 1]
+        there.plays()
+        there.far_end.ask("temperature", 1, False)
+        time.sleep(2 * LINE_TICKS / board.link.clock_hz)  # at 1 MHz the line is as slow as the gateware
+        assert there.hv() == [0, 0], "by the wire, before this host has noticed"
+        error = there.lost()
+        assert isinstance(error, FaultError), error
+        assert (error.faults, str(error)[:7]) == (Fault.OVER_TEMPERATURE, "FPGA 1:")
+        there.far_end.ask("temperature", 1, True)
+        there.recover(error)
+        assert there.hv() == [1, 1]
+        there.plays()
 
 
 def test_the_doctor_looks_at_each_chip_select_and_at_all_lines():
