@@ -46,7 +46,7 @@ def protocol(root: Path) -> dict[Path, str]:
 
 def command_line(root: Path) -> dict[Path, str]:
     """Completion and manual page."""
-    from controller.commands.shell_files import shell_files
+    from controller.commands.shell.files import shell_files
 
     return {root / "controller/commands/shell" / name: text for name, text in shell_files().items()}
 

@@ -1,1 +1,1 @@
-"""One module per command: its arguments, and one call into a room."""
+"""One module per command, or a folder with its parts: its arguments, and one call into a room."""

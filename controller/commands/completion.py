@@ -22,6 +22,6 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
 
 
 def completion(options: argparse.Namespace) -> int:
-    """Print the file that `shell_files` has generated: the device needs no package for it."""
+    """Print the file that `shell.files` has generated: the device needs no package for it."""
     say((SHELL_FILES / COMPLETIONS[options.shell]).read_text(encoding="utf-8"), end="")
     return 0

@@ -10,7 +10,7 @@ import pytest
 from tables import each_row
 
 from controller.cli import COMMANDS, parser
-from controller.commands.shell_files import arguments
+from controller.commands.shell.files import arguments
 from controller.device.application_socket import client_commands
 from controller.errors import UsageError
 

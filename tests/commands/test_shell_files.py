@@ -10,7 +10,7 @@ from tables import each_row
 
 from controller.cli import main, parser
 from controller.commands.completion import COMPLETIONS, SHELL_FILES
-from controller.commands.shell_files import MANUAL, arguments, shell_files
+from controller.commands.shell.files import MANUAL, arguments, shell_files
 
 ELSE = "run `python -m controller.generate`"
 

@@ -8,7 +8,7 @@ from tables import each_row
 
 from controller.cli import main
 from controller.commands import status as status_command
-from controller.commands.run_report import served
+from controller.commands.run.report import served
 from controller.device.board.panel_state import PanelState
 from controller.device.board.panel_status import LatencyStatus, PanelStatus
 from controller.device.service.unfelt import NOT_PLAYED, left_out, unfelt

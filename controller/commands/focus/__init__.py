@@ -8,7 +8,7 @@ from controller.commands.common.arguments import Declare, natural
 from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.tables import amplitude_table, plain_table
-from controller.commands.focus_movie import add_movie, film, movie_path
+from controller.commands.focus.movie import add_movie, film, movie_path
 from controller.device.board.board import Board, of_one_fpga
 from controller.errors import ConfigError, UsageError
 

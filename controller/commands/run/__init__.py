@@ -100,7 +100,7 @@ def run(options: argparse.Namespace) -> int:
 def _serve(options: argparse.Namespace, board: Board) -> int:
     """Run the service with the board's devices."""
     from controller.commands.common.tables import service_table
-    from controller.commands.run_report import served
+    from controller.commands.run.report import served
     from controller.device.service.migration import migrate
     from controller.device.service.run import serve
 
@@ -162,7 +162,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
 
     from controller.commands.common.tables import run_table
     from controller.commands.gateware import gateware_factory
-    from controller.commands.run_report import felt
+    from controller.commands.run.report import felt
     from controller.device.touch.recordings.recording import Recording
     from controller.workshop.gateware.actual_panel import actual_panel
     from controller.workshop.simulation import focus_evaluation, run_figures, simulated_run

@@ -4,7 +4,7 @@ import argparse
 import json
 from typing import Any
 
-from controller.commands import bom
+from controller.commands.board import bom
 from controller.commands.common.arguments import Declare
 from controller.commands.common.output import show
 from controller.console import is_unicode, say

@@ -1,6 +1,6 @@
 """Completions and manual page from the argument parser (`controller.generate` writes them).
 
-They are committed in commands/shell, because the packages that make them (shtab, argparse-manpage: of the extra `test`) are not
+They are committed beside this module, because the packages that make them (shtab, argparse-manpage: of the extra `test`) are not
 for a device; a test compares them with the parser.
 """
 
