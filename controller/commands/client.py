@@ -3,7 +3,7 @@
 import argparse
 
 from controller.commands.common.arguments import Declare
-from controller.device.application_socket.client_commands import declare_requests, send
+from controller.device.application_socket.client.command_line import declare_requests, send
 
 
 def add(declare: Declare, _: argparse.ArgumentParser) -> None:

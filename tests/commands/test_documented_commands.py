@@ -11,7 +11,7 @@ from tables import each_row
 
 from controller.cli import COMMANDS, parser
 from controller.commands.shell.files import arguments
-from controller.device.application_socket import client_commands
+from controller.device.application_socket.client import command_line
 from controller.errors import UsageError
 
 ROOT = Path(__file__).parents[2]
@@ -69,7 +69,7 @@ def test_every_command_of_a_page_is_taken_by_the_parser(page):
 def test_every_module_that_a_page_calls_is_there_and_knows_its_options(page):
     for text, _ in code(page):
         if (found := MODULE.search(text)) and found[1] == "controller.device.application_socket.client":
-            assert complaint(shlex.split(command(found[2])), lambda _: client_commands._parser()) is None, text
+            assert complaint(shlex.split(command(found[2])), lambda _: command_line._parser()) is None, text
         elif found:
             spec = find_spec(found[1])
             assert spec, text

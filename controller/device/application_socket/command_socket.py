@@ -10,18 +10,18 @@ import socket
 import time
 from collections.abc import Callable, Sequence
 
-from controller.device.application_socket.answers import Answers
-from controller.device.application_socket.clients import NOW, Clients
+from controller.device.application_socket.connections.clients import NOW, Clients
+from controller.device.application_socket.connections.peers import Peer, peer_of
 from controller.device.application_socket.counters import SocketCounters
-from controller.device.application_socket.emission_notices import EmissionNotices
-from controller.device.application_socket.layer_requests import LayerRequests
-from controller.device.application_socket.notifications import Notifications
-from controller.device.application_socket.operator_requests import OperatorRequests
-from controller.device.application_socket.peers import Peer, peer_of
-from controller.device.application_socket.pending_commands import PendingCommands
-from controller.device.application_socket.play_requests import PlayRequests
-from controller.device.application_socket.questions import Questions
-from controller.device.application_socket.requests import Requests
+from controller.device.application_socket.requests.answers import Answers
+from controller.device.application_socket.requests.layer_requests import LayerRequests
+from controller.device.application_socket.requests.operator_requests import OperatorRequests
+from controller.device.application_socket.requests.pending_commands import PendingCommands
+from controller.device.application_socket.requests.play_requests import PlayRequests
+from controller.device.application_socket.requests.questions import Questions
+from controller.device.application_socket.requests.requests import Requests
+from controller.device.application_socket.subscriptions.emission_notices import EmissionNotices
+from controller.device.application_socket.subscriptions.notifications import Notifications
 from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket

@@ -14,8 +14,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from controller.device.application_socket import peers
 from controller.device.application_socket.command_socket import CommandSocket
+from controller.device.application_socket.connections import peers
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.emission_ring import EmissionRing
 from controller.device.scene.scene import Scene

@@ -10,7 +10,7 @@ from collections import deque
 import pytest
 
 from controller.device.application_socket.client import PanelClient, Transform
-from controller.device.application_socket.client_commands import main
+from controller.device.application_socket.client.command_line import main
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.loop.commands import Outcome
 from controller.device.loop.preparation import AcceptedLayer, LayerResult

@@ -16,12 +16,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.application_socket.clients import ACCEPTS_A_TURN, LEAVE_S, PAUSE_S
 from controller.device.application_socket.command_socket import LINES_A_CLIENT, LINES_A_TURN
-from controller.device.application_socket.peers import Peer
-from controller.device.application_socket.pending_commands import WAITING_PER_CLIENT
+from controller.device.application_socket.connections.clients import ACCEPTS_A_TURN, LEAVE_S, PAUSE_S
+from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES
-from controller.device.application_socket.questions import FIGURES_S
+from controller.device.application_socket.requests.pending_commands import WAITING_PER_CLIENT
+from controller.device.application_socket.requests.questions import FIGURES_S
 from controller.device.loop.commands import CommandSource, Outcome
 from controller.device.touch.source import TouchSample
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.device.application_socket.connection import QUEUE_BYTES, Connection, LineTooLong
+from controller.device.application_socket.connections.connection import QUEUE_BYTES, Connection, LineTooLong
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.application_socket.protocol.panel_messages import Answer
 

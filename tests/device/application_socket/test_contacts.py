@@ -2,7 +2,7 @@
 
 import math
 
-from controller.device.application_socket.peers import Peer
+from controller.device.application_socket.connections.peers import Peer
 from controller.device.touch.source import TouchSample
 
 ASK = {"kind": "subscribe", "to": ["contacts"], "id": 1}

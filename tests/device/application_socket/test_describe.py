@@ -5,9 +5,9 @@ import json
 import msgspec
 import pytest
 
-from controller.device.application_socket.connection import QUEUE_BYTES
-from controller.device.application_socket.description import MOST_FAULTS, MOST_REGIONS
+from controller.device.application_socket.connections.connection import QUEUE_BYTES
 from controller.device.application_socket.protocol.panel_messages import Description
+from controller.device.application_socket.subscriptions.description import MOST_FAULTS, MOST_REGIONS
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.scene.scene import FixedEmitter, Region, Scene
 from controller.device.scene.shapes import Circle, Polygon, Rectangle

@@ -7,9 +7,9 @@ from device.application_socket.test_readme import README
 from device.application_socket.test_with_the_loop import serve  # noqa: F401
 from device.bank.test_expectation import expected
 
-from controller.device.application_socket.emission_notices import PERIOD_S
-from controller.device.application_socket.peers import Peer
+from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.panel_messages import Emissions, message_decoder
+from controller.device.application_socket.subscriptions.emission_notices import PERIOD_S
 from controller.device.loop.emission_ring import SLOTS, EmissionRing
 from controller.device.loop.playing.records import ENDLESS, Batch, Plan
 from controller.device.scene.emission import Emission

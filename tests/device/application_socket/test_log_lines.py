@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from controller.device.application_socket.peers import Peer
+from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.log import LAST_LINES, LOG, MAX_LINE_BYTES, Priority, log
 

@@ -10,8 +10,8 @@ import socket
 import pytest
 from tables import each_row
 
-from controller.device.application_socket.connection import LAYER_BURST
-from controller.device.application_socket.peers import Peer
+from controller.device.application_socket.connections.connection import LAYER_BURST
+from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.loop.preparation import AcceptedLayer, LayerResult
 from controller.device.scene.layers import Placement, RefusedRegion

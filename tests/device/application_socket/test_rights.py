@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from controller.device.application_socket.client import PanelClient
-from controller.device.application_socket.peers import Peer, Rights
-from controller.device.application_socket.pending_commands import WAITING_PER_CLIENT
+from controller.device.application_socket.connections.peers import Peer, Rights
 from controller.device.application_socket.protocol.client_messages import BY_CHARACTERS, LAST_CHANNEL
+from controller.device.application_socket.requests.pending_commands import WAITING_PER_CLIENT
 from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.board.panel import CHANNELS, FPGAS_MAX
 from controller.device.board.panel_state import Condition, PanelState

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from controller.device.application_socket.socket_file import SocketFile
+from controller.device.application_socket.connections.socket_file import SocketFile
 from controller.errors import ConfigError, ControllerError
 
 

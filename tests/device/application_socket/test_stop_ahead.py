@@ -7,8 +7,8 @@ import pytest
 from device.application_socket.test_command_socket import POINT, balanced
 
 from controller.device.application_socket.command_socket import LINES_A_CLIENT
-from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.stop_ahead import AHEAD_BYTES, MOST_WORDS
+from controller.device.application_socket.connections.connection import Connection
+from controller.device.application_socket.requests.stop_ahead import AHEAD_BYTES, MOST_WORDS
 
 SENDS_ANY = {"commands_per_s": 100, "burst": 10}
 

@@ -3,7 +3,7 @@
 from hypothesis import strategies as st
 from hypothesis.stateful import Bundle, RuleBasedStateMachine, consumes, invariant, rule
 
-from controller.device.application_socket.tickets import FULL, Tickets, Waiting
+from controller.device.application_socket.requests.tickets import FULL, Tickets, Waiting
 
 CAPACITY = 5
 

@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-from controller.device.application_socket.peers import Peer, Rights
+from controller.device.application_socket.connections.peers import Peer, Rights
 from controller.device.board.devices import LOOK_GROUP, ApplicationSocket
 from controller.device.loop.playing.due_emissions import MAX_WAITING_COMMANDS
 from controller.device.service.metrics_server import MetricsServer

@@ -358,7 +358,7 @@ def test_a_bank_takes_no_memory_before_the_first_touch(service, bank):
 
 COUNTED = """
 import atexit, sys, time
-from controller.device.application_socket.clients import Clients
+from controller.device.application_socket.connections.clients import Clients
 from controller.device.loop.watched_files import WatchedFiles
 from controller.device.touch.panels.serial_panel import SerialPanel
 silent, counts = {}, dict.fromkeys(("touch", "commands", "touch needlessly", "commands needlessly"), 0)

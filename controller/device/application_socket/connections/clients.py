@@ -11,13 +11,13 @@ from collections.abc import Callable, Iterable, Iterator
 
 import msgspec
 
-from controller.device.application_socket.connection import UNWATCHED, Connection
+from controller.device.application_socket.connections.connection import UNWATCHED, Connection
+from controller.device.application_socket.connections.peers import Peer, Rights
+from controller.device.application_socket.connections.places import offered
+from controller.device.application_socket.connections.socket_file import SocketFile
 from controller.device.application_socket.counters import SocketCounters
-from controller.device.application_socket.peers import Peer, Rights
-from controller.device.application_socket.places import offered
 from controller.device.application_socket.protocol.client_messages import Right, Topic
 from controller.device.application_socket.protocol.panel_messages import Farewell
-from controller.device.application_socket.socket_file import SocketFile
 from controller.device.board.devices import ApplicationSocket
 
 NOW = -math.inf

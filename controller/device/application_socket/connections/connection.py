@@ -7,7 +7,7 @@ import socket
 
 import msgspec
 
-from controller.device.application_socket.peers import Peer
+from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES, Right, Topic
 from controller.device.application_socket.protocol.panel_messages import AnyMessage, Farewell
 from controller.device.application_socket.token_bucket import TokenBucket

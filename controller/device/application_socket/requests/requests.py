@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import msgspec
 
-from controller.device.application_socket.answers import Answers
-from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import Connection, LineTooLong
-from controller.device.application_socket.layer_requests import LayerRequests
-from controller.device.application_socket.operator_requests import OperatorRequests
-from controller.device.application_socket.play_requests import PlayRequests
+from controller.device.application_socket.connections.clients import Clients
+from controller.device.application_socket.connections.connection import Connection, LineTooLong
 from controller.device.application_socket.protocol import client_messages
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES, AnyRequest, Id, Right
-from controller.device.application_socket.questions import Questions
-from controller.device.application_socket.stop_ahead import AHEAD_BYTES, STOP, stop_ahead
+from controller.device.application_socket.requests.answers import Answers
+from controller.device.application_socket.requests.layer_requests import LayerRequests
+from controller.device.application_socket.requests.operator_requests import OperatorRequests
+from controller.device.application_socket.requests.play_requests import PlayRequests
+from controller.device.application_socket.requests.questions import Questions
+from controller.device.application_socket.requests.stop_ahead import AHEAD_BYTES, STOP, stop_ahead
 from controller.device.board.descriptions import type_info
 from controller.device.board.validation import NO_JSON, explain
 from controller.device.loop.control import PanelControl

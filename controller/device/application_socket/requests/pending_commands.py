@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 
-from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import Connection
+from controller.device.application_socket.connections.clients import Clients
+from controller.device.application_socket.connections.connection import Connection
 from controller.device.application_socket.protocol.client_messages import Id
-from controller.device.application_socket.tickets import FULL, Tickets, Waiting
+from controller.device.application_socket.requests.tickets import FULL, Tickets, Waiting
 from controller.device.loop.playing.due_emissions import MAX_WAITING_COMMANDS
 
 WAITING_PER_CLIENT = 64

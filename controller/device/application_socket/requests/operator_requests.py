@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from controller.device.application_socket.answers import Answers
-from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.peers import Rights
+from controller.device.application_socket.connections.connection import Connection
+from controller.device.application_socket.connections.peers import Rights
 from controller.device.application_socket.protocol.client_messages import (
     Arm,
     ChannelTest,
@@ -14,6 +13,7 @@ from controller.device.application_socket.protocol.client_messages import (
     Stop,
     WriteTrace,
 )
+from controller.device.application_socket.requests.answers import Answers
 from controller.device.application_socket.switched_off import SwitchedOff
 from controller.device.board.board import Board
 from controller.device.loop.control import PanelControl

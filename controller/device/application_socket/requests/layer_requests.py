@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from controller.device.application_socket.answers import Answers
-from controller.device.application_socket.connection import Connection
+from controller.device.application_socket.connections.connection import Connection
 from controller.device.application_socket.protocol.client_messages import MoveRegions, Regions, Transform
+from controller.device.application_socket.requests.answers import Answers
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.control import PanelControl
 from controller.device.scene.layers import Placement

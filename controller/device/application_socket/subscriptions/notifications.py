@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite
 
-from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.description import Faults
+from controller.device.application_socket.connections.clients import Clients
+from controller.device.application_socket.connections.connection import Connection
 from controller.device.application_socket.protocol import client_messages, panel_messages
+from controller.device.application_socket.subscriptions.description import Faults
 from controller.device.board.panel_state import Condition
 from controller.device.loop.control import PanelControl
 from controller.device.touch.source import TouchSample

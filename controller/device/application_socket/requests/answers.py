@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import Connection, MessageTooLong
+from controller.device.application_socket.connections.clients import Clients
+from controller.device.application_socket.connections.connection import Connection, MessageTooLong
 from controller.device.application_socket.counters import SocketCounters
-from controller.device.application_socket.pending_commands import PendingCommands
 from controller.device.application_socket.protocol import panel_messages
 from controller.device.application_socket.protocol.client_messages import Id, Right
-from controller.device.application_socket.tickets import FULL
+from controller.device.application_socket.requests.pending_commands import PendingCommands
+from controller.device.application_socket.requests.tickets import FULL
 from controller.device.loop.preparation import AcceptedLayer, LayerResult
 from controller.errors import ControllerError
 

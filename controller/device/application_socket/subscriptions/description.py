@@ -6,7 +6,7 @@ from collections import deque
 from typing import Any, Final
 
 from controller import __version__
-from controller.device.application_socket.clients import Clients
+from controller.device.application_socket.connections.clients import Clients
 from controller.device.application_socket.counters import SocketCounters
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES, Id
 from controller.device.application_socket.protocol.panel_messages import (

@@ -17,7 +17,7 @@ from typing import Any, Self, TypedDict, Unpack
 import msgspec
 from msgspec import Raw
 
-from controller.device.application_socket.client_link import PanelLink, T
+from controller.device.application_socket.client.link import PanelLink, T
 from controller.device.application_socket.protocol import client_messages
 from controller.device.application_socket.protocol.client_messages import Transform
 from controller.device.application_socket.protocol.panel_messages import (
@@ -198,9 +198,3 @@ class PanelClient:
     def hello(self) -> Greeting:
         """Version, board, extents in mm, the effects that a command can play, and this user's rights."""
         return self._link.question(client_messages.Hello(), Greeting)
-
-
-if __name__ == "__main__":
-    from controller.device.application_socket.client_commands import main
-
-    raise SystemExit(main())

@@ -7,12 +7,8 @@ from dataclasses import asdict
 from typing import Any, Final
 
 from controller import __version__
-from controller.device.application_socket.answers import Answers
-from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import Connection, MessageTooLong
-from controller.device.application_socket.description import Describer
-from controller.device.application_socket.emission_notices import EmissionNotices
-from controller.device.application_socket.notifications import Notifications
+from controller.device.application_socket.connections.clients import Clients
+from controller.device.application_socket.connections.connection import Connection, MessageTooLong
 from controller.device.application_socket.protocol.client_messages import (
     AnyQuestion,
     AskFigures,
@@ -23,6 +19,10 @@ from controller.device.application_socket.protocol.client_messages import (
     Unsubscribe,
 )
 from controller.device.application_socket.protocol.panel_messages import FiguresAnswer, Greeting
+from controller.device.application_socket.requests.answers import Answers
+from controller.device.application_socket.subscriptions.description import Describer
+from controller.device.application_socket.subscriptions.emission_notices import EmissionNotices
+from controller.device.application_socket.subscriptions.notifications import Notifications
 from controller.device.board.board import Board
 from controller.device.board.devices import ApplicationSocket
 from controller.device.loop.control import PanelControl

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from controller.device.application_socket.connection import Connection
-from controller.device.application_socket.peers import Peer, Rights
+from controller.device.application_socket.connections.connection import Connection
+from controller.device.application_socket.connections.peers import Peer, Rights
 from controller.device.application_socket.protocol.client_messages import Right
 from controller.device.board.devices import ApplicationSocket
 

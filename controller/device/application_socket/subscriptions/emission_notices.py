@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Final
 
-from controller.device.application_socket.clients import Clients
-from controller.device.application_socket.connection import MessageTooLong
+from controller.device.application_socket.connections.clients import Clients
+from controller.device.application_socket.connections.connection import MessageTooLong
 from controller.device.application_socket.protocol.panel_messages import Emissions, PlayedFocus
 from controller.device.bank.expectation import Expectation
 from controller.device.loop.control import PanelControl

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from controller.device.application_socket.answers import Answers
-from controller.device.application_socket.connection import Connection
+from controller.device.application_socket.connections.connection import Connection
 from controller.device.application_socket.protocol.client_messages import Aimed, Clip, Id, PlayRequest
-from controller.device.application_socket.tickets import FULL
+from controller.device.application_socket.requests.answers import Answers
+from controller.device.application_socket.requests.tickets import FULL
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE, ApplicationSocket
 from controller.device.loop.control import PanelControl
