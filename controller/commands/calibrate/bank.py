@@ -71,7 +71,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
             tell(work.in_words())
     fitted = fit(wanted, progress)
     if picture:
-        from controller.workshop.calibration.checking.plot_leave_out import plot_leave_out
+        from controller.workshop.calibration.pictures.plot_leave_out import plot_leave_out
 
         plot_leave_out(picture, board, fitted.source, fitted.waves, fitted.decays)
     built = build(wanted, fitted, workers)

@@ -34,9 +34,9 @@ def check(options: argparse.Namespace) -> int:
     """Print figures and findings of a measurement, and draw them; 78 if it would make a wrong bank."""
     from threadpoolctl import threadpool_limits
 
-    from controller.workshop.calibration.checking.check_figures import check_figures
-    from controller.workshop.calibration.learning import learn
-    from controller.workshop.calibration.point_cache import calibration_cache
+    from controller.workshop.calibration.learning.learning import learn
+    from controller.workshop.calibration.pictures.check_figures import check_figures
+    from controller.workshop.calibration.transfer_functions.point_cache import calibration_cache
 
     picture = picture_path(options)
     board = board_of(options)
@@ -44,7 +44,7 @@ def check(options: argparse.Namespace) -> int:
     with threadpool_limits(1, "blas"):
         learned = learn(folder, board, cache=calibration_cache(board, folder), progress=progress_bar("points"))
     if picture:
-        from controller.workshop.calibration.checking.plot_check import plot_check
+        from controller.workshop.calibration.pictures.plot_check import plot_check
 
         plot_check(picture, board, learned)
     show(options, check_figures(board, learned), _table)

@@ -20,9 +20,9 @@ def clock(options: argparse.Namespace) -> int:
     """Print what to set in board.toml; 78 if the plate is not the model's at any bit clock."""
     from threadpoolctl import threadpool_limits
 
-    from controller.workshop.calibration.clock_fit import fit_clock
-    from controller.workshop.calibration.learning import learn
-    from controller.workshop.calibration.point_cache import calibration_cache
+    from controller.workshop.calibration.fits.clock_fit import fit_clock
+    from controller.workshop.calibration.learning.learning import learn
+    from controller.workshop.calibration.transfer_functions.point_cache import calibration_cache
 
     board, folder = board_of(options), Path(options.folder)
     with threadpool_limits(1, "blas"):

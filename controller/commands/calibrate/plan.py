@@ -38,7 +38,7 @@ def plan(options: argparse.Namespace) -> int:
     """Print how many points to measure, how long that takes and what is then foreseen; write them."""
     from threadpoolctl import threadpool_limits
 
-    from controller.workshop.calibration.checking.foresight import foresee
+    from controller.workshop.calibration.interpolation.foresight import foresee
     from controller.workshop.calibration.point_plan import (
         PlanTiming,
         grid_points,
@@ -67,7 +67,7 @@ def plan(options: argparse.Namespace) -> int:
     if options.out:
         _write(Path(options.out), points_m * 1e3, timing.records * timing.record_s + timing.settle_s)
     if picture:
-        from controller.workshop.calibration.checking.plot_plan import plot_plan
+        from controller.workshop.calibration.pictures.plot_plan import plot_plan
 
         plot_plan(picture, board, points_m, places_m, shares)
     figures = {

@@ -14,7 +14,7 @@ from controller.console import tell
 from controller.device.board.board import Board
 
 if TYPE_CHECKING:
-    from controller.workshop.calibration.learning import Learned
+    from controller.workshop.calibration.learning.learning import Learned
 
 WRONG, UNDECIDED = 1, 75  # exit codes; 75: EX_TEMPFAIL, try again
 KINDS = ("dead", "swapped", "inverted", "unit", "mass", "undecided")
@@ -32,9 +32,9 @@ def wiring(options: argparse.Namespace) -> int:
     from threadpoolctl import threadpool_limits
 
     from controller.workshop.calibration.checking.wiring import FIRST_POINTS
-    from controller.workshop.calibration.learning import learn
-    from controller.workshop.calibration.point_cache import calibration_cache
+    from controller.workshop.calibration.learning.learning import learn
     from controller.workshop.calibration.records.measurement_file import NAME
+    from controller.workshop.calibration.transfer_functions.point_cache import calibration_cache
 
     board, folder = board_of(options), Path(options.folder)
     if options.points and not (folder / NAME).exists():

@@ -14,15 +14,15 @@ import numpy as np
 from controller.arrays import Bools, Floats
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
-from controller.workshop.calibration import point_fit, wave_fit
 from controller.workshop.calibration.cores import cores, on_all_cores
-from controller.workshop.calibration.cosines import Cosines, Lattice
-from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.interpolate import errors_looked_for
-from controller.workshop.calibration.kriging import SpectralField, Waves, krige
+from controller.workshop.calibration.interpolation import point_fit, wave_fit
+from controller.workshop.calibration.interpolation.cosines import Cosines, Lattice
+from controller.workshop.calibration.interpolation.interpolate import errors_looked_for
+from controller.workshop.calibration.interpolation.kriging import SpectralField, Waves, krige
+from controller.workshop.calibration.interpolation.spectra import Bins, Spectra
 from controller.workshop.calibration.records.measurements import read_measurement
-from controller.workshop.calibration.spectra import Bins, Spectra
+from controller.workshop.calibration.transfer_functions.deconvolution import Deconvolution
 
 PER_POINT: Final = 2.0  # times that learning one takes: with clock, frame, mass and delay
 PER_ERROR: Final = 2.0  # with what is wrong with it

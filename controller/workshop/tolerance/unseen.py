@@ -22,7 +22,7 @@ from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
 from controller.device.board.plate.plate import Edges, Foam
 from controller.workshop.bank_builder.said_amplitude import PLACES, foreseen_um, over_places
-from controller.workshop.calibration.interpolate import interpolate
+from controller.workshop.calibration.interpolation.interpolate import interpolate
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.point_plan import scattered_count, scattered_points
 from controller.workshop.physics.felt import AROUND_S, FeltLoad, felt_by_motion_um

@@ -23,7 +23,7 @@ from controller.workshop.bank_builder import plan, said_amplitude
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.cells import CellEntries
 from controller.workshop.bank_builder.request import BankRequest
-from controller.workshop.calibration.interpolate import interpolate
+from controller.workshop.calibration.interpolation.interpolate import interpolate
 from controller.workshop.calibration.point_plan import scattered_points
 from controller.workshop.workers import map_kept
 from controller.workshop.workers.workers import ALONE, Workers

@@ -16,7 +16,7 @@ from controller.device.bank.reader import Bank
 from controller.workshop.bank_builder.build import build_bank
 from controller.workshop.bank_builder.methods.prediction import FocusPrediction
 from controller.workshop.bank_builder.request import BankRequest
-from controller.workshop.calibration.interpolate import interpolate
+from controller.workshop.calibration.interpolation.interpolate import interpolate
 from controller.workshop.calibration.point_plan import grid_points, scattered_points
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 

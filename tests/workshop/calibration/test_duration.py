@@ -9,8 +9,9 @@ from threadpoolctl import threadpool_limits
 from workshop.calibration.true_plate import TruePlate
 
 from controller.device.bank.grid import Grid
-from controller.workshop.calibration import cores, duration, kriging, point_fit, spectra, wave_fit
-from controller.workshop.calibration.interpolate import interpolate
+from controller.workshop.calibration import cores, duration
+from controller.workshop.calibration.interpolation import kriging, point_fit, spectra, wave_fit
+from controller.workshop.calibration.interpolation.interpolate import interpolate
 from controller.workshop.calibration.point_plan import grid_points, scattered_points
 from controller.workshop.calibration.recording.simulated_measurement import Flaws, RecordingSettings, simulate_measurement
 

@@ -12,11 +12,11 @@ from workshop.calibration.true_plate import TruePlate, random_places
 from controller.cli import main
 from controller.device.board.records import load_toml
 from controller.errors import CalibrationError
-from controller.workshop.calibration.clock_fit import fit_clock
-from controller.workshop.calibration.decay_fit import fit_decays
-from controller.workshop.calibration.drift_fit import fit_drift
+from controller.workshop.calibration.fits.clock_fit import fit_clock
+from controller.workshop.calibration.fits.decay_fit import fit_decays
+from controller.workshop.calibration.fits.drift_fit import fit_drift
+from controller.workshop.calibration.interpolation.wave_fit import lowest
 from controller.workshop.calibration.point_plan import scattered_points
-from controller.workshop.calibration.wave_fit import lowest
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 from controller.workshop.tolerance.tolerances import SHIPPED, Tolerances, draw
 

@@ -6,11 +6,11 @@ import pytest
 from small_plate import WHOLE, small_board
 from workshop.calibration.true_plate import TruePlate
 
-from controller.workshop.calibration.direct_wave import direct_transfer
 from controller.workshop.calibration.frame import MIRRORS, MeasuringFrame, middle_m
-from controller.workshop.calibration.locating import locate
+from controller.workshop.calibration.learning.locating import locate
 from controller.workshop.calibration.point_plan import grid_points, scattered_points
-from controller.workshop.calibration.transfers import RawBins
+from controller.workshop.calibration.transfer_functions.direct_wave import direct_transfer
+from controller.workshop.calibration.transfer_functions.transfers import RawBins
 
 SMALL = small_board()
 BOARD = msgspec.structs.replace(  # two discs at opposite corners: at one edge they leave scale and wavelength open

@@ -19,7 +19,7 @@ from controller.device.bank.packing import channel_bits
 from controller.device.board.board import load_board
 from controller.device.service.drivers import open_session
 from controller.errors import CalibrationError, LinkError
-from controller.workshop.calibration.alignment import begin_of, shifted
+from controller.workshop.calibration.recording.alignment import begin_of, shifted
 from controller.workshop.calibration.recording.excitation import drive_words
 from controller.workshop.calibration.recording.in_place import BEFORE_S, Excitation, InPlace
 from controller.workshop.calibration.recording.recorders import AlsaRecorder, SerialRecorder

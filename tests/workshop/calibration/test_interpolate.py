@@ -11,11 +11,11 @@ from workshop.calibration.true_plate import TruePlate, random_places
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.errors import CalibrationError
-from controller.workshop.calibration import wave_fit
-from controller.workshop.calibration.interpolate import interpolate
-from controller.workshop.calibration.kriging import bessel
+from controller.workshop.calibration.interpolation import wave_fit
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.interpolation.kriging import bessel
+from controller.workshop.calibration.interpolation.spectra import Bins
 from controller.workshop.calibration.point_plan import grid_points, scattered_points
-from controller.workshop.calibration.spectra import Bins
 
 BOARD = small_board()
 HARDER = {"young_modulus_pa": 1.02 * BOARD.plate.young_modulus_pa, "decay_time_ms": 0.7}

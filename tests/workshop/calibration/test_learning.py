@@ -10,9 +10,8 @@ import pytest
 from workshop.calibration.exact_records import BIT_CLOCK_HZ, CHANNELS, NAMES, POINTS_M, board, displacement, noisy, true_responses
 
 from controller.errors import CalibrationError
-from controller.workshop.calibration import learning
-from controller.workshop.calibration.deconvolution import _tapered
-from controller.workshop.calibration.learning import learn
+from controller.workshop.calibration.learning import learning
+from controller.workshop.calibration.learning.learning import learn
 from controller.workshop.calibration.records.measurement_file import (
     ImpulsesDrive,
     MeasurementFile,
@@ -22,7 +21,8 @@ from controller.workshop.calibration.records.measurement_file import (
     WordsDrive,
 )
 from controller.workshop.calibration.records.measurement_writer import write_measurement
-from controller.workshop.calibration.transfers import RawBins
+from controller.workshop.calibration.transfer_functions.deconvolution import _tapered
+from controller.workshop.calibration.transfer_functions.transfers import RawBins
 
 RATE_HZ = 200e3
 RECORD = 1400  # samples: 7 ms

@@ -6,8 +6,8 @@ import pytest
 from small_plate import small_board
 from workshop.calibration.true_plate import TruePlate, random_places
 
-from controller.workshop.calibration.interpolate import interpolate
-from controller.workshop.calibration.plate_size import GlassSize, fit_size
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.interpolation.plate_size import GlassSize, fit_size
 from controller.workshop.calibration.point_plan import scattered_points
 from controller.workshop.physics.modes.plate_modes import modes_of
 

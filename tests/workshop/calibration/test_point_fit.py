@@ -6,9 +6,9 @@ from small_plate import small_board
 from workshop.calibration.true_plate import TruePlate
 
 from controller.workshop.calibration.banks.bank_figures import _of_points
-from controller.workshop.calibration.interpolate import interpolate
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.interpolation.point_fit import PointFit
 from controller.workshop.calibration.learned import LearnedResponses
-from controller.workshop.calibration.point_fit import PointFit
 from controller.workshop.calibration.point_plan import scattered_points
 
 BOARD = small_board()

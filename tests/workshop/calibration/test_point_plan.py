@@ -9,13 +9,13 @@ from small_plate import WHOLE
 from controller.cli import main
 from controller.device.bank.grid import Grid
 from controller.errors import ConfigError
-from controller.workshop.calibration.checking import plot_plan
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.interpolated import LEAST_SHARE
-from controller.workshop.calibration.kriging import Waves, foreseen_shares
+from controller.workshop.calibration.interpolation.interpolated import LEAST_SHARE
+from controller.workshop.calibration.interpolation.kriging import Waves, foreseen_shares
+from controller.workshop.calibration.interpolation.spectra import Bins
+from controller.workshop.calibration.interpolation.wave_fit import EDGE_VARIANCES
+from controller.workshop.calibration.pictures import plot_plan
 from controller.workshop.calibration.point_plan import grid_points, half_wave_m, path_m, scattered_points, short_path
-from controller.workshop.calibration.spectra import Bins
-from controller.workshop.calibration.wave_fit import EDGE_VARIANCES
 
 # Ratio of frequency at the same wavenumber to Kirchhoff's, of 0.5 mm glass: Rayleigh and Lamb's A0 (exact elasticity)
 LAMB = {20e3: 0.993617, 70e3: 0.978306, 100e3: 0.969532}

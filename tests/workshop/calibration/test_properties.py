@@ -10,12 +10,12 @@ from small_plate import small_board
 
 from controller.device.bank.file_format import REST_SAMPLES
 from controller.errors import CalibrationError
-from controller.workshop.calibration.alignment import begin_of, shifted
-from controller.workshop.calibration.cosines import Cosines, Lattice, fill_places
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.kriging import Waves, alike, bessel, foreseen_shares, krige
+from controller.workshop.calibration.interpolation.cosines import Cosines, Lattice, fill_places
+from controller.workshop.calibration.interpolation.kriging import Waves, alike, bessel, foreseen_shares, krige
+from controller.workshop.calibration.interpolation.spectra import Bins
+from controller.workshop.calibration.recording.alignment import begin_of, shifted
 from controller.workshop.calibration.records.points import read_points, write_points
-from controller.workshop.calibration.spectra import Bins
 
 BOARD = small_board()
 LENGTH_M, WIDTH_M = EXTENTS_M = (BOARD.plate.length_m, BOARD.plate.width_m)

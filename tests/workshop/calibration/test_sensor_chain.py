@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from small_plate import WHOLE
 
-from controller.workshop.calibration.direct_wave import direct_transfer
 from controller.workshop.calibration.frame import middle_m
-from controller.workshop.calibration.sensor_chain import loaded, sensor_chain
-from controller.workshop.calibration.transfers import RawBins
+from controller.workshop.calibration.learning.sensor_chain import loaded, sensor_chain
+from controller.workshop.calibration.transfer_functions.direct_wave import direct_transfer
+from controller.workshop.calibration.transfer_functions.transfers import RawBins
 
 BINS = RawBins.of(WHOLE, 2e-3)
 PLACES_M = np.random.default_rng(3).uniform(0.06, 0.94, (120, 2)) * 2 * middle_m(WHOLE)

@@ -14,8 +14,8 @@ from controller.device.board.devices import LinkedFpga
 from controller.device.service.drivers import open_session
 from controller.errors import CalibrationError
 from controller.workshop.bank_builder.own_bank import Order
-from controller.workshop.calibration.interpolate import interpolate
-from controller.workshop.calibration.learning import learn
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.learning.learning import learn
 from controller.workshop.calibration.point_plan import scattered_points
 from controller.workshop.calibration.recording.excitation import drive_words
 from controller.workshop.calibration.recording.in_place import Excitation, InPlace

@@ -6,8 +6,8 @@ from small_plate import small_board
 from tables import each_row
 from workshop.calibration.true_plate import TruePlate
 
+from controller.workshop.calibration.fits.stage_fit import fit_stages, stage_notes
 from controller.workshop.calibration.point_plan import scattered_points
-from controller.workshop.calibration.stage_fit import fit_stages, stage_notes
 
 BOARD = small_board()
 

@@ -25,10 +25,10 @@ from controller.workshop.bank_builder.optimised import Optimise, contrast_of_pla
 from controller.workshop.bank_builder.request import BankRequest
 from controller.workshop.benchmark.focus.focus_figures import emit
 from controller.workshop.calibration.banks.plate_bank import PlateBank, build, fit
-from controller.workshop.calibration.interpolate import interpolate
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.interpolation.whole_field import whole_field
 from controller.workshop.calibration.point_plan import grid_points, scattered_points
 from controller.workshop.calibration.recording.simulated_measurement import Flaws, RecordingSettings, simulate_measurement
-from controller.workshop.calibration.whole_field import whole_field
 from controller.workshop.physics.felt import felt_amplitudes_um
 from controller.workshop.physics.plate_twin import PlateTwin
 from controller.workshop.physics.sound import PlateSound, decibels

@@ -16,11 +16,11 @@ from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.workshop.calibration.checking.checks import dead_channels, wrong_wires
 from controller.workshop.calibration.checking.wiring import FIRST_POINTS, wiring_of
-from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
 from controller.workshop.calibration.frame import middle_m
-from controller.workshop.calibration.locating import locate
+from controller.workshop.calibration.learning.locating import locate
 from controller.workshop.calibration.point_plan import scattered_points, wiring_points
-from controller.workshop.calibration.transfers import RawBins
+from controller.workshop.calibration.transfer_functions.direct_wave import DirectWaves, direct_waves
+from controller.workshop.calibration.transfer_functions.transfers import RawBins
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 

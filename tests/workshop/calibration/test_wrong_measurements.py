@@ -16,8 +16,8 @@ from workshop.calibration.true_plate import random_places
 
 from controller.cli import main
 from controller.errors import CalibrationError
-from controller.workshop.calibration.interpolate import interpolate
-from controller.workshop.calibration.learning import learn
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.learning.learning import learn
 
 CHANGED = {"edges": "free", "theory": "mindlin", "young_modulus_pa": 73.6e9}
 AS_IT_IS = ""

@@ -4,8 +4,8 @@ import msgspec
 import numpy as np
 
 from controller.device.bank.provenance import Provenance
+from controller.workshop.calibration.interpolation.spectra import Bins
 from controller.workshop.calibration.learned import LearnedResponses
-from controller.workshop.calibration.spectra import Bins
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 

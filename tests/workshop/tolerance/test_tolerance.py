@@ -14,8 +14,8 @@ from controller.commands import tolerance as command
 from controller.device.board.records import as_record, load_toml
 from controller.errors import ConfigError
 from controller.workshop.benchmark.plate_under_test import PlateUnderTest
-from controller.workshop.calibration.interpolate import interpolate
-from controller.workshop.calibration.learning import learn
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.learning.learning import learn
 from controller.workshop.physics.focusing import focus
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.physics.word_capture import volts_above_idle

@@ -6,12 +6,12 @@ from typing import Any, Final
 import numpy as np
 
 from controller.device.board.board import Board
-from controller.workshop.calibration.decay_fit import Decay
-from controller.workshop.calibration.drift_fit import FittedDrift
-from controller.workshop.calibration.interpolated import InterpolatedResponses
+from controller.workshop.calibration.fits.decay_fit import Decay
+from controller.workshop.calibration.fits.drift_fit import FittedDrift
+from controller.workshop.calibration.interpolation.interpolated import InterpolatedResponses
+from controller.workshop.calibration.interpolation.point_fit import PointFit
+from controller.workshop.calibration.interpolation.wave_fit import WaveFit
 from controller.workshop.calibration.learned import LearnedResponses
-from controller.workshop.calibration.point_fit import PointFit
-from controller.workshop.calibration.wave_fit import WaveFit
 
 SAID_FREQUENCY: Final = 0.002  # by which the plate's frequencies differ from board.toml's: costs a tenth of the amplitude
 SAID_DECAY: Final = 0.2

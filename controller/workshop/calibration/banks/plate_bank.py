@@ -19,15 +19,15 @@ from controller.workshop.bank_builder.methods.aims import DescentAim
 from controller.workshop.bank_builder.own_bank import SMALLEST_PITCH_MM, Order, chosen, pitch_of
 from controller.workshop.bank_builder.plan import refuse_aim
 from controller.workshop.calibration.banks.bank_figures import plate_figures, plate_notes
-from controller.workshop.calibration.decay_fit import Decay, fit_decays
-from controller.workshop.calibration.drift_fit import fit_drift
-from controller.workshop.calibration.interpolate import interpolate
-from controller.workshop.calibration.interpolated import InterpolatedResponses
-from controller.workshop.calibration.learning import Learned, learn
-from controller.workshop.calibration.point_cache import calibration_cache
-from controller.workshop.calibration.stage_fit import stage_notes
-from controller.workshop.calibration.wave_fit import WaveFit
-from controller.workshop.calibration.whole_field import whole_field
+from controller.workshop.calibration.fits.decay_fit import Decay, fit_decays
+from controller.workshop.calibration.fits.drift_fit import fit_drift
+from controller.workshop.calibration.fits.stage_fit import stage_notes
+from controller.workshop.calibration.interpolation.interpolate import interpolate
+from controller.workshop.calibration.interpolation.interpolated import InterpolatedResponses
+from controller.workshop.calibration.interpolation.wave_fit import WaveFit
+from controller.workshop.calibration.interpolation.whole_field import whole_field
+from controller.workshop.calibration.learning.learning import Learned, learn
+from controller.workshop.calibration.transfer_functions.point_cache import calibration_cache
 from controller.workshop.physics.modes.plate_modes import modes_of
 from controller.workshop.workers.workers import ALONE, Workers
 

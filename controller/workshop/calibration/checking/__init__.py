@@ -1,1 +1,1 @@
-"""Whether a measurement is good enough for a bank."""
+"""What is wrong with a measurement, and the verdict on its wires, by channel and point."""

@@ -9,7 +9,7 @@ import numpy as np
 from controller.arrays import Bools, Floats
 from controller.errors import CalibrationError
 from controller.workshop.calibration.checking.wiring import Wiring
-from controller.workshop.calibration.direct_wave import DirectWaves
+from controller.workshop.calibration.transfer_functions.direct_wave import DirectWaves
 
 FatalKind = Literal["dead", "swapped", "inverted", "clipped", "strength", "unit", "mass"]
 Kind = FatalKind | Literal["missing", "noisy", "delay", "clock", "board", "short", "band", "frame", "undecided", "load"]

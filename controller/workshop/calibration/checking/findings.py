@@ -13,12 +13,12 @@ from controller.workshop.calibration.checking.checks import (
     wrong_wires,
 )
 from controller.workshop.calibration.checking.wiring import Wiring, wiring_of
-from controller.workshop.calibration.deconvolution import Deconvolution
-from controller.workshop.calibration.direct_wave import DirectWaves
 from controller.workshop.calibration.learned import LearnedResponses
-from controller.workshop.calibration.recording.clock import RecorderClock
 from controller.workshop.calibration.records.measurements import Measurement
-from controller.workshop.calibration.transfers import Transfers
+from controller.workshop.calibration.transfer_functions.clock import RecorderClock
+from controller.workshop.calibration.transfer_functions.deconvolution import Deconvolution
+from controller.workshop.calibration.transfer_functions.direct_wave import DirectWaves
+from controller.workshop.calibration.transfer_functions.transfers import Transfers
 
 CLOCK_TOLERANCE_PPM = 5.0
 STILL = 0.03  # of a response's rms that may be left where the records end, beyond its noise

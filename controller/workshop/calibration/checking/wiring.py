@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from controller.arrays import Bools, Floats, Indices
-from controller.workshop.calibration.direct_wave import DirectWaves
+from controller.workshop.calibration.transfer_functions.direct_wave import DirectWaves
 
 FIRST_POINTS = 8  # that mostly give a verdict, 30 mm from the edges
 SIGNIFICANT = 3.0  # standard errors

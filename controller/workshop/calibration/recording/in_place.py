@@ -20,7 +20,7 @@ from controller.device.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Play
 from controller.device.fpga.registers import Start
 from controller.device.fpga.session import Session
 from controller.errors import CalibrationError, LinkError
-from controller.workshop.calibration.alignment import begin_of, shifted
+from controller.workshop.calibration.recording.alignment import begin_of, shifted
 
 BEFORE_S: Final = 0.2e-3  # of a record, before the first drive word, to the nearest sample
 LEAD_S: Final = 20e-3  # from the start of the recorder to the first emission, beside the time that an upload takes

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.fft import dct
 
 from controller.arrays import Bools, Floats, Indices
-from controller.workshop.calibration.kriging import NOISE, Prior, alike
-from controller.workshop.calibration.spectra import Spectra
+from controller.workshop.calibration.interpolation.kriging import NOISE, Prior, alike
+from controller.workshop.calibration.interpolation.spectra import Spectra
 
 OFF_PLACE = 0.15  # of a cell: how far a point may lie off its place in a grid
 WINDOW = 7  # places along each side of the square from which one of them is estimated

@@ -9,10 +9,10 @@ from controller.arrays import Bools, Floats, Reals, blocks
 from controller.device.bank.provenance import Provenance
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
-from controller.workshop.calibration.kriging import Prior, SpectralField, foreseen_shares
-from controller.workshop.calibration.plate_size import GlassSize
-from controller.workshop.calibration.point_fit import PointFit
-from controller.workshop.calibration.spectra import Bins
+from controller.workshop.calibration.interpolation.kriging import Prior, SpectralField, foreseen_shares
+from controller.workshop.calibration.interpolation.plate_size import GlassSize
+from controller.workshop.calibration.interpolation.point_fit import PointFit
+from controller.workshop.calibration.interpolation.spectra import Bins
 from controller.workshop.physics.responses.response_source import room
 
 LEAST_SHARE = 0.8  # foreseen from the places of the points; farther from them nothing is estimated, and no scene may ask for it

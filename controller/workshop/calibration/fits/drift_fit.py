@@ -15,9 +15,9 @@ from scipy.spatial import cKDTree
 from controller.arrays import Floats, Indices
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
+from controller.workshop.calibration.interpolation.spectra import Bins
+from controller.workshop.calibration.interpolation.wave_fit import lowest
 from controller.workshop.calibration.learned import LearnedResponses
-from controller.workshop.calibration.spectra import Bins
-from controller.workshop.calibration.wave_fit import lowest
 
 SAME_PLACE_M = 0.3e-3
 RECORDS = 96  # at most

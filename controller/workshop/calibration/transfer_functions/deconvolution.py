@@ -22,7 +22,7 @@ from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.records.drives import Drive, held_spectrum, transform
 from controller.workshop.calibration.records.measurements import Measurement, PointRecords
-from controller.workshop.calibration.transfers import RawBins, Transfers
+from controller.workshop.calibration.transfer_functions.transfers import RawBins, Transfers
 from controller.workshop.physics.motion import DERIVATIVE
 
 Kind = TypeVar("Kind", np.bool_, np.float64, np.complex64)

@@ -7,10 +7,10 @@ import numpy as np
 from controller.arrays import Floats, Reals
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import NOISY_COHERENCE
-from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.calibration.records.measurements import Measurement
-from controller.workshop.calibration.transfers import Transfers
+from controller.workshop.calibration.transfer_functions.deconvolution import Deconvolution
+from controller.workshop.calibration.transfer_functions.transfers import Transfers
 from controller.workshop.physics.responses.response_source import Provenance, SourceFile
 
 EARLY_S = 0.4e-3, 0.9e-3  # before the pulse: noise alone, as the filter has rung out; as long before the end: what is left

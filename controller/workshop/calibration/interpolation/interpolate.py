@@ -9,16 +9,16 @@ import numpy as np
 from controller.arrays import Bools, Floats, Indices, blocks
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
-from controller.workshop.calibration.cosines import Cosines, Lattice, fill_places
-from controller.workshop.calibration.interpolated import InterpolatedResponses, LeaveOut
-from controller.workshop.calibration.kriging import Prior, SpectralField, Waves, krige
+from controller.workshop.calibration.interpolation.cosines import Cosines, Lattice, fill_places
+from controller.workshop.calibration.interpolation.interpolated import InterpolatedResponses, LeaveOut
+from controller.workshop.calibration.interpolation.kriging import Prior, SpectralField, Waves, krige
+from controller.workshop.calibration.interpolation.modal_prior import ModalPrior, unforeseen
+from controller.workshop.calibration.interpolation.plate_size import GlassSize, fit_size
+from controller.workshop.calibration.interpolation.point_fit import fit_points
+from controller.workshop.calibration.interpolation.spectra import Bins, Spectra
+from controller.workshop.calibration.interpolation.wave_fit import WaveFit, fit_waves
 from controller.workshop.calibration.learned import LearnedResponses
-from controller.workshop.calibration.modal_prior import ModalPrior, unforeseen
-from controller.workshop.calibration.plate_size import GlassSize, fit_size
-from controller.workshop.calibration.point_fit import fit_points
 from controller.workshop.calibration.point_plan import half_wave_m, scattered_count
-from controller.workshop.calibration.spectra import Bins, Spectra
-from controller.workshop.calibration.wave_fit import WaveFit, fit_waves
 from controller.workshop.physics.modes.modes import Modes
 from controller.workshop.physics.modes.plate_modes import in_words
 

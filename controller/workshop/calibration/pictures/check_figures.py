@@ -7,8 +7,8 @@ import numpy as np
 from controller.arrays import Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import FATAL
-from controller.workshop.calibration.deconvolution import REGULARISATION
-from controller.workshop.calibration.learning import Learned
+from controller.workshop.calibration.learning.learning import Learned
+from controller.workshop.calibration.transfer_functions.deconvolution import REGULARISATION
 
 
 def snr_db(learned: Learned) -> Floats:

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from controller.arrays import Bools, Complex, Floats
 from controller.device.board.board import Board
 from controller.workshop.calibration.checking.checks import Objection
-from controller.workshop.calibration.direct_wave import direct_transfer
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.locating import away_from_edges
-from controller.workshop.calibration.transfers import RawBins
+from controller.workshop.calibration.learning.locating import away_from_edges
+from controller.workshop.calibration.transfer_functions.direct_wave import direct_transfer
+from controller.workshop.calibration.transfer_functions.transfers import RawBins
 
 ORDERS = (-2, -1, 0, 1, 2)  # by which the records are derivatives of what their unit says
 STEP_KG = 0.5e-6

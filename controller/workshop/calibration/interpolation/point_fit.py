@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.cores import on_all_cores
-from controller.workshop.calibration.kriging import Waves, inverse
-from controller.workshop.calibration.spectra import Bins, Spectra
-from controller.workshop.calibration.wave_fit import WaveFit, of_one_pattern
+from controller.workshop.calibration.interpolation.kriging import Waves, inverse
+from controller.workshop.calibration.interpolation.spectra import Bins, Spectra
+from controller.workshop.calibration.interpolation.wave_fit import WaveFit, of_one_pattern
 
 BINS: Final = 24  # of the band; as many others say what is corrected
 STEPS: Final = 6

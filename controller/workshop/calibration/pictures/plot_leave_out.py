@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from controller.device.board.board import Board
-from controller.workshop.calibration.decay_fit import Decay
-from controller.workshop.calibration.interpolated import InterpolatedResponses
-from controller.workshop.calibration.wave_fit import WaveFit
+from controller.workshop.calibration.fits.decay_fit import Decay
+from controller.workshop.calibration.interpolation.interpolated import InterpolatedResponses
+from controller.workshop.calibration.interpolation.wave_fit import WaveFit
 from controller.workshop.physics.pictures.figure_file import draw_plate, save_figure
 
 

@@ -18,7 +18,7 @@ from controller.arrays import Bools, Complex, Floats, Indices
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.records.drives import held_spectrum
-from controller.workshop.calibration.transfers import RawBins
+from controller.workshop.calibration.transfer_functions.transfers import RawBins
 from controller.workshop.physics.responses.driver import DriverResponse
 
 FACTORS = np.linspace(0.96, 1.04, 9)  # of the wavenumber, on what board.toml gives

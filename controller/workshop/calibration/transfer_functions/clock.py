@@ -12,8 +12,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from controller.arrays import Complex
-from controller.workshop.calibration.deconvolution import Deconvolution
 from controller.workshop.calibration.records.measurements import PointRecords
+from controller.workshop.calibration.transfer_functions.deconvolution import Deconvolution
 
 WIDEST_PPM = 600.0
 COARSE_PPM = 200.0

@@ -20,7 +20,7 @@ from controller.arrays import Bools, Floats, Indices, blocks
 from controller.device.board.board import Board
 from controller.workshop.calibration.cores import cores, on_all_cores
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.spectra import Bins, Spectra
+from controller.workshop.calibration.interpolation.spectra import Bins, Spectra
 
 Covariance = Callable[[int], Floats]
 

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from controller.arrays import Bools, Complex, Floats, Indices
 from controller.device.board.board import Board
-from controller.workshop.calibration.direct_wave import NEAR_WAVELENGTHS, direct_wave
 from controller.workshop.calibration.dispersion import Dispersion
 from controller.workshop.calibration.frame import MIRRORS, MeasuringFrame, middle_m
-from controller.workshop.calibration.transfers import RawBins
+from controller.workshop.calibration.transfer_functions.direct_wave import NEAR_WAVELENGTHS, direct_wave
+from controller.workshop.calibration.transfer_functions.transfers import RawBins
 
 MANY = 256, 32, 40  # points, patches and bins, at most
 FEW = 32, 8, 16  # by which the lattice is searched

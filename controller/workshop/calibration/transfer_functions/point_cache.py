@@ -10,7 +10,7 @@ import numpy as np
 from controller.device.board.board import Board
 from controller.device.board.paths import state_folder
 from controller.errors import ConfigError
-from controller.workshop.calibration.transfers import Transfers
+from controller.workshop.calibration.transfer_functions.transfers import Transfers
 
 FORMAT = "1"  # of the files, and of the method
 

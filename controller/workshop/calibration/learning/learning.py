@@ -14,17 +14,17 @@ from controller.workshop.calibration.checking.checks import FATAL, NOISY_COHEREN
 from controller.workshop.calibration.checking.findings import findings_of, remarks_on
 from controller.workshop.calibration.checking.wiring import Wiring
 from controller.workshop.calibration.cores import on_all_cores
-from controller.workshop.calibration.deconvolution import Deconvolution
-from controller.workshop.calibration.direct_wave import DirectWaves, direct_waves
 from controller.workshop.calibration.frame import MeasuringFrame, middle_m
 from controller.workshop.calibration.learned import LearnedResponses
-from controller.workshop.calibration.locating import enough, locate
-from controller.workshop.calibration.point_cache import PointCache
-from controller.workshop.calibration.recording.clock import RecorderClock, clock_of
+from controller.workshop.calibration.learning.locating import enough, locate
+from controller.workshop.calibration.learning.sensor_chain import SensorChain, loaded, sensor_chain
+from controller.workshop.calibration.learning.time_responses import responses_in_time
 from controller.workshop.calibration.records.measurements import Measurement, read_measurement, sha256_of
-from controller.workshop.calibration.sensor_chain import SensorChain, loaded, sensor_chain
-from controller.workshop.calibration.time_responses import responses_in_time
-from controller.workshop.calibration.transfers import Transfers
+from controller.workshop.calibration.transfer_functions.clock import RecorderClock, clock_of
+from controller.workshop.calibration.transfer_functions.deconvolution import Deconvolution
+from controller.workshop.calibration.transfer_functions.direct_wave import DirectWaves, direct_waves
+from controller.workshop.calibration.transfer_functions.point_cache import PointCache
+from controller.workshop.calibration.transfer_functions.transfers import Transfers
 
 CLOCK_POINTS = 4  # that the clock is found from
 CHAIN_POINTS = 24  # that a sensor's mass is found from

@@ -14,8 +14,8 @@ from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.kriging import Waves, krige
-from controller.workshop.calibration.spectra import Bins, Spectra
+from controller.workshop.calibration.interpolation.kriging import Waves, krige
+from controller.workshop.calibration.interpolation.spectra import Bins, Spectra
 
 POINTS = 400  # at most, of those there are
 PARTS = 6  # of the band

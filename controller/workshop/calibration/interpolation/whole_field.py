@@ -11,9 +11,9 @@ from controller.errors import CalibrationError
 from controller.workshop.bank_builder.methods.audible_form import bins_hz
 from controller.workshop.bank_builder.methods.measured_plate import CosineShapes, MeasuredPlate
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.interpolated import POINTS_AT_ONCE, InterpolatedResponses
+from controller.workshop.calibration.interpolation.interpolated import POINTS_AT_ONCE, InterpolatedResponses
+from controller.workshop.calibration.interpolation.spectra import Spectra
 from controller.workshop.calibration.point_plan import scattered_count
-from controller.workshop.calibration.spectra import Spectra
 from controller.workshop.physics.field import map_axis
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 

@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from controller.device.board.board import Board
-from controller.workshop.calibration.checking.check_figures import snr_db
-from controller.workshop.calibration.learning import Learned
+from controller.workshop.calibration.learning.learning import Learned
+from controller.workshop.calibration.pictures.check_figures import snr_db
 from controller.workshop.physics.pictures.figure_file import draw_plate, save_figure
 
 SHOWN_POINTS = 3

@@ -6,9 +6,9 @@ from controller.arrays import Floats
 from controller.device.bank.grid import Grid
 from controller.device.board.board import Board
 from controller.workshop.calibration.dispersion import Dispersion
-from controller.workshop.calibration.kriging import Waves, foreseen_shares
-from controller.workshop.calibration.spectra import Bins
-from controller.workshop.calibration.wave_fit import EDGE_VARIANCES
+from controller.workshop.calibration.interpolation.kriging import Waves, foreseen_shares
+from controller.workshop.calibration.interpolation.spectra import Bins
+from controller.workshop.calibration.interpolation.wave_fit import EDGE_VARIANCES
 
 PLACES = 400  # of the cells of the bank
 BINS = 8

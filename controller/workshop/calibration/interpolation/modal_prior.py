@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from controller.arrays import Bools, Floats, Indices
 from controller.device.board.board import Board
-from controller.workshop.calibration.kriging import Covariance, SpectralField, Waves, krige
-from controller.workshop.calibration.spectra import Bins, Spectra
-from controller.workshop.calibration.wave_fit import WaveFit
+from controller.workshop.calibration.interpolation.kriging import Covariance, SpectralField, Waves, krige
+from controller.workshop.calibration.interpolation.spectra import Bins, Spectra
+from controller.workshop.calibration.interpolation.wave_fit import WaveFit
 from controller.workshop.physics.modes.modes import Modes
 
 WIDENED_HZ = 600.0  # by which frequencies of the model may be wrong

@@ -11,7 +11,7 @@ import numpy as np
 
 from controller.device.board.board import Board
 from controller.errors import CalibrationError
-from controller.workshop.calibration.drift_fit import GROUPS, stretch
+from controller.workshop.calibration.fits.drift_fit import GROUPS, stretch
 from controller.workshop.calibration.learned import LearnedResponses
 from controller.workshop.physics.responses.impulse_response import ResponseModel
 
