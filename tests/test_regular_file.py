@@ -13,7 +13,7 @@ from controller.device.bank.lookup import of_this_format
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.panel_status import read_status
-from controller.device.fpga.bitstream import read_identity
+from controller.device.fpga.bitstreams.bitstream import read_identity
 from controller.device.service.reloading import _read as read_reload
 from controller.device.touch.recordings.recording import Recording
 from controller.device.update.installed import manifest_of, update_state

@@ -22,7 +22,7 @@ from controller.device.application_socket.client import PanelClient
 from controller.device.board.board import load_board
 from controller.device.board.panel_state import Condition, PanelState
 from controller.device.board.panel_status import NAME
-from controller.device.fpga.bitstream import Identity, sealed
+from controller.device.fpga.bitstreams.bitstream import Identity, sealed
 from controller.device.fpga.build_parameters import BuildParameters, top_parameters
 from controller.device.service.drivers import gateware_hash
 from controller.device.service.status_file import StatusFile

@@ -16,7 +16,7 @@ from fpga_pins import oscillator_ps, read_pins
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.workshop.gateware.rtl_build import Design, build_library
 

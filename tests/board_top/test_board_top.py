@@ -12,7 +12,7 @@ from compiled_top import BOARDS, CHANNELS, PS, SIGNALS, UART, CompiledTop, chann
 from tables import each_row
 
 from controller.device.board.lookup import data_folder
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.capture import Capture
 from controller.device.fpga.exchange import FpgaReset, Refused

@@ -14,7 +14,7 @@ import pytest
 from compiled_top import PS, UART, channel_pins, channels_of, files, signal_pins
 
 from controller.device.board.lookup import data_folder
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.frames import Play, pack_nop
 from controller.device.fpga.links.spi_link import SpiLink
 from controller.device.fpga.recovery import Action, Recovery, action_for

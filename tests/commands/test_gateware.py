@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 from controller.cli import main
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
-from controller.device.fpga.bitstream import KEY, Identity, read_identity, sealed
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.bitstream import KEY, Identity, read_identity, sealed
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.errors import GatewareError
 from controller.workshop.gateware import bitstream_build, island_proof
@@ -479,7 +479,7 @@ def test_slots_beyond_those_of_the_board_and_other_verilog(tools, panel, capsys)
 
 
 def bitstream_build_differences(identity, board):
-    from controller.device.fpga.bitstream import differences
+    from controller.device.fpga.bitstreams.bitstream import differences
 
     def of(**changed):
         other = msgspec.structs.replace(identity, parameters=identity.parameters | changed)

@@ -13,7 +13,7 @@ from cobs import cobs
 
 from controller.device.board.lookup import data_folder
 from controller.device.fpga import frames
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.registers import Control, Register
 from controller.device.fpga.status import parse_status

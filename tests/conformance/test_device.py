@@ -14,7 +14,7 @@ from patience import SpareTime
 
 from controller.device.board.lookup import data_folder
 from controller.device.fpga import frames
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.frames import FRAME_BYTES, Play
 from controller.device.fpga.links import serial_link

@@ -14,7 +14,7 @@ import tty
 from dataclasses import replace
 from pathlib import Path
 
-from controller.device.fpga.bitstream import read_identity
+from controller.device.fpga.bitstreams.bitstream import read_identity
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.model import GatewareModel

@@ -19,7 +19,7 @@ from host_gateware import HostGateware
 from restarting_gateware import RestartingGateware
 
 from controller.device.board.lookup import data_folder
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.workshop.gateware.gateware import Permit
 from controller.workshop.gateware.model.model import GatewareModel

@@ -20,7 +20,7 @@ from gpio_lines import GpioLines
 from host_gateware import ask
 
 from controller.device.board.lookup import data_folder
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.frames import Play
 from controller.device.fpga.links.spi_link import SpiLink
 from controller.device.fpga.registers import Register, State

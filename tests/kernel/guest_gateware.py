@@ -16,7 +16,7 @@ from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.devices import LinkSettings
 from controller.device.board.lookup import data_folder, find_board
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.exchange import HostSilent, Refused
 from controller.device.fpga.frames import Play, pack_nop
 from controller.device.fpga.links.spi_link import SpiLink

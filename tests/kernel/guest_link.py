@@ -22,7 +22,7 @@ from controller.device.board.lookup import data_folder, find_board
 from controller.device.doctor.bring_up import Chirps
 from controller.device.doctor.doctor import look
 from controller.device.doctor.link_examination import examine_link
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.exchange import FpgaReset
 from controller.device.fpga.frames import Play
 from controller.device.fpga.links.gpio_lines import SET_VALUES

@@ -16,7 +16,7 @@ from controller.commands.common.named_board import add_fpga, named_board, with_o
 from controller.commands.common.output import must_be_writable, show
 from controller.console import tell
 from controller.device.board.lookup import find_board
-from controller.device.fpga.bitstream import Figures, figures_path
+from controller.device.fpga.bitstreams.bitstream import Figures, figures_path
 from controller.errors import GatewareError, UsageError
 
 if TYPE_CHECKING:

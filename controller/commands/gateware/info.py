@@ -11,7 +11,7 @@ from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import find_board
-from controller.device.fpga.bitstream import Identity, differences, read_figures, read_identity, sha256_of
+from controller.device.fpga.bitstreams.bitstream import Identity, differences, read_figures, read_identity, sha256_of
 from controller.device.fpga.build_parameters import top_parameters
 from controller.device.service.drivers import gateware_hash
 from controller.errors import ConfigError

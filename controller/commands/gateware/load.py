@@ -13,8 +13,8 @@ from controller.commands.common.named_board import add_fpga, board_of, with_one_
 from controller.commands.common.output import show
 from controller.console import tell
 from controller.device.board.board import Board
-from controller.device.fpga.bitstream import differences, read_identity
-from controller.device.fpga.bitstream_loader import ATTEMPTS
+from controller.device.fpga.bitstreams.bitstream import differences, read_identity
+from controller.device.fpga.bitstreams.loader import ATTEMPTS
 from controller.device.service.drivers import bitstream_path, gateware_hash
 from controller.errors import ConfigError, GatewareError, LinkError, UsageError
 from controller.programs import CannotStart, ProgramError, run_program

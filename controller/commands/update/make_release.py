@@ -15,8 +15,8 @@ from controller.device.bank.file_format import VERSION as BANK_FORMAT
 from controller.device.board.board import Board, load_board
 from controller.device.board.lookup import data_folder, find_board
 from controller.device.board.paths import user_cache
-from controller.device.fpga.bitstream import differences, read_identity
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.bitstream import differences, read_identity
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.registers import PROTOCOL_VERSION
 from controller.device.update.manifest import SETTINGS_FORMAT, Manifest, this_platform
 from controller.errors import GatewareError, UpdateError, UsageError

@@ -21,7 +21,7 @@ from controller.device.doctor.finding import Finding
 from controller.device.doctor.process_limits import memory_in_words, priority_in_words, this_process_may, unit_allows
 from controller.device.doctor.raspberry_pi import look_at_pi
 from controller.device.doctor.touch_check import OpenPanel, look_at_touch_panel
-from controller.device.fpga.bitstream import read_identity
+from controller.device.fpga.bitstreams.bitstream import read_identity
 from controller.device.fpga.frames import UPLOAD_BYTES
 from controller.device.fpga.links.link import Link
 from controller.device.scene.scene import load_scene

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 from controller.device.board.board import Board
 from controller.device.board.lookup import fpga_files
 from controller.device.doctor.finding import Finding
-from controller.device.fpga.bitstream import differences, read_identity
+from controller.device.fpga.bitstreams.bitstream import differences, read_identity
 from controller.device.service.drivers import gateware_hash
 from controller.errors import ControllerError
 

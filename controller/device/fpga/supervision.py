@@ -11,7 +11,7 @@ from typing import Final
 
 from controller.device.board.board import Board
 from controller.device.fpga import configuration, frames
-from controller.device.fpga.bitstream_loader import BitstreamLoader
+from controller.device.fpga.bitstreams.loader import BitstreamLoader
 from controller.device.fpga.emission_timing import EmissionTiming
 from controller.device.fpga.exchange import DAMAGED, Exchange, FpgaReset, Refused
 from controller.device.fpga.links.link import Link

@@ -9,9 +9,9 @@ from controller.clocks import NEVER, Clock
 from controller.device.board.board import Board
 from controller.device.fpga.clock_estimate import ClockEstimate
 from controller.device.fpga.session import Session
-from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.preparation import LayerPreparation, PreparedScene
-from controller.device.loop.trace_ring import TraceRing
+from controller.device.loop.rings.emission_ring import EmissionRing
+from controller.device.loop.rings.trace_ring import TraceRing
 from controller.device.touch.source import Silence, TrackedTouch
 from controller.metrics import Counters
 

@@ -23,10 +23,10 @@ from controller.device.loop.outputs import Outputs
 from controller.device.loop.playing.playback import Playback
 from controller.device.loop.playing.records import Turn
 from controller.device.loop.preparation import SceneChange
+from controller.device.loop.rings.trace_ring import LATE_S
 from controller.device.loop.runtime import no_garbage_collection
 from controller.device.loop.scene_takeover import SceneTakeover
 from controller.device.loop.scheduler import Scheduler
-from controller.device.loop.trace_ring import LATE_S
 from controller.device.loop.watched_files import NotingSelector, WatchedFiles
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.signals import Wakeup, handled_signals

@@ -11,8 +11,8 @@ import msgspec
 from controller.device.board.board import Board
 from controller.device.board.lookup import data_folder, running_release
 from controller.device.board.worker import Worker
-from controller.device.fpga.bitstream_loader import BitstreamLoader
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
+from controller.device.fpga.bitstreams.loader import BitstreamLoader
 from controller.device.fpga.links.lazy_link import LazyGroup, LazyLink
 from controller.device.fpga.links.link import Link
 from controller.device.fpga.links.link_group import LinkGroup

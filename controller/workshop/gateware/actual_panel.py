@@ -114,7 +114,7 @@ def gateware_of(board: Board, build_hash: int) -> BuildParameters | None:
         return of_board
     if not flash.exists():
         return None
-    from controller.device.fpga.bitstream import read_identity  # noqa: PLC0415 - loads OpenSSL: 4 MB of a simulated service
+    from controller.device.fpga.bitstreams.bitstream import read_identity  # noqa: PLC0415 - loads OpenSSL: 4 MB of a simulated service
 
     return replace(of_board, **{name.lower(): value for name, value in read_identity(flash).parameters.items()})
 

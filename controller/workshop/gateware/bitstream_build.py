@@ -15,8 +15,8 @@ from typing import Any, Self
 
 from controller.device.board.board import Board
 from controller.device.board.lookup import data_folder
-from controller.device.fpga.bitstream import Identity, sealed
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.bitstream import Identity, sealed
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.errors import GatewareError
 from controller.workshop.gateware.fpga_part import FpgaPart

@@ -18,7 +18,7 @@ from cobs import cobs
 from controller.console import flush, say
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder, find_board
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.frames import FRAME_BYTES
 from controller.device.fpga.links.serial_link import ANSWER_BYTES, BITS_PER_BYTE

@@ -12,7 +12,7 @@ from collections.abc import Generator, Iterator
 from typing import Final, NamedTuple
 
 from controller.device.board.board import Board
-from controller.device.fpga.bitstream import Identity, sealed
+from controller.device.fpga.bitstreams.bitstream import Identity, sealed
 from controller.device.fpga.build_parameters import top_parameters
 from controller.device.service.drivers import gateware_hash
 from controller.errors import ControllerError

@@ -17,7 +17,7 @@ import pytest
 from controller.device.application_socket.command_socket import CommandSocket
 from controller.device.application_socket.connections import peers
 from controller.device.board.devices import ApplicationSocket
-from controller.device.loop.emission_ring import EmissionRing
+from controller.device.loop.rings.emission_ring import EmissionRing
 from controller.device.scene.scene import Scene
 from controller.errors import ConfigError, ControllerError
 from controller.metrics import Skipped

@@ -10,8 +10,8 @@ from device.bank.test_expectation import expected
 from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.panel_messages import Emissions, message_decoder
 from controller.device.application_socket.subscriptions.emission_notices import PERIOD_S
-from controller.device.loop.emission_ring import SLOTS, EmissionRing
 from controller.device.loop.playing.records import ENDLESS, Batch, Plan
+from controller.device.loop.rings.emission_ring import SLOTS, EmissionRing
 from controller.device.scene.emission import Emission
 from controller.metrics import NOT_PLAYED
 

@@ -14,8 +14,8 @@ from tables import each_row
 from controller.device.board.board import load_board
 from controller.device.board.devices import divided_hz
 from controller.device.board.lookup import data_folder, find_board
-from controller.device.fpga.bitstream import read_figures, read_identity
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.bitstream import read_figures, read_identity
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.workshop.gateware.bitstream_build import FpgaDesign
 from controller.workshop.gateware.fpga_part import PLL, load_part

@@ -14,7 +14,7 @@ from controller.commands.common.fpga_link import announced_chirps
 from controller.device.board.lookup import data_folder
 from controller.device.doctor import bring_up
 from controller.device.fpga import frames
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.clock_estimate import ClockEstimate
 from controller.device.fpga.exchange import Refused

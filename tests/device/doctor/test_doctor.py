@@ -25,7 +25,7 @@ from controller.device.doctor import doctor, process_limits
 from controller.device.doctor.bring_up import Chirps
 from controller.device.doctor.doctor import look
 from controller.device.doctor.link_examination import arriving_sck_hz, evaluated_sck, examine_link
-from controller.device.fpga.bitstream import Identity, sealed
+from controller.device.fpga.bitstreams.bitstream import Identity, sealed
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.links import spi_device
 from controller.device.fpga.session import Session

@@ -13,7 +13,7 @@ from controller.clocks import VirtualClock
 from controller.device.board.board import load_board
 from controller.device.board.devices import GatewareLoading, LinkedFpga
 from controller.device.board.lookup import find_board
-from controller.device.fpga.bitstream_loader import BitstreamLoader
+from controller.device.fpga.bitstreams.loader import BitstreamLoader
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.configuration import IncompatibleFpga
 from controller.device.fpga.session import Session

@@ -29,7 +29,7 @@ from controller.device.loop.context import LoopContext, Watch
 from controller.device.loop.dispatcher import PREFETCH_SLACK_S
 from controller.device.loop.playing.occupancy import Repetition
 from controller.device.loop.preparation import PreparedScene
-from controller.device.loop.trace_ring import StartRecord, TurnRecord, records_of
+from controller.device.loop.rings.trace_ring import StartRecord, TurnRecord, records_of
 from controller.device.loop.watched_files import WatchedFiles
 from controller.device.loop.wiring import assemble
 from controller.device.scene.scene import load_scene

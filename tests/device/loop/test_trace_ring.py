@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.loop.trace_ring import RECORD_BYTES, START, TURN, StartRecord, TraceRing, records_of
+from controller.device.loop.rings.trace_ring import RECORD_BYTES, START, TURN, StartRecord, TraceRing, records_of
 
 seconds = st.floats(0, 1e6)
 

@@ -9,7 +9,7 @@ import pytest
 from chromium import PROGRAM, browser
 from patience import wait_for
 
-from controller.device.loop.trace_ring import StartRecord, TurnRecord
+from controller.device.loop.rings.trace_ring import StartRecord, TurnRecord
 from controller.device.service.tracing.trace_file import END, events_of, head_of
 
 pytestmark = [

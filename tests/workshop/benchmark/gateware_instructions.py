@@ -27,7 +27,7 @@ from typing import Any
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder, find_board
 from controller.device.fpga import frames
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import BuildParameters
 from controller.device.fpga.frames import Play
 from controller.device.fpga.registers import Control, Register, Start

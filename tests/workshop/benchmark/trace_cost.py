@@ -22,7 +22,7 @@ from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
 from controller.device.loop.context import LoopContext, Watch
-from controller.device.loop.trace_ring import RECORDS, TraceRing
+from controller.device.loop.rings.trace_ring import RECORDS, TraceRing
 from controller.device.loop.wiring import assemble
 from controller.device.scene.scene import load_scene
 from controller.device.service.drivers import open_session, tracked

@@ -26,8 +26,8 @@ from controller.device.bank import lookup as bank_lookup
 from controller.device.bank.reader import Bank
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.fpga.bitstream import Identity, sealed
-from controller.device.fpga.build_hash import build_hash
+from controller.device.fpga.bitstreams.bitstream import Identity, sealed
+from controller.device.fpga.bitstreams.build_hash import build_hash
 from controller.device.fpga.build_parameters import top_parameters
 from controller.device.update.download.bank_index import read_index
 from controller.workshop.bank_builder.own_bank import Order as BankOrder

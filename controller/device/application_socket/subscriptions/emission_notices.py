@@ -11,8 +11,8 @@ from controller.device.application_socket.connections.connection import MessageT
 from controller.device.application_socket.protocol.panel_messages import Emissions, PlayedFocus
 from controller.device.bank.expectation import Expectation
 from controller.device.loop.control import PanelControl
-from controller.device.loop.emission_ring import EmissionRing
 from controller.device.loop.playing.records import ENDLESS, Plan
+from controller.device.loop.rings.emission_ring import EmissionRing
 from controller.device.waveforms.composition import Point
 from controller.metrics import NOT_PLAYED
 

@@ -16,7 +16,7 @@ from typing import Final, Self
 from controller.clocks import NEVER
 from controller.device.board.lookup import running_release
 from controller.device.loop.context import SpareTime
-from controller.device.loop.trace_ring import StartRecord, TraceRing, TurnRecord, records_of
+from controller.device.loop.rings.trace_ring import StartRecord, TraceRing, TurnRecord, records_of
 from controller.log import Priority, log
 
 TRACKS: Final = {1: "loop: turns", 2: "host: deciding, composing, packing", 3: "wire", 4: "waiting for the plate", 5: "plate"}

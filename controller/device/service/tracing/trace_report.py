@@ -10,7 +10,7 @@ from typing import Any, Final
 import msgspec
 
 from controller.device.board.validation import NO_JSON
-from controller.device.loop.trace_ring import LATE_S
+from controller.device.loop.rings.trace_ring import LATE_S
 from controller.errors import ConfigError
 from controller.text_file import read_text
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from controller.clocks import NEVER
-from controller.device.loop.trace_ring import TraceRing
+from controller.device.loop.rings.trace_ring import TraceRing
 from controller.device.service.tracing.trace_file import AFTER_S, APART_S, FILES, TRACKS, TraceFile
 
 FAR_S = 1.0

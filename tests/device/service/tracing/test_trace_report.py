@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from tables import each_row
 
 from controller.cli import main
-from controller.device.loop.trace_ring import StartRecord, TurnRecord
+from controller.device.loop.rings.trace_ring import StartRecord, TurnRecord
 from controller.device.service.tracing.trace_file import END, events_of, head_of
 from controller.device.service.tracing.trace_report import figures_of, read_trace
 from controller.errors import ConfigError
