@@ -46,7 +46,7 @@ def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(wheel):
     share = data.removesuffix("/haptic-panel")
     assert {f"{share}/man/man1/haptic-panel.1", f"{share}/bash-completion/completions/haptic-panel"} <= set(names)
     assert {f"{share}/zsh/site-functions/_haptic-panel", f"{data}/boards/board.schema.json", "controller/py.typed"} <= set(names)
-    assert {"controller/cli.py", "controller/device/scene/effects.toml", *KERNELS} <= set(names)
+    assert {"controller/cli.py", "controller/device/scene/effects/effects.toml", *KERNELS} <= set(names)
     assert not any(name.startswith("tests/") or name.endswith("build_hook.py") for name in names)
     assert [name for name in names if name.endswith(".c")] == ["controller/workshop/benchmark/device/compose_reference.c"]
     assert not any(name.startswith("controller/") and name.endswith(".sh") for name in names), "those are for a checkout"

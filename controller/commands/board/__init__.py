@@ -15,7 +15,7 @@ from controller.device.board.relations.checked import RELATIONS, judge
 from controller.device.board.touch_panels import touch_records
 from controller.device.fpga.play_messages import PlayMessages
 from controller.device.fpga.registers import TRIGGER_LATENCY_TICKS
-from controller.device.scene.effects import EffectTable
+from controller.device.scene.effects.effects import EffectTable
 from controller.device.scene.scene_file import find_scene, read_scene
 from controller.device.scene.scene_tables import SceneTable
 from controller.device.service.installation import is_installed

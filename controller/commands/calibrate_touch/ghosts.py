@@ -15,9 +15,9 @@ from controller.device.fpga.links.link import Link
 from controller.device.loop.context import LoopContext
 from controller.device.loop.playing.records import Played
 from controller.device.loop.wiring import assemble
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_file import find_scene
-from controller.device.scene.trains import Train
 from controller.device.service.drivers import open_panel, open_session
 from controller.device.service.realtime import enter_realtime
 from controller.device.touch.event_reader import Event, EventReader

@@ -10,7 +10,7 @@ from controller.device.loop.outputs import Outputs
 from controller.device.loop.playing.host_timing import HostTiming
 from controller.device.loop.preparation import SceneChange
 from controller.device.loop.scheduler import Scheduler
-from controller.device.scene.clips import ClientEffect
+from controller.device.scene.effects.clips import ClientEffect
 from controller.device.scene.scene import Scene
 from controller.device.touch.source import Heard
 from controller.errors import ConfigError, FaultError

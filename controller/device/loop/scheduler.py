@@ -14,7 +14,7 @@ from controller.device.loop.playing.batching import select_batch
 from controller.device.loop.playing.due_emissions import MAX_DEFERRAL_S, Confirmed, DueEmissions, Outcomes, Owner
 from controller.device.loop.skips import ALL, Skips
 from controller.device.loop.train_phases import moved_s
-from controller.device.scene.clips import ClientEffect
+from controller.device.scene.effects.clips import ClientEffect
 from controller.device.scene.emission import Emission
 from controller.device.scene.fingers import ActiveEffects
 from controller.device.scene.region_lookup import OUTSIDE

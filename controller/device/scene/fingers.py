@@ -20,12 +20,12 @@ import math
 from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
-from controller.device.scene.clips import ClientEffect
+from controller.device.scene.effects.clips import ClientEffect
+from controller.device.scene.effects.trains import NO_PULSE, ActiveTrain, Train
 from controller.device.scene.emission import Emission, new_emission, stronger
 from controller.device.scene.progress import DistanceProgress, GridProgress
 from controller.device.scene.region_lookup import OUTSIDE
 from controller.device.scene.scene import Scene
-from controller.device.scene.trains import NO_PULSE, ActiveTrain, Train
 from controller.errors import ConfigError
 
 NO_CROSSING = (math.inf, 0.0)

@@ -10,9 +10,9 @@ import numpy as np
 
 from controller.device.board.board import Board
 from controller.device.board.records import as_record
-from controller.device.scene.effects import EffectTable
+from controller.device.scene.effects.effects import EffectTable
+from controller.device.scene.effects.library import Effects, Tables, known_effects, resolved
 from controller.device.scene.layers import Placement, RefusedRegion
-from controller.device.scene.library import Effects, Tables, known_effects, resolved
 from controller.device.scene.scene import Region, region_of
 from controller.device.scene.scene_file import CheckedRegion, check_effects, covering, never_felt, shape_of
 from controller.device.scene.scene_tables import AnyRegionTable

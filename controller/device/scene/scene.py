@@ -18,13 +18,13 @@ from msgspec import Meta, Struct
 from controller.arrays import Bools, Floats
 from controller.device.board.board import Board
 from controller.device.board.records import PlaceM
-from controller.device.scene.effects import EffectTable
+from controller.device.scene.effects.effects import EffectTable
+from controller.device.scene.effects.trains import EffectiveAmplitude, Train, train_of
 from controller.device.scene.layers import Layer
 from controller.device.scene.region_lookup import OUTSIDE, TILES, RegionLookup, StackedLookup
 from controller.device.scene.scene_file import CheckedRegion, CheckedScene, Shape, emitter_at, read_scene
 from controller.device.scene.shapes import Boxes, Rectangle
 from controller.device.scene.spacings import Spacing, spacing_of
-from controller.device.scene.trains import EffectiveAmplitude, Train, train_of
 from controller.errors import ConfigError
 
 MIN_SIDE_M: Final = 1e-9  # of all tiles together: a region may be so thin that it has no width in floating point

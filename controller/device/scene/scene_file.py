@@ -14,11 +14,11 @@ from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE
 from controller.device.board.paths import state_folder
 from controller.device.board.records import as_record, read_tables
-from controller.device.scene.effects import ROUNDING, EffectTable
-from controller.device.scene.library import Effects, highest_rate_hz, known_effects, resolved
+from controller.device.scene.effects.effects import ROUNDING, EffectTable
+from controller.device.scene.effects.library import Effects, highest_rate_hz, known_effects, resolved
+from controller.device.scene.effects.trains import silent, train_of
 from controller.device.scene.scene_tables import AnyRegionTable, CircleTable, PlateTable, PolygonTable, RectangleTable, SceneTable
 from controller.device.scene.shapes import Circle, Point, Polygon, Rectangle
-from controller.device.scene.trains import silent, train_of
 from controller.errors import ConfigError
 
 ROUNDING_M = 1e-9

@@ -8,8 +8,8 @@ import msgspec
 from msgspec import Meta
 
 from controller.device.board.records import PlaceMm, Record, SizeMm
-from controller.device.scene.effects import Amplitude, EffectTable
-from controller.device.scene.library import Tables
+from controller.device.scene.effects.effects import Amplitude, EffectTable
+from controller.device.scene.effects.library import Tables
 from controller.device.scene.shapes import Polygon
 
 

@@ -7,11 +7,11 @@ from typing import Annotated, NamedTuple
 from msgspec import Meta
 
 from controller.device.board.records import PlaceM
-from controller.device.scene.effects import EffectTable
+from controller.device.scene.effects.effects import EffectTable
+from controller.device.scene.effects.trains import EffectiveAmplitude
 from controller.device.scene.layers import Placement
 from controller.device.scene.progress import DistanceProgress, GridProgress
 from controller.device.scene.shapes import Circle, Polygon, Rectangle
-from controller.device.scene.trains import EffectiveAmplitude
 
 
 class Spacing(NamedTuple):

@@ -4,8 +4,8 @@ import json
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 
-from controller.device.scene.effects import MOST_PULSES
-from controller.device.scene.trains import Train
+from controller.device.scene.effects.effects import MOST_PULSES
+from controller.device.scene.effects.trains import Train
 from controller.errors import ConfigError
 from controller.workshop.clips.clip import NEUTRAL
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from controller.device.board.board import Board
-from controller.device.scene.effects import MOST_PULSES
-from controller.device.scene.library import highest_rate_hz, library
+from controller.device.scene.effects.effects import MOST_PULSES
+from controller.device.scene.effects.library import highest_rate_hz, library
 from controller.errors import ConfigError
 from controller.workshop.clips.ahap import read_ahap
 from controller.workshop.clips.android import read_android

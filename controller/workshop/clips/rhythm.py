@@ -13,8 +13,8 @@ import numpy as np
 
 from controller.arrays import Floats
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.scene.effects import ROUNDING
-from controller.device.scene.rhythms import SILENCE
+from controller.device.scene.effects.effects import ROUNDING
+from controller.device.scene.effects.rhythms import SILENCE
 from controller.workshop.clips.clip import DesignedClip, Vibration
 
 STEP_S: Final = 1e-4  # of the integral of a rate

@@ -9,7 +9,7 @@ from tables import each_row
 from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.application_socket.requests.play_requests import CLIP_LINES, MOST_KEPT, MOST_KEPT_POINTS
-from controller.device.scene.clips import MOST_PULSES
+from controller.device.scene.effects.clips import MOST_PULSES
 from controller.device.scene.layers import UNMOVED, Layer
 from controller.device.scene.scene import Region, Scene, SpatialIndex
 from controller.device.scene.shapes import Rectangle

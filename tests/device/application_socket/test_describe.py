@@ -9,10 +9,10 @@ from controller.device.application_socket.connections.connection import QUEUE_BY
 from controller.device.application_socket.protocol.panel_messages import Description
 from controller.device.application_socket.subscriptions.description import MOST_FAULTS, MOST_REGIONS
 from controller.device.board.panel_state import Condition, PanelState
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.scene import FixedEmitter, Region, Scene
 from controller.device.scene.shapes import Circle, Polygon, Rectangle
 from controller.device.scene.spacings import Spacing
-from controller.device.scene.trains import Train
 
 ASK = {"kind": "describe", "id": 1}
 SHAPES = Rectangle(0.01, 0.02, 0.05, 0.03), Circle(0.06, 0.05, 0.01 / 3), Polygon(((0.0, 0.0), (0.1, 0.0), (0.1, 0.1)))

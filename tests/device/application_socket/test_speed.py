@@ -6,7 +6,7 @@ import pytest
 
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES
 from controller.device.loop.commands import Outcome
-from controller.device.scene.clips import MOST_PULSES, read_clip
+from controller.device.scene.effects.clips import MOST_PULSES, read_clip
 from controller.device.touch.source import TouchSample
 
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70, "id": 123_456, "amplitude": 0.5}

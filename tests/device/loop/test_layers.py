@@ -6,10 +6,10 @@ from controller.clocks import FpgaTime
 from controller.device.loop.layers import Layers
 from controller.device.loop.preparation import AcceptedLayer
 from controller.device.loop.scheduler import Scheduler
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.layers import UNMOVED, Placement
 from controller.device.scene.scene import Region, Scene, SpatialIndex
 from controller.device.scene.shapes import Rectangle
-from controller.device.scene.trains import Train
 from controller.errors import ConfigError
 from controller.metrics import Counters
 

@@ -11,7 +11,7 @@ from tables import each_row
 from controller.device.board.devices import MIN_AMPLITUDE
 from controller.device.page import names
 from controller.device.page.files import OWN
-from controller.device.scene import library
+from controller.device.scene.effects import library
 from controller.errors import ConfigError
 
 

@@ -4,10 +4,10 @@ from hypothesis import strategies as st
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.fingers import ActiveEffects
 from controller.device.scene.scene import Region, Scene, load_scene
 from controller.device.scene.shapes import Circle, Polygon, Rectangle
-from controller.device.scene.trains import Train
 from controller.device.touch.source import TouchSample
 
 BOARD = load_board(data_folder("boards") / "simulated")

@@ -13,11 +13,11 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import data_folder
-from controller.device.scene.effects import EffectTable, When
+from controller.device.scene.effects.effects import EffectTable, When
+from controller.device.scene.effects.library import LIBRARY, library
+from controller.device.scene.effects.primitives import PRIMITIVES, conflict, primitive_of
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.fingers import ActiveEffects
-from controller.device.scene.library import LIBRARY, library
-from controller.device.scene.primitives import PRIMITIVES, conflict, primitive_of
-from controller.device.scene.trains import Train
 from controller.errors import ConfigError
 
 
@@ -332,7 +332,7 @@ def test_every_example_of_the_readme_is_felt(scene_of, example):
 def library_file(tmp_path, monkeypatch):
     """The library's file, to be written before the first use of `library`."""
     file = tmp_path / "effects.toml"
-    monkeypatch.setattr("controller.device.scene.library.LIBRARY", file)
+    monkeypatch.setattr("controller.device.scene.effects.library.LIBRARY", file)
     library.cache_clear()
     yield file
     library.cache_clear()

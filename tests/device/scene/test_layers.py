@@ -9,13 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tables import each_row
 
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.fingers import ActiveEffects
 from controller.device.scene.layer_tables import REASON_CHARACTERS, off_plate, read_layer
 from controller.device.scene.layers import UNMOVED, Layer, Placement
 from controller.device.scene.region_lookup import OUTSIDE
 from controller.device.scene.scene import Region, Scene, SpatialIndex
 from controller.device.scene.shapes import Rectangle
-from controller.device.scene.trains import Train
 from controller.errors import ConfigError
 
 

@@ -14,7 +14,7 @@ from controller.device.board.descriptions import described, type_info, unit_of
 from controller.device.board.records import LONGEST_PLATE_MM, as_record
 from controller.device.board.validation import dotted
 from controller.device.loop.preparation import AcceptedLayer
-from controller.device.scene.effects import EffectTable
+from controller.device.scene.effects.effects import EffectTable
 from controller.device.scene.layers import Placement
 from controller.device.scene.scene import Scene, load_scene
 from controller.device.scene.scene_tables import SceneTable

@@ -10,11 +10,11 @@ from tables import each_row
 
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.scene.effects import EffectTable
-from controller.device.scene.library import resolved
-from controller.device.scene.primitives import conflict
-from controller.device.scene.rhythms import pulse_times_ms, rhythm_of
-from controller.device.scene.trains import train_of
+from controller.device.scene.effects.effects import EffectTable
+from controller.device.scene.effects.library import resolved
+from controller.device.scene.effects.primitives import conflict
+from controller.device.scene.effects.rhythms import pulse_times_ms, rhythm_of
+from controller.device.scene.effects.trains import train_of
 from controller.errors import ConfigError
 
 BOARD = load_board(find_board("simulated"))

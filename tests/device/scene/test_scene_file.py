@@ -6,9 +6,9 @@ from device.scene.scenes import BOARD, square
 from tables import each_row
 
 from controller.device.scene import scene_file
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.scene import load_scene
 from controller.device.scene.scene_file import find_scene
-from controller.device.scene.trains import Train
 from controller.errors import ConfigError
 
 

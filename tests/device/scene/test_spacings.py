@@ -7,7 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.scene.effects import EffectTable
+from controller.device.scene.effects.effects import EffectTable
 from controller.device.scene.progress import MAX_REARM_M, REARM_SHARE, REST_M
 from controller.device.scene.shapes import Circle, Polygon, Rectangle
 from controller.device.scene.spacings import Spacing, spacing_of

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tables import each_row
 
-from controller.device.scene.effects import EffectTable
-from controller.device.scene.trains import NO_PULSE, ActiveTrain, Train, silent, train_of
+from controller.device.scene.effects.effects import EffectTable
+from controller.device.scene.effects.trains import NO_PULSE, ActiveTrain, Train, silent, train_of
 
 TENTH = ((0.0, 0.5), (0.1, 1.0))
 

@@ -13,8 +13,8 @@ from tables import each_row
 from controller.cli import main
 from controller.device.board.board import load_board
 from controller.device.board.lookup import find_board
-from controller.device.scene.effects import MIN_AMPLITUDE
-from controller.device.scene.trains import Train
+from controller.device.scene.effects.effects import MIN_AMPLITUDE
+from controller.device.scene.effects.trains import Train
 from controller.workshop.clips.exporting import WRITERS, exported
 from controller.workshop.clips.importing import READERS, imported
 from controller.workshop.clips.rhythm import rhythm_of

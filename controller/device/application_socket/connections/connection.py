@@ -11,7 +11,7 @@ from controller.device.application_socket.connections.peers import Peer
 from controller.device.application_socket.protocol.client_messages import LINE_BYTES, Right, Topic
 from controller.device.application_socket.protocol.panel_messages import AnyMessage, Farewell
 from controller.device.application_socket.token_bucket import TokenBucket
-from controller.device.scene.clips import ClientEffect
+from controller.device.scene.effects.clips import ClientEffect
 
 QUEUE_BYTES = 65536  # messages that the client has not read yet
 LAYER_BURST = 5  # times that a client may replace its regions at once

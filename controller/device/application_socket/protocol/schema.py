@@ -15,7 +15,7 @@ from controller.device.application_socket.protocol.client_messages import LINE_B
 from controller.device.application_socket.protocol.panel_messages import PROTOCOL, AnyMessage
 from controller.device.board.descriptions import END
 from controller.device.board.reference import SCHEMA_DIALECT
-from controller.device.scene.effects import EffectTable
+from controller.device.scene.effects.effects import EffectTable
 from controller.device.scene.scene_tables import AnyRegionTable
 
 

@@ -11,8 +11,8 @@ from controller.device.application_socket.requests.tickets import FULL
 from controller.device.board.board import Board
 from controller.device.board.devices import MIN_AMPLITUDE, ApplicationSocket
 from controller.device.loop.control import PanelControl
-from controller.device.scene import clips
-from controller.device.scene.clips import read_clip
+from controller.device.scene.effects import clips
+from controller.device.scene.effects.clips import read_clip
 from controller.errors import ConfigError, ControllerError
 
 MOST_KEPT: Final = 64  # clips under names, of one client

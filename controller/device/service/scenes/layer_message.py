@@ -15,12 +15,12 @@ from msgspec import Meta, Raw, Struct
 from controller import __version__
 from controller.device.board.board import Board
 from controller.device.loop.preparation import AcceptedLayer
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.layer_tables import REFUSED_MOST
 from controller.device.scene.layers import Placement, RefusedRegion
 from controller.device.scene.scene import Region, SpatialIndex
 from controller.device.scene.scene_file import Shape
 from controller.device.scene.spacings import Spacing
-from controller.device.scene.trains import Train
 from controller.device.service.scenes.message_frame import (
     MOST_BYTES,
     REASON_CHARACTERS,

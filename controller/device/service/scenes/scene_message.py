@@ -14,8 +14,8 @@ from msgspec import Meta, Raw, Struct
 
 from controller import __version__
 from controller.device.board.board import Board
+from controller.device.scene.effects.trains import Train
 from controller.device.scene.scene import Region, Scene, SpatialIndex
-from controller.device.scene.trains import Train
 from controller.device.service.scenes.message_frame import (
     MOST_BYTES,
     REASON_CHARACTERS,

@@ -10,8 +10,8 @@ from itertools import pairwise
 from typing import Any, NamedTuple, get_args
 
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.scene.effects import MOST_PULSES, ROUNDING, EffectTable, When
-from controller.device.scene.rhythms import SILENCE, rhythm_of
+from controller.device.scene.effects.effects import MOST_PULSES, ROUNDING, EffectTable, When
+from controller.device.scene.effects.rhythms import SILENCE, rhythm_of
 
 COMMON = ("effect", "when", "amplitude")  # keys that every effect takes
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Final
 
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.scene.effects import ROUNDING, EffectTable
+from controller.device.scene.effects.effects import ROUNDING, EffectTable
 
 Point = tuple[float, float]
 SILENCE: Final = MIN_AMPLITUDE / 2  # an envelope below it is nearer to silence than to the weakest emission

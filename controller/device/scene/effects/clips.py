@@ -8,10 +8,10 @@ import msgspec
 
 from controller.device.board.board import Board
 from controller.device.board.records import as_record
-from controller.device.scene.effects import EffectTable
-from controller.device.scene.library import library, resolved
-from controller.device.scene.primitives import primitive_of
-from controller.device.scene.trains import Train, silent, train_of
+from controller.device.scene.effects.effects import EffectTable
+from controller.device.scene.effects.library import library, resolved
+from controller.device.scene.effects.primitives import primitive_of
+from controller.device.scene.effects.trains import Train, silent, train_of
 from controller.errors import ConfigError
 
 MOST_PULSES: Final = 1000  # of a train of changing rate: each has to be found; a line has room for as many that are listed

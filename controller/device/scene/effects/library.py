@@ -12,10 +12,10 @@ from msgspec import Meta
 
 from controller.device.board.board import Board
 from controller.device.board.records import Record, as_record, load_toml
-from controller.device.scene.effects import ROUNDING, EffectTable
-from controller.device.scene.primitives import conflict, primitive_of
-from controller.device.scene.rhythms import rhythm_of
-from controller.device.scene.trains import silent, train_of
+from controller.device.scene.effects.effects import ROUNDING, EffectTable
+from controller.device.scene.effects.primitives import conflict, primitive_of
+from controller.device.scene.effects.rhythms import rhythm_of
+from controller.device.scene.effects.trains import silent, train_of
 from controller.errors import ConfigError
 
 LIBRARY = Path(__file__).with_name("effects.toml")

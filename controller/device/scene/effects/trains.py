@@ -10,8 +10,8 @@ from msgspec import Meta
 
 from controller.clocks import FpgaTime
 from controller.device.board.devices import MIN_AMPLITUDE
-from controller.device.scene.effects import MOST_PULSES, EffectTable
-from controller.device.scene.rhythms import SILENCE, between, rhythm_of
+from controller.device.scene.effects.effects import MOST_PULSES, EffectTable
+from controller.device.scene.effects.rhythms import SILENCE, between, rhythm_of
 
 NO_PULSE: Final = -1
 MAX_PULSES: Final = 3_600_000  # an hour at the highest rate
