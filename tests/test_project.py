@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ ROOT = Path(__file__).parent.parent
 TOP_LEVEL = {"pyproject.toml", "controller", "fpga_rtl", "boards", "systemd", "tests", "README.md", "LICENSE"}
 TOOLS = Path(sys.executable).parent
 MYPY_CACHE = ["--cache-dir", f"{sys.prefix}/mypy_cache"]  # not in the checkout: 20 s of every run but the first
+FILES_A_FOLDER = 20
 WORKSHOP = ROOT / "controller" / "workshop"  # a device needs none of it
 
 
@@ -74,6 +76,14 @@ def test_the_map_of_the_rooms_is_that_of_the_contracts():
             room = folder / re.findall(r"`(\w+)/?`", names)[0]
             missing = [name for name in re.findall(r"`(\w+)`", holds) if room.is_dir() and not any(room.rglob(f"{name}.py"))]
             assert not missing, f"{names}: {missing}"
+
+
+def test_no_folder_of_the_package_has_more_than_20_files():
+    """Of any kind; `decisions` is a series, one page each."""
+    in_folder = Counter(path.parent for path in tracked() if path.parts[0] == "controller")
+    del in_folder[Path("controller/decisions")]
+    assert in_folder[Path("controller/device/scene")] > 10
+    assert {str(folder): count for folder, count in in_folder.items() if count > FILES_A_FOLDER} == {}
 
 
 def test_the_way_of_a_touch_names_functions_that_are_there():
