@@ -15,7 +15,7 @@ from datetime import date
 from typing import Any, Final, NamedTuple
 
 from controller.device.bank.file_format import Header
-from controller.device.bank.provenance import MEASURE_AGAIN, Provenance
+from controller.device.bank.provenance import Provenance, why_unknown
 from controller.device.board.board import Board
 from controller.device.board.relations.bending_waves import bending_stiffness, bending_wavelength_m
 
@@ -219,16 +219,12 @@ def lags_s(duration_s: float, decay_s: float) -> tuple[float, float]:
 
 
 def _calibration(provenance: Provenance | None, channels: int, today: date) -> float:
-    if provenance is None or not _foresees(provenance):
+    if provenance is None or not provenance.foresees:
         return 0.0  # `UNKNOWN` is for all of it
     assert provenance.foreseen is not None
     decades = math.log10(max(_age_d(provenance.date, today), 1.0))
     deviations = (*provenance.foreseen, SENSITIVITY, AGED * decades, GLUED / math.sqrt(channels))
     return Z95 * math.hypot(*deviations)
-
-
-def _foresees(provenance: Provenance) -> bool:
-    return provenance.foreseen is not None and all(map(math.isfinite, provenance.foreseen))
 
 
 def _age_d(measured: str | None, today: date) -> float:
@@ -237,24 +233,6 @@ def _age_d(measured: str | None, today: date) -> float:
     except ValueError:
         return OLDEST_D
     return OLDEST_D if age_d < 0 else min(float(age_d), OLDEST_D)
-
-
-def why_unknown(provenance: Provenance | None, panel: str | None) -> str:
-    """Why a bank may be of another plate; empty: it is of this one."""
-    if provenance is None:
-        return "the bank does not say where its responses come from"
-    if not provenance.from_measurements:
-        return "the bank comes from a model, not from this plate"
-    if not _foresees(provenance):
-        return f"the bank does not say how well its measurements foresee each other: {MEASURE_AGAIN} of the same folder does"
-    if provenance.panel is None:
-        this_one = "" if panel is None else f' (if it is this one, panel = "{panel}")'
-        return f"the measurement does not say which panel it is of: set panel in its measurement.toml{this_one}, {MEASURE_AGAIN}"
-    if panel is None:
-        return "this computer has no machine-id, by which the bank could be known as measured on it"
-    if provenance.panel != panel:
-        return f"the bank was measured on another panel ({provenance.panel}, not {panel})"
-    return ""
 
 
 def in_words(figures: dict[str, Any] | None) -> str:

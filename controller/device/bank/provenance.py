@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import PurePosixPath
 from typing import Any, Literal, Self
 
@@ -45,6 +46,11 @@ class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
     def from_measurements(self) -> bool:
         """Whether a real plate was measured: such responses cannot be computed again without the measurements."""
         return self.kind != "modelled"
+
+    @property
+    def foresees(self) -> bool:
+        """Whether it says how well measured points foresee each other."""
+        return self.foreseen is not None and all(map(math.isfinite, self.foreseen))
 
     def condensed(self) -> Self:
         """The same with one entry for many files of a folder and a kind: `records/*.npy (250 files)`, by the hash of their hashes.
@@ -97,3 +103,21 @@ def as_parameter(provenance: Provenance) -> dict[str, Any]:
     """The build parameter of a bank."""
     reported: dict[str, Any] = msgspec.to_builtins(provenance.condensed())
     return reported
+
+
+def why_unknown(provenance: Provenance | None, panel: str | None) -> str:
+    """Why a bank may be of another plate; empty: it is of this one."""
+    if provenance is None:
+        return "the bank does not say where its responses come from"
+    if not provenance.from_measurements:
+        return "the bank comes from a model, not from this plate"
+    if not provenance.foresees:
+        return f"the bank does not say how well its measurements foresee each other: {MEASURE_AGAIN} of the same folder does"
+    if provenance.panel is None:
+        this_one = "" if panel is None else f' (if it is this one, panel = "{panel}")'
+        return f"the measurement does not say which panel it is of: set panel in its measurement.toml{this_one}, {MEASURE_AGAIN}"
+    if panel is None:
+        return "this computer has no machine-id, by which the bank could be known as measured on it"
+    if provenance.panel != panel:
+        return f"the bank was measured on another panel ({provenance.panel}, not {panel})"
+    return ""

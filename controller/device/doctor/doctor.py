@@ -8,9 +8,9 @@ import stat
 from collections.abc import Callable
 from functools import partial
 
-from controller.device.bank.expectation import why_unknown
 from controller.device.bank.inspection import wrong_pitch
 from controller.device.bank.lookup import find_bank
+from controller.device.bank.provenance import why_unknown
 from controller.device.bank.reader import Bank
 from controller.device.board.board import Board
 from controller.device.board.devices import LinkSettings

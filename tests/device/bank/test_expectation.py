@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from small_plate import WHOLE, small_board
 from tables import each_row
 
-from controller.device.bank.expectation import Z95, Expectation, Interval, anywhere, in_words, lags_s, why_unknown
+from controller.device.bank.expectation import Z95, Expectation, Interval, anywhere, in_words, lags_s
 from controller.device.bank.file_format import Header
 from controller.device.bank.grid import Grid
-from controller.device.bank.provenance import Provenance, as_parameter
+from controller.device.bank.provenance import Provenance, as_parameter, why_unknown
 from controller.device.board.devices import Temperature
 from controller.device.board.identity import panel_identity, simulated_identity
 
