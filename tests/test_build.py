@@ -86,17 +86,31 @@ def test_the_environment_chooses_the_kernel():
     assert "HAPTIC_PANEL_KERNEL=fast: compiled, narrow, numpy, or unset" in run(code, kernel="fast").stderr
 
 
-def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
-    shutil.copytree(ROOT / "controller" / "device" / "kernel", tmp_path / "controller" / "device" / "kernel")
+def room_of_its_own(folder):
+    """A copy of the kernel's room, its compiled files newer than their source, and the code that says which of them serves."""
+    shutil.copytree(ROOT / "controller" / "device" / "kernel", folder / "controller" / "device" / "kernel")
     for file in ("__init__.py", "errors.py", "device/__init__.py"):
-        shutil.copy(ROOT / "controller" / file, tmp_path / "controller" / file)
-    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r})"
-    code += "; from controller.device import kernel; print(kernel.COMPILED, kernel.__file__)"
-    place = str(tmp_path / "controller" / "device" / "kernel" / "__init__.py")
+        shutil.copy(ROOT / "controller" / file, folder / "controller" / file)
     for kernel in KERNELS:
-        os.utime(tmp_path / kernel, (2e9, 2e9))
-    assert run(code).stdout.split() == ["True", place]
+        os.utime(folder / kernel, (2e9, 2e9))
+    code = f"import sys; sys.path.insert(0, {str(folder)!r}); from controller.device import kernel"
+    return code + "; print(kernel.COMPILED, kernel.seal_short_frames.__module__, kernel.__file__)"
+
+
+def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
+    code = room_of_its_own(tmp_path)
+    place = str(tmp_path / "controller" / "device" / "kernel" / "__init__.py")
+    assert run(code).stdout.split() == ["True", COMPILED[-1].__name__, place]
     for kernel in KERNELS:
         os.utime(tmp_path / kernel, (1e9, 1e9))
-    assert run(code).stdout.split() == ["False", place]
+    assert run(code).stdout.split() == ["False", "controller.device.kernel.twin", place]
     assert ".abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr
+
+
+def test_where_the_kernel_for_avx2_is_missing_the_narrow_one_serves(tmp_path):
+    code = room_of_its_own(tmp_path)
+    for kernel in KERNELS[1:]:
+        (tmp_path / kernel).unlink()
+    for wanted in ("", "compiled"):
+        done = run(code, kernel=wanted)
+        assert done.stdout.split()[:2] == ["True", "controller.device.kernel._kernel"], done.stderr

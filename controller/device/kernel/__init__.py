@@ -7,6 +7,7 @@ They are compiled where the package was built with a C compiler, else `twin` and
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
 from pathlib import Path
@@ -79,7 +80,8 @@ def _compiled(wanted: str) -> ModuleType | None:
             raise UsageError(f"HAPTIC_PANEL_KERNEL={wanted}, but the package was built without a C compiler: {error}") from error
         return None
     if getattr(compiled, "HAS_AVX2", False) and wanted != "narrow":  # one older than its source may not say
-        compiled = importlib.import_module("controller.device.kernel._kernel_avx2")
+        with contextlib.suppress(ImportError):  # a checkout that was built in part: the narrow one serves
+            compiled = importlib.import_module("controller.device.kernel._kernel_avx2")
     file = compiled.__file__
     if file and _SOURCE.exists() and _SOURCE.stat().st_mtime > Path(file).stat().st_mtime:
         if wanted:
