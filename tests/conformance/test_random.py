@@ -7,6 +7,7 @@ from collections import Counter
 from functools import cache
 
 import pytest
+import random_script as scripts
 from pin_script import MODEL, Script, assert_same, perform_on_both
 from random_script import MOVING, SEEDS, random_script
 from tables import each_row
@@ -120,5 +121,13 @@ def test_one_tick_of_difference_fails(rtl, late):
         assert_same(run.perform(MODEL, late), run.perform(rtl))
 
 
-def test_scripts_are_the_same_every_time():
-    assert random_script(5).steps == random_script(5).steps
+def test_scripts_are_the_same_every_time_and_with_a_register_more_but_for_which_is_read(monkeypatch):
+    kept = [random_script(seed).steps for seed in range(12)]
+    assert [random_script(seed).steps for seed in range(12)] == kept
+    for name in ("REGISTERS", "COUNTERS"):
+        monkeypatch.setattr(scripts, name, [Register.IDENTITY, *getattr(scripts, name)])
+    more = [random_script(seed).steps for seed in range(12)]
+    assert more != kept
+    assert [[(method, ticks) for method, (ticks, *_) in steps] for steps in more] == [
+        [(method, ticks) for method, (ticks, *_) in steps] for steps in kept
+    ]
