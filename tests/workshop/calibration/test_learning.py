@@ -10,7 +10,7 @@ import pytest
 from workshop.calibration.exact_records import BIT_CLOCK_HZ, CHANNELS, NAMES, POINTS_M, board, displacement, noisy, true_responses
 
 from controller.errors import CalibrationError
-from controller.workshop.calibration.learning import learning
+from controller.workshop import calibration
 from controller.workshop.calibration.learning.learning import learn
 from controller.workshop.calibration.records.measurement_file import (
     ImpulsesDrive,
@@ -232,7 +232,7 @@ def test_everything_that_is_wrong_is_named_with_channel_and_point(tmp_path):
 def test_the_example_of_the_readme_is_learned(tmp_path, monkeypatch):
     """Folder by hand: the block as it stands, then what was convolved with is found again."""
     monkeypatch.chdir(tmp_path)
-    text = (Path(learning.__file__).parent / "README.md").read_text()
+    text = (Path(calibration.__file__).parent / "README.md").read_text()
     (block,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     names = {}
     exec(block, names)
