@@ -236,7 +236,7 @@ def test_the_example_of_the_readme_is_learned(tmp_path, monkeypatch):
     (block,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     names = {}
     exec(block, names)
-    found = learn(tmp_path / "by_hand", names["board"])
+    found = learn(tmp_path / names["folder"], names["board"])
     found.require()
     bins = RawBins.of(names["board"], 1999 / 500e3 + 2e-6)
     true = names["ResponseModel"](names["board"]).responses(names["places_mm"] * 1e-3)
