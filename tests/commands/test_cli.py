@@ -235,6 +235,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
         (("calibrate", "fleet", ".", "--out", "gs://banks"), 2, "so mount it as a folder"),
         (("run", "--replay", "/dev/zero"), 69, "not a regular file"),
         (("focus",), 78, "--at X_MM Y_MM"),
+        (("focus", "--amplitude-figures", "--scenes", "0"), 2, "--scenes 0: not from 1 to 10000"),
         (("focus", "--at", "300", "20"), 78, "--at 300"),
         (("focus", "--at", "nan", "20"), 2, "--at: 'nan' is not a finite number"),
         (("focus", "--finger-load", "100"), 2, "--finger-load is of a focus: give --at X_MM Y_MM too"),

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from controller.commands.common.arguments import Declare, natural
+from controller.commands.common.arguments import Declare, natural, require_within
 from controller.commands.common.named_board import board_of
 from controller.commands.common.output import picture_path, show
 from controller.commands.common.tables import amplitude_table, plain_table
@@ -33,6 +33,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         help="measure what composing from a bank reaches instead: amplitudes, places between cells, edges; --plot draws it",
     )
     point.add_argument("--pitch-mm", type=float, metavar="MM", help="of that bank (default: the board's)")
+    point.add_argument(
+        "--scenes", type=natural, default=20, metavar="N", help="of each number of fingers that it evaluates (default: 20)"
+    )
     point.add_argument("--seed", type=natural, default=1, help="of the random points (default: 1)")
     point.add_argument(
         "--memory-mb", type=float, metavar="M", help="memory that --at may take, in MB (default: 1500); refused if it needs more"
@@ -61,6 +64,7 @@ def focus(options: argparse.Namespace) -> int:
     """Focus on points of the plate and print figures of merit; or measure the figures of the README."""
     from controller.workshop.benchmark.focus.focus_figures import figures
 
+    require_within(options, {"scenes": (1, 1e4)})
     picture, movie = picture_path(options), movie_path(options)
     if options.finger_load and not options.at:
         raise UsageError("--finger-load is of a focus: give --at X_MM Y_MM too")
@@ -97,7 +101,7 @@ def _amplitudes(options: argparse.Namespace, board: Board, picture: Path | None)
     from controller.workshop.benchmark.focus.amplitude import amplitude_figures
 
     pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
-    found = amplitude_figures(board, options.seed, pitch_m=pitch_mm * 1e-3)
+    found = amplitude_figures(board, options.seed, options.scenes, pitch_mm * 1e-3)
     if picture:
         from controller.workshop.benchmark.focus.amplitude import plot_amplitude
 

@@ -35,10 +35,12 @@ Numbers = NDArray[Any]
 # in units of the mean of its absolute value over 96 us: median over 120 points of the simulated board.
 THRESHOLDS: Final = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
 SHARES: Final = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
-MAX_ROUNDS: Final = 3  # of measuring what the bits give; the best one is mended
+MAX_ROUNDS: Final = 6  # of measuring what the bits give; the best one is mended
+ROUNDS: Final = 3  # after which an error of `FAR` is left to flips, too
 MAX_LOWERINGS: Final = 3  # behind them
 TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
 NEARLY: Final = 0.03  # error of an amplitude that is left to flips
+FAR: Final = 0.25
 CLOSE: Final = 0.002  # error at which they end
 SWEEPS: Final = 2  # over the bits that may be flipped
 
@@ -87,7 +89,7 @@ class Solution:
             squares = product(errors, errors)
             if not turn or squares < least:
                 least, best, best_measured = squares, weights, measured
-            if max(map(abs, errors)) <= NEARLY:
+            if max(map(abs, errors)) <= (NEARLY if turn + 1 < ROUNDS else FAR):
                 break
             gain = gain or product(measured, weights) / product(weights, weights)
             if not gain > 0:

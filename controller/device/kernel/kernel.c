@@ -75,7 +75,8 @@ enum {
     THRESHOLD_BITS = 24,
     NEAR_LEVEL_SHIFT = 3,
     FEW_POINTS = 4,
-    MAX_ROUNDS = 3,
+    MAX_ROUNDS = 6,
+    ROUNDS = 3,
     MAX_LOWERINGS = 3,
     FLIP_SWEEPS = 2,
     ROW = GROUP_SAMPLES * CHANNELS, /* values that are worked on at a time */
@@ -83,7 +84,7 @@ enum {
     STEPS_PER_BLOCK = 12,
     AHEAD_BYTES = 1024,
 };
-static const double NEARLY = 0.03, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32, LEAST_MORE = 1.0 / 48;
+static const double NEARLY = 0.03, FAR = 0.25, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 100.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32, LEAST_MORE = 1.0 / 48;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
@@ -1045,7 +1046,7 @@ static void come_near(struct work *work, const double *asked, int16_t *weight, d
             memcpy(best, now, sizeof now);
             memcpy(best_measured, work->measured, sizeof best_measured);
         }
-        if (largest_size(error, work->count) <= NEARLY) break;
+        if (largest_size(error, work->count) <= (turn + 1 < ROUNDS ? NEARLY : FAR)) break;
         if (gain == 0) gain = product(work->measured, now, work->count) / product(now, now, work->count);
         if (!(gain > 0)) break;
         step(work, gain, turn, now, before, residual_before);

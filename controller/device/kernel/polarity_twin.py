@@ -21,7 +21,7 @@ LARGEST_SKETCHED: Final = (1 << 10) - 1  # for the same reason, of a compact ban
 PRODUCT_BITS: Final = 30  # of the largest inner product of two responses
 MAX_CORRECTION: Final = 2.0  # of a weight in a round
 ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
-RATIO_SLOPE: Final = 30.0  # by which ratio amplitudes may differ, for each correlation below: 4 at 0.4, 3.1 mm
+RATIO_SLOPE: Final = 100.0  # by which ratio amplitudes may differ, for each correlation below: any at 0.41, 3.1 mm
 
 
 class Sketch:

@@ -201,6 +201,35 @@ def test_amplitudes_are_displacements_with_a_slope_too(board, scenes, tmp_path):
                 assert found == pytest.approx(1, abs=0.02)
 
 
+def test_a_strong_finger_stays_strong_beside_a_faint_one(board, tmp_path):
+    """Their responses are a third alike or less: each has its own amplitude, and it is the faint one that may err."""
+    pairs = [
+        [(0.1, 0.07, 1.0), (0.1 + apart_m * math.cos(turned), 0.07 + apart_m * math.sin(turned), 0.1)]
+        for apart_m in (6e-3, 7e-3, 8e-3, 9e-3)
+        for turned in (0.3, 1.7, 2.6)
+    ]
+    with composing(board, pairs, tmp_path / "bank") as composer:
+        twin = PlateTwin(board)
+        for scene in pairs:
+            places = tuple((x_m, y_m) for x_m, y_m, _ in scene)
+            words = np.frombuffer(composer.compose(scene), "<u4").copy()
+            strong, faint = np.abs(emit(twin, words).at(places)) / twin.exact_amplitudes(places)
+            assert strong == pytest.approx(1, abs=0.03)
+            assert faint == pytest.approx(0.1, abs=0.03)
+
+
+def test_ten_faint_fingers_whose_weights_settle_late_get_what_they_ask_for(board, tmp_path):
+    """Three rounds leave one of them with twice as much and one with a fifth; flips alone would not mend that."""
+    sloped = msgspec.structs.replace(board, waveform=msgspec.structs.replace(board.waveform, slope=-1.0))
+    mm = (188.756, 82.38), (165.959, 128.252), (123.449, 127.195), (106.351, 76.622), (108.861, 31.552)
+    mm += (27.771, 100.533), (17.959, 75.249), (195.731, 59.084), (144.459, 60.134), (75.297, 96.02)
+    scene = [(round(32 * x) / 32e3, round(32 * y) / 32e3, MIN_AMPLITUDE) for x, y in sorted(mm)]  # as the device rounds them
+    with composing(sloped, [scene], tmp_path / "bank") as composer:
+        twin, places = PlateTwin(sloped), tuple((x_m, y_m) for x_m, y_m, _ in scene)
+        words = np.frombuffer(composer.compose(scene), "<u4").copy()
+        assert np.abs(emit(twin, words).at(places)) / twin.exact_amplitudes(places) == pytest.approx(MIN_AMPLITUDE, rel=0.05)
+
+
 @pytest.mark.slow
 def test_the_figures_of_amplitude_are_measured_and_drawn(board, tmp_path):
     found = amplitude_figures(board, 4, scenes=1)
