@@ -84,7 +84,7 @@ enum {
     STEPS_PER_BLOCK = 12,
     AHEAD_BYTES = 1024,
 };
-static const double NEARLY = 0.03, FAR = 0.25, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 100.0, OWN_LEVEL = 1.0 / 8, NEAR_STRENGTHS = 1.0 / 32, LEAST_MORE = 1.0 / 48;
+static const double NEARLY = 0.03, FAR = 0.25, CLOSE = 0.002, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 100.0, OWN_LEVEL = 1.0 / 8, FAINT = 1.0 / 3, NEAR_STRENGTHS = 1.0 / 32, LEAST_MORE = 1.0 / 48;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
@@ -1685,7 +1685,7 @@ static PyObject *compose_with(const Py_buffer *buffer, PyObject *const *argument
     struct bank bank;
     struct work work;
     struct patch patches[MAX_FOCI];
-    double point[MAX_FOCI][3], asked[MAX_FOCI];
+    double point[MAX_FOCI][3], asked[MAX_FOCI], strongest = 0;
     if (!take_bank(buffer, &bank)) return NULL;
     const struct plan *plan = &bank.plan;
     Py_ssize_t count = PySequence_Size(points);
@@ -1695,10 +1695,12 @@ static PyObject *compose_with(const Py_buffer *buffer, PyObject *const *argument
     for (Py_ssize_t i = 0; i < count; i++) {
         if (!read_point(points, i, point[i])) return NULL;
         asked[i] = point[i][2];
+        if (asked[i] > strongest) strongest = asked[i];
     }
     if (!has_room(buffer, plan->samples)) return NULL;
     for (Py_ssize_t i = 0; i < count; i++) {
-        int64_t cell = find_patch(&bank, point[i][0], point[i][1], count > FEW_POINTS, patches + i);
+        int wide = count > FEW_POINTS || asked[i] < strongest * FAINT;
+        int64_t cell = find_patch(&bank, point[i][0], point[i][1], wide, patches + i);
         if (cell == -2) return NULL;
         if (cell >= 0) return PyLong_FromLongLong(cell);
     }

@@ -6,10 +6,11 @@ takes its own.
 
 Responses
 ---------
-A point between cells has the response `r = sum(w level)` of up to four cells, their weights in 256ths: 16 bits. It is negated in
-channels that idle high, so that a bit deviates from idle where a sum of responses is above a threshold of at least zero, and
-then adds the response itself to the displacement. Between cells waves cancel in part, the shorter the more: but for a single point
-at full amplitude, a share of what is met 8 us before and after is taken away, and so the band's slope is given back.
+A point between cells has the response `r = sum(w level)` of up to four cells, six if it is one of many points or much fainter
+than another, their weights in 256ths: 16 bits. It is negated in channels that idle high, so that a bit deviates from idle where a
+sum of responses is above a threshold of at least zero, and then adds the response itself to the displacement. Between cells waves
+cancel in part, the shorter the more: but for a single point at full amplitude, a share of what is met 8 us before and after is
+taken away, and so the band's slope is given back.
 
 Several points
 --------------
@@ -55,6 +56,7 @@ THRESHOLD_BITS: Final = 24  # behind the point of a threshold
 NEAR_LEVEL_SHIFT: Final = 3
 NEAR_STRENGTHS: Final = 1 / 32
 FEW_POINTS: Final = 4  # whose weights have settled after one round with all that bits do, and to whom four cells do
+FAINT: Final = 1 / 3  # of the strongest, which moves a fainter point so much that four cells are too few there
 OWN_LEVEL: Final = 1 / 8  # difference from the common level from which on a point has its own
 
 
@@ -81,16 +83,16 @@ def compose(
     signs = np.zeros(MAX_FOCI, np.int8) if polarities is None else np.frombuffer(polarities, np.int8)
     if len(signs) != MAX_FOCI:
         raise ValueError(f"{len(signs)} polarities, not {MAX_FOCI}")
-    patches = []
-    for x_m, y_m, _ in points:
-        patch, cell = responses.patch(x_m, y_m, wide=count > FEW_POINTS)
+    patches, asked = [], [max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points]
+    for (x_m, y_m, _), amplitude in zip(points, asked, strict=True):
+        patch, cell = responses.patch(x_m, y_m, wide=count > FEW_POINTS or amplitude < max(asked) * FAINT)
         if cell >= 0:
             return cell
         patches.append(patch)
-    if count == 1 and points[0][2] == 1:
+    if asked == [1]:
         bits = responses.turned(patches[0])[: responses.samples] > 0
     else:
-        bits = _Composition(responses, patches).bits([max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points], signs)
+        bits = _Composition(responses, patches).bits(asked, signs)
     packed = np.packbits(bits, axis=1, bitorder="little").view("<u4")[:, 0]
     np.frombuffer(filled, "<u4", responses.samples)[:] = packed ^ np.uint32(responses.idle_word)
     return -1
