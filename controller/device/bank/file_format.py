@@ -22,7 +22,7 @@ from controller.device.kernel.crc import sealed
 
 MAGIC = b"HPNLBANK"
 VERSION = 9
-COMPACT_VERSION = 10  # of compact banks
+COMPACT_VERSION = 11  # of compact banks
 PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 2  # of which the rest of a response, outside the band, is kept as the mean

@@ -234,13 +234,18 @@ class Responses:
         return found
 
     def equalised(self, patch: PlaceCells) -> Numbers:
-        """The same, halved, with what interpolation takes from the shorter waves in the band given back (`equaliser` of a bank)."""
+        """The same, halved, with what interpolation takes from the shorter waves in the band given back (`equaliser` of a bank).
+
+        Of a compact bank the same as it is, as it is faint and nothing is taken; with what of the rest is made of the band.
+        """
         met = self.turned(patch)
+        if self.tables:
+            if self.tables.of_band.there:
+                met[self.samples :] += self.tables.of_band.rows(met[: self.samples])
+            return met
         beside = np.pad(met[: self.samples].astype(np.int32), ((self.step, self.step), (0, 0))) * patch.tap >> TAP_BITS
         halved: Numbers = met >> 1
         halved[: self.samples] -= (beside[: self.samples] + beside[2 * self.step :]).astype(np.int16)
-        if self.tables and self.tables.of_band.there:
-            halved[self.samples :] += self.tables.of_band.rows(halved[: self.samples]).astype(np.int16)
         return halved
 
     def whole(self, equalised: Numbers) -> Numbers:

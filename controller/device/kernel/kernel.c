@@ -70,7 +70,7 @@ enum {
     STRENGTH_SHIFT = 8,
     SKETCHED_PER_BLOCK = 16,
     SKETCH_SHIFT = 4,
-    LARGEST_SKETCHED = 1023,
+    LARGEST_SKETCHED = 2047,
     PRODUCT_BITS = 30,
     THRESHOLD_BITS = 24,
     NEAR_LEVEL_SHIFT = 3,
@@ -461,23 +461,25 @@ INLINE void add_tap(eights *total, const eights *from, const eights *prepared, i
     }
 }
 
-APART void outputs_of(const struct weighed *place, int64_t first, int64_t end, eights *out) {
+APART void outputs_of(const struct weighed *place, int64_t first, int64_t end, int16_t *out) {
     int taps = place->layer->taps, last = place->layer->weights - taps;
     const uint8_t *pulse = place->layer->pulses + 2 * first * (1 + taps);
-    for (; first < end; first++, out += 4, pulse += 2 * (1 + taps)) {
+    for (; first < end; first++, out += CHANNELS, pulse += 2 * (1 + taps)) {
         const eights *from = first_weight(place->sum, pulse, last);
-        memcpy(out, place->dropped, 4 * sizeof *out);
+        eights total[4];
+        memcpy(total, place->dropped, sizeof total);
         for (int tap = 0; tap < taps; tap++, from += 4)
             for (int part = 0; part < 4; part++)
-                out[part] += high_each(from[part], ((eights){0} + (uint16_t)read_16(pulse, 1 + tap)) << DOUBLED);
+                total[part] += high_each(from[part], ((eights){0} + (uint16_t)read_16(pulse, 1 + tap)) << DOUBLED);
+        memcpy(out, total, sizeof total);
     }
 }
 
 /* The same of four or eight taps, a constant; eight are read, as behind pulses lie other parts of the tables. */
-INLINE void outputs_of_some(int taps, const struct weighed *place, int64_t first, int64_t end, eights *out) {
+INLINE void outputs_of_some(int taps, const struct weighed *place, int64_t first, int64_t end, int16_t *out) {
     int last = place->layer->weights - taps;
     const uint8_t *pulse = place->layer->pulses + 2 * first * (1 + taps);
-    for (; first < end; first++, out += 4, pulse += 2 * (1 + taps)) {
+    for (; first < end; first++, out += CHANNELS, pulse += 2 * (1 + taps)) {
         const eights *from = first_weight(place->sum, pulse, last);
         eights prepared[2], total[4];
         prepare_taps(pulse + 2, prepared);
@@ -496,9 +498,9 @@ INLINE void outputs_of_some(int taps, const struct weighed *place, int64_t first
     }
 }
 
-APART void outputs_of_four(const struct weighed *place, int64_t first, int64_t end, eights *out) { outputs_of_some(4, place, first, end, out); }
+APART void outputs_of_four(const struct weighed *place, int64_t first, int64_t end, int16_t *out) { outputs_of_some(4, place, first, end, out); }
 
-APART void outputs_of_eight(const struct weighed *place, int64_t first, int64_t end, eights *out) { outputs_of_some(8, place, first, end, out); }
+APART void outputs_of_eight(const struct weighed *place, int64_t first, int64_t end, int16_t *out) { outputs_of_some(8, place, first, end, out); }
 
 static void weigh_place(uint32_t idle_word, const struct layer *layer, const uint8_t *const *levels, const int16_t *share, int cells, struct weighed *place) {
     int16_t driven[CHANNELS] = {0};
@@ -508,7 +510,7 @@ static void weigh_place(uint32_t idle_word, const struct layer *layer, const uin
     for (int part = 0; part < 4; part++) place->dropped[part] = load_eight(driven + 8 * part);
 }
 
-static void outputs(const struct weighed *place, int64_t first, int64_t end, eights *out) {
+static void outputs(const struct weighed *place, int64_t first, int64_t end, int16_t *out) {
     switch (place->layer->taps) {
     case 4: outputs_of_four(place, first, end, out); break;
     case 8: outputs_of_eight(place, first, end, out); break;
@@ -519,7 +521,7 @@ static void outputs(const struct weighed *place, int64_t first, int64_t end, eig
 /* Some channels of a sample, between the even one that is given and the next; before the first one lie zeros. */
 INLINE ushorts between(const int16_t *even, int16_t near, int16_t far) {
     ushorts inner = load(even) + load(even + CHANNELS), outer = load(even + 2 * CHANNELS) + load(even - CHANNELS);
-    return (ushorts)((shorts)inner >> 1) + high(inner, near) - high(outer, far);
+    return (ushorts)((shorts)(inner + 1) >> 1) + high(inner, near) - high(outer, far);
 }
 
 enum { AT_A_TIME = 32, BESIDE = 1 + EVEN_BEYOND }; /* even samples, and those around them that odd ones lie between */
@@ -535,57 +537,50 @@ APART void words_between(const int16_t *even, int16_t near, int16_t far, uint32_
     }
 }
 
-/* Half of each value; returns the sums of absolute values. */
-APART uints halves_between(const int16_t *even, int16_t near, int16_t far, int64_t samples, int16_t *out) {
+/* Each value; returns the sums of absolute values. */
+APART uints samples_between(const int16_t *even, int16_t near, int16_t far, int64_t samples, int16_t *out) {
     uints sum = {0};
     for (int64_t sample = 0; sample < samples; sample += 2, even += CHANNELS)
         for (int i = 0; i < CHANNELS; i += LANES) {
-            ushorts half = (ushorts)((shorts)load(even + i) >> 1);
-            store(out + sample * CHANNELS + i, half);
-            sum = add_absolute(sum, half);
+            ushorts value = load(even + i);
+            store(out + sample * CHANNELS + i, value);
+            sum = add_absolute(sum, value);
             if (sample + 1 == samples) continue;
-            half = (ushorts)((shorts)between(even + i, near, far) >> 1);
-            store(out + (sample + 1) * CHANNELS + i, half);
-            sum = add_absolute(sum, half);
+            value = between(even + i, near, far);
+            store(out + (sample + 1) * CHANNELS + i, value);
+            sum = add_absolute(sum, value);
         }
     return sum;
 }
 
-/* The samples of a point: words, or else half of the response; of that the sum of absolute values is returned. */
+/* The samples of a point: words, or else the response; of that the sum of absolute values is returned. */
 static int64_t compact_samples(uint32_t idle_word, const struct patch *patch, int64_t samples, uint32_t *words, int16_t *out) {
     const struct layer *layer = &patch->tables->in_band;
     struct weighed place;
-    eights even[4 * (BESIDE + AT_A_TIME)] = {{0}};
-    const int16_t *first_even = (const int16_t *)(even + 4);
+    int16_t even[(BESIDE + AT_A_TIME) * CHANNELS] = {0}, *first_even = even + CHANNELS;
     int16_t near = (int16_t)patch->tables->odd_near, far = (int16_t)patch->tables->odd_far;
     uints sum = {0};
     weigh_place(idle_word, layer, patch->levels, patch->weight, patch->cells, &place);
-    outputs(&place, 0, EVEN_BEYOND, even + 4);
+    outputs(&place, 0, EVEN_BEYOND, first_even);
     for (int64_t sample = 0; sample < samples; sample += 2 * AT_A_TIME) {
         int64_t left = samples - sample, now = left < 2 * AT_A_TIME ? left : 2 * AT_A_TIME, first = sample / 2 + EVEN_BEYOND;
-        outputs(&place, first, first + now / 2, even + 4 * BESIDE);
+        outputs(&place, first, first + now / 2, even + BESIDE * CHANNELS);
         if (words)
             words_between(first_even, near, far, idle_word, now, words + sample);
         else
-            sum += halves_between(first_even, near, far, now, out + sample * CHANNELS);
-        memcpy(even, even + 4 * AT_A_TIME, 4 * BESIDE * sizeof *even);
+            sum += samples_between(first_even, near, far, now, out + sample * CHANNELS);
+        memcpy(even, even + AT_A_TIME * CHANNELS, BESIDE * CHANNELS * sizeof *even);
     }
     return sum_of(sum);
 }
 
 static void compact_rests(uint32_t idle_word, const struct patch *patch, int64_t rows, int16_t *out) {
     struct weighed place;
-    eights some[4 * AT_A_TIME];
     weigh_place(idle_word, &patch->tables->rest, patch->rest, patch->rest_weight, patch->rests, &place);
-    for (int64_t row = 0; row < rows; row += AT_A_TIME) {
-        int64_t end = row + AT_A_TIME < rows ? row + AT_A_TIME : rows;
-        outputs(&place, row, end, some);
-        for (int64_t i = 0; i < (end - row) * CHANNELS; i += LANES)
-            store(out + row * CHANNELS + i, (ushorts)((shorts)load((const int16_t *)some + i) >> 1));
-    }
+    outputs(&place, 0, rows, out);
 }
 
-/* To rows of the rest what a slope leaves out within the band: of halves of samples, so that the sum of two is within 16 bits. */
+/* To rows of the rest what a slope leaves out within the band. */
 APART void add_of_band(const struct tables *tables, const int16_t *response, int64_t values, int64_t rows, int16_t *out) {
     static const int16_t nothing[CHANNELS];
     int16_t own = (int16_t)tables->own, outer = (int16_t)tables->outer;
@@ -1316,25 +1311,38 @@ static int64_t along(double distance_m, double pitch_m, int64_t last, double *be
 }
 
 /* First cell of a stencil along an axis, and the steps of the place beyond it. */
-static int64_t first_of(double distance_m, double pitch_m, int64_t count, const struct layer *layer, int64_t *beyond) {
-    double steps = distance_m / pitch_m * layer->steps;
-    int64_t last = (count - 1) * layer->steps, whole = 0;
-    if (steps > 0) whole = steps >= (double)last ? last : (int64_t)nearest(steps);
-    int64_t first = (whole + (layer->across % 2 ? layer->steps / 2 : 0)) / layer->steps - (layer->across - 1) / 2;
+static int64_t first_of(double distance_m, double pitch_m, int64_t count, const struct layer *layer, double *beyond) {
+    double steps = distance_m / pitch_m * layer->steps, last = (double)((count - 1) * layer->steps);
+    steps = steps > 0 ? steps < last ? steps : last : 0;
+    int64_t first = ((int64_t)steps + (layer->across % 2 ? layer->steps / 2 : 0)) / layer->steps - (layer->across - 1) / 2;
     if (first < 0) first = 0;
     if (first > count - layer->across) first = count - layer->across;
-    *beyond = whole - first * layer->steps;
+    *beyond = steps - (double)(first * layer->steps);
     return first;
 }
 
-/* The shares of the cells of a stencil around a place. */
-static void stencil_shares(const struct layer *layer, int64_t x_steps, int64_t y_steps, double *share) {
+/* Adds some of the shares of the cells of a stencil around a step. */
+static void add_shares(const struct layer *layer, int64_t x_steps, int64_t y_steps, double part, double *share) {
     int64_t all = (layer->across - 1) * layer->steps;
     int left = 2 * x_steps > all, down = 2 * y_steps > all, across = layer->across;
     int64_t at = ((down ? all - y_steps : y_steps) * layer->half + (left ? all - x_steps : x_steps)) * across * across;
-    for (int y = 0; y < across; y++)
-        for (int x = 0; x < across; x++)
-            share[y * across + x] = read_16(layer->stencil, at + (down ? across - 1 - y : y) * across + (left ? across - 1 - x : x));
+    int rows = down ? -across : across, columns = left ? -1 : 1;
+    at += (down ? (across - 1) * across : 0) + (left ? across - 1 : 0);
+    for (int y = 0; y < across; y++, at += rows)
+        for (int x = 0; x < across; x++) share[y * across + x] += part * read_16(layer->stencil, at + x * columns);
+}
+
+/* The shares of the cells of a stencil around a place: between those of the four steps around it. */
+static void stencil_shares(const struct layer *layer, double x_steps, double y_steps, double *share) {
+    int64_t last = (layer->across - 1) * layer->steps - 1, x = (int64_t)x_steps, y = (int64_t)y_steps;
+    if (x > last) x = last;
+    if (y > last) y = last;
+    double right = x_steps - (double)x, up = y_steps - (double)y;
+    memset(share, 0, (size_t)(layer->across * layer->across) * sizeof *share);
+    add_shares(layer, x, y, (1 - up) * (1 - right), share);
+    add_shares(layer, x + 1, y, (1 - up) * right, share);
+    add_shares(layer, x, y + 1, up * (1 - right), share);
+    add_shares(layer, x + 1, y + 1, up * right, share);
 }
 
 static double scaled(const uint8_t *scales, int64_t number, double *share, double *total) {
@@ -1367,7 +1375,8 @@ static int64_t find_stencil(const struct bank *bank, double x_m, double y_m, str
     const struct plan *plan = &bank->plan;
     const struct tables *tables = &bank->tables;
     double share[MAX_CELLS], rest_share[MAX_CELLS], total = 0, rest_total = 0;
-    int64_t right, up, across = tables->in_band.across;
+    int64_t across = tables->in_band.across;
+    double right, up;
     int64_t ix = first_of(x_m - plan->x0_m, plan->pitch_m, plan->nx, &tables->in_band, &right);
     int64_t iy = first_of(y_m - plan->y0_m, plan->pitch_m, plan->ny, &tables->in_band, &up);
     stencil_shares(&tables->in_band, right, up, share);
@@ -1905,13 +1914,23 @@ INLINE ushorts add_saturated(ushorts a, ushorts b) {
 #endif
 }
 
-/* A response and what is outside the band, together within 16 bits, less some bits, in its place. */
-APART void add_rests(int16_t *response, const int16_t *rest, int64_t values) {
+enum { LARGEST_SUMMED = (1 << (15 - SUM_SHIFT)) - 1 };
+
+/* A response and what is outside the band, together within 16 bits, less some bits, in its place; of a compact bank, whose responses
+   are too faint to lose bits, at most as large as if they had. */
+APART void add_rests(int faint, int16_t *response, const int16_t *rest, int64_t values) {
     enum { BOTH = REST_SAMPLES * CHANNELS };
+    ushorts above = (ushorts){0} + (INT16_MAX - LARGEST_SUMMED), below = (ushorts){0} + (uint16_t)(INT16_MIN + LARGEST_SUMMED);
     for (int64_t at = 0; at < values; at += BOTH, rest += CHANNELS)
         for (int i = 0; i < CHANNELS; i += LANES)
-            for (int64_t to = at + i; to < at + BOTH; to += CHANNELS)
-                store(response + to, (ushorts)((shorts)add_saturated(load(response + to), load(rest + i)) >> SUM_SHIFT));
+            for (int64_t to = at + i; to < at + BOTH; to += CHANNELS) {
+                ushorts both = add_saturated(load(response + to), load(rest + i));
+                if (faint)
+                    both = add_saturated(add_saturated(both, above) - above, below) - below;
+                else
+                    both = (ushorts)((shorts)both >> SUM_SHIFT);
+                store(response + to, both);
+            }
 }
 
 /* The sums of a pad from the patches of its places; `room` begins with the sums and ends with what is met. Returns where it goes on. */
@@ -1924,7 +1943,7 @@ static int16_t *take_sums(struct nulls *nulls, struct still *still, const struct
         int16_t *here = met + place * padded;
         respond(work, patches + place, here, beyond);
         respond_outside(work, patches + place, here, beyond);
-        add_rests(here, beyond, work->values);
+        add_rests(patches->tables != NULL, here, beyond, work->values);
     }
     sums_of_ring(met, padded, sums, nulls->values);
     for (int i = 0; i < SUMS; i++) prepare_still(nulls, still + i);

@@ -65,6 +65,7 @@ SUMS: Final = (  # of what is met in the ring: orthogonal; eight at most, so tha
 SUMS_OF: Final = (len(SUMS), 1, 1, 1)  # of each pad, by the number of pads: more cost the points and are felt no less
 SUM_SHIFT: Final = 3  # bits that responses lose before
 WITHIN: Final = (-(1 << 15), (1 << 15) - 1)  # 16 bits
+LARGEST_SUMMED: Final = (1 << 15 - SUM_SHIFT) - 1  # for the same reason, of a compact bank's responses, too faint to lose bits
 MARGIN_WEIGHT_SUM: Final = 4095  # of the points, and 15 times as much for all corrections: below 2^31 together
 CORRECTION_WEIGHT_SUM: Final = 61440
 LARGEST_WEIGHT: Final = 32767
@@ -134,6 +135,8 @@ class _Nulls:
         for first in range(points, len(turned), len(RING)):
             ring = np.array(turned[first : first + len(RING)], np.int32)
             shorter = np.clip(bank.whole(ring), *WITHIN) >> SUM_SHIFT
+            if bank.tables:
+                shorter = np.clip(bank.whole(ring), -LARGEST_SUMMED, LARGEST_SUMMED)
             self._still += [np.einsum("p,prc->rc", shares, shorter) for shares in kept]
         self._spent = 0
 

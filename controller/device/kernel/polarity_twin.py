@@ -17,7 +17,7 @@ Signs = NDArray[np.int8]
 
 POINT_WEIGHT_SUM: Final = 32767  # of the points
 SKETCH_SHIFT: Final = 4  # bits that responses lose there, so that 256 products add up to less than 2^31
-LARGEST_SKETCHED: Final = (1 << 10) - 1  # for the same reason, of a compact bank's responses, which are too faint to lose bits
+LARGEST_SKETCHED: Final = (1 << 11) - 1  # for the same reason, of a compact bank's responses, which are too faint to lose bits
 PRODUCT_BITS: Final = 30  # of the largest inner product of two responses
 MAX_CORRECTION: Final = 2.0  # of a weight in a round
 ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board

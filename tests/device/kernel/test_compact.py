@@ -134,6 +134,8 @@ def test_a_response_is_the_sum_of_its_pulses():
     assert np.abs(got[::2] - wrong).max() > 0.02 * np.abs(even).max()
     between = (even[5] + even[6]) * (0.5 + 2867 / 32768) - (even[4] + even[7]) * 3744 / 32768
     assert np.abs(got[11] - turn * between).max() < 0.02 * np.abs(even).max()
+    assert abs((got[::2] - turn * even[: twin.samples // 2]).mean()) < 0.1, "what shifts drop is given back"
+    assert np.array_equal(twin.equalised(patch)[: twin.samples], got), "faint as it is, it is not halved"
 
 
 def _rest_total(tables, x_m, y_m):
@@ -196,12 +198,25 @@ def test_a_cell_that_may_not_be_used_yet_is_named(one):
     assert not any(words)
 
 
+def test_shares_between_steps_are_linear():
+    """Of a stencil whose shares are so themselves, up to its middle and mirrored beyond."""
+    layer = compact_twin.PulseLayer(3, 4, 8, 8, 4)
+    y, x, cell = np.mgrid[:5, :5, :9]
+    stencil = (100 * y + 10 * x * y + 1000 * cell).astype(np.int16).reshape(5, 5, 3, 3)
+    numbers = np.arange(9).reshape(3, 3)
+    assert np.allclose(compact_twin.shares(stencil, layer, 1.25, 3.5), 350 + 43.75 + 1000 * numbers)
+    assert np.allclose(compact_twin.shares(stencil, layer, 8 - 1.25, 3.5), 350 + 43.75 + 1000 * numbers[:, ::-1])
+    assert np.allclose(compact_twin.shares(stencil, layer, 8, 8), 1000 * numbers[::-1, ::-1])
+    for distance_m, first, beyond in ((-1.0, 0, 0.0), (2.3, 1, 5.2), (9.0, 3, 8.0), (np.nan, 0, 0.0)):
+        assert compact_twin.along(distance_m, 1.0, 6, layer) == (first, pytest.approx(beyond))
+
+
 def test_a_sketch_of_a_compact_bank_loses_no_bits():
-    """Its weights are those of responses 16 times as strong; what lies beyond 10 bits is cut off, with either sign."""
+    """Its weights are those of responses 16 times as strong; what lies beyond 11 bits is cut off, with either sign."""
     faint = np.random.default_rng(5).normal(0, 30, (3, 96, 32)).astype(np.int32)
     norms = [float(np.abs(response).sum()) for response in faint]
     found = polarity_twin.Sketch(faint, 3, faint=True).balanced(norms)
     assert found == polarity_twin.Sketch(16 * faint, 3, faint=False).balanced([16 * norm for norm in norms])
     assert found != pytest.approx(polarity_twin.Sketch(faint, 3, faint=False).balanced(norms), abs=0.01)
-    strong, cut = (polarity_twin.Sketch(np.int32([[[-size]], [[size]]]), 1, faint=True)._gram for size in (20_000, 1023))
+    strong, cut = (polarity_twin.Sketch(np.int32([[[-size]], [[size]]]), 1, faint=True)._gram for size in (20_000, 2047))
     assert strong.tolist() == cut.tolist()

@@ -19,6 +19,7 @@ from controller.device.kernel import compact_twin
 from controller.device.scene.scene import load_scene
 from controller.device.service.scenes.prepare_scene import populate
 from controller.device.waveforms.composition import Composer
+from controller.device.waveforms.pad import pad_places
 from controller.device.waveforms.selection import Selection
 from controller.errors import BankError, ConfigError
 from controller.workshop.bank_builder import build
@@ -122,7 +123,7 @@ def test_words_for_a_plate_that_is_off_by_1_percent_are_seen(board, bank, monkey
 
 
 def test_amplitudes_and_several_fingers_come_out_as_from_a_plain_bank(board, bank, plain, model):
-    """Alone at full, half and a quarter, and three at a time: displacement of all modes by words of both banks."""
+    """Alone at half, a quarter and a tenth, and three at a time: displacement of all modes by words of both banks."""
     idle = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
     points_m = places(4)
     responses = model.responses(points_m)[:, ::-1]
@@ -133,19 +134,47 @@ def test_amplitudes_and_several_fingers_come_out_as_from_a_plain_bank(board, ban
 
     def figures(opened):
         composer = Composer(opened, board.idle_word)
-        alone = np.array([[moved(composer, [i], amplitude)[0] for i in range(PLACES)] for amplitude in (1, 0.5, 0.25)])
-        return alone[1:] / alone[0] / [[0.5], [0.25]], np.array(
-            [moved(composer, range(i, i + 3), 1.0) for i in range(0, PLACES, 3)]
-        )
+        alone = np.array([[moved(composer, [i], amplitude)[0] for i in range(PLACES)] for amplitude in (0.5, 0.25, 0.1)])
+        return alone, np.array([moved(composer, range(i, i + 3), 1.0) for i in range(0, PLACES, 3)])
 
     with Bank.open(plain.path, board) as opened:
         known_alone, known_three = figures(opened)
     alone, three = figures(bank)
-    assert alone.mean(axis=1) == pytest.approx(known_alone.mean(axis=1), abs=0.01), "without the gain of the rest 0.010, 0.021"
-    assert alone == pytest.approx(known_alone, abs=0.06)
+    assert (alone / known_alone).mean(axis=1) == pytest.approx(1, abs=0.013)
+    assert alone == pytest.approx(known_alone, rel=0.1)
     shares = three / known_three
-    assert (shares.max(axis=1) / shares.min(axis=1)).max() < 1.075, "1.087 with a sketch of four bits less"
+    assert (shares.max(axis=1) / shares.min(axis=1)).max() < 1.055, "1.063 where halves were rounded down"
     assert shares.mean() > 0.98
+
+
+def test_a_faint_finger_and_a_pad_that_is_kept_still_are_as_from_a_plain_bank(board, bank, plain, model):
+    """A finger at a tenth beside three at full amplitude; the motion of a pad around T without and with a null, in dB."""
+    idle = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+    random, scenes = np.random.default_rng(8), []
+    while len(scenes) < 12:
+        points_m = random.uniform((8e-3, 8e-3), (62e-3, 42e-3), (4, 2))
+        if (np.hypot(*(points_m[:, None] - points_m).transpose(2, 0, 1)) + np.eye(4)).min() > 8e-3:
+            scenes.append((points_m, *(model.responses(near)[:, ::-1] for near in (points_m, pad_places(*points_m[3].tolist())))))
+
+    def moved(words, responses):
+        return np.abs(((channel_bits(np.frombuffer(words, "<u4")) - idle) * responses).sum(axis=(1, 2)))
+
+    def figures(opened):
+        composer, faint, stiller = Composer(opened, board.idle_word), [], []
+        for points_m, responses, pad in scenes:
+            points = [(*place, amplitude) for place, amplitude in zip(points_m.tolist(), (1, 1, 1, 0.1), strict=True)]
+            faint.append(moved(composer.compose(points), responses)[3])
+            words = composer.compose(points[:1])
+            before = np.linalg.norm(moved(words, pad))
+            composer.keep_still(points[:1], points[3:])
+            stiller.append(20 * np.log10(before / np.linalg.norm(moved(words, pad))))
+        return np.array(faint), np.median(stiller)
+
+    with Bank.open(plain.path, board) as opened:
+        known_faint, known_stiller = figures(opened)
+    faint, stiller = figures(bank)
+    assert np.sqrt(np.mean((faint / known_faint - 1) ** 2)) < 0.15, "0.21 where halves were rounded down"
+    assert stiller > known_stiller - 2.5, "half of it with sums that lose three bits"
 
 
 def test_with_a_slope_the_device_knows_what_it_leaves_out(board, tmp_path, monkeypatch):
@@ -166,9 +195,9 @@ def test_with_a_slope_the_device_knows_what_it_leaves_out(board, tmp_path, monke
                 found.append(((channel_bits(words) - idle) * moves).sum() / (bits * moves).sum() / 0.5 - 1)
         return float(np.sqrt(np.mean(np.square(found))))
 
-    assert errors("made") < 0.025
+    assert errors("made") < 0.02
     monkeypatch.setattr(module, "of_band", lambda *_: compact_twin.OfBand())
-    assert errors("cells") > 0.04
+    assert errors("cells") > 0.03
 
 
 def test_selection_composes_every_place_and_checks_the_cells_it_needs(board, bank):

@@ -27,7 +27,7 @@ from controller.workshop.physics.responses.response_source import ResponseSource
 PLACES: Final = 48  # from whose responses pulses are learned
 SEED: Final = 1
 ACROSS: Final = 5  # cells of a stencil
-STEPS: Final = 22  # of a pitch, to which places are rounded
+STEPS: Final = 8  # of a pitch, between which shares are linear
 REST_ACROSS: Final = 5
 REST_STEPS: Final = 8
 BLOCK: Final = 16  # weights that have a scale in common

@@ -19,9 +19,10 @@ from controller.workshop.physics.word_capture import idle_levels
 
 PLACES: Final = 48
 SEED: Final = 2  # other places than those from which pulses were learned
-AMPLITUDES: Final = 0.5, 0.25  # for which the gain of the rest is found
+AMPLITUDES: Final = 0.5, 0.25, 0.1  # for which the gain of the rest is found
 GAIN_STEPS: Final = 32  # to 1, so that a scale times the gain is the same on all machines
 MOST_GAIN: Final = 2.0
+TRIED_GAIN: Final = 1.25  # from 1 to which amplitudes fall with the gain as with any near them
 
 
 class Trial:
@@ -58,25 +59,27 @@ class Trial:
         inside = (points_m >= (grid.x0_m, grid.y0_m)).all(axis=1) & (points_m <= grid.place(grid.cells - 1)).all(axis=1)
         self._places = [place for place in points_m[inside].tolist() if self._composes(place, 1.0)]
         there = np.array(self._places).reshape(-1, 2)
-        self._best = [drive_words(response, board.idle_word) for response in source.drive_order_responses(there)]
         self._whole = source.responses(there)[:, ::-1].astype(np.float32)
+        best = [drive_words(response, board.idle_word) for response in source.drive_order_responses(there)]
+        self._most = [self._displacement(words, whole) for words, whole in zip(best, self._whole, strict=True)]
 
     def rest_gain(self) -> float:
-        """Gain of the rest for which amplitudes below full come out as asked on average.
+        """Gain of the rest for which amplitudes below full come out as asked on average, of what exact words give at full.
 
-        The band's weights say too little of what is loudest, which is all that is left at low amplitudes: the rest, which has a
-        part in these only, makes up for it.
+        The rest's weights say nothing of what lies above the band, which moves the plate the more, the lower the amplitude; below
+        it the rest, which has a part in these only, makes up for it.
         """
         more, gain = self._too_much(1.0), 1.0
-        fall = more - self._too_much(MOST_GAIN)
+        fall = more - self._too_much(TRIED_GAIN)
         if fall > 0:
-            gain = min(max(1 + more / fall * (MOST_GAIN - 1), 1 / MOST_GAIN), MOST_GAIN)
+            gain = min(max(1 + more / fall * (TRIED_GAIN - 1), 1 / MOST_GAIN), MOST_GAIN)
         return round(gain * GAIN_STEPS) / GAIN_STEPS
 
     def loss(self, gain: float) -> dict[str, Any]:
         """Amplitude lost by words, as `InterpolationError.summary` reports it; empty without a place."""
-        best = [self._displacement(words, whole) for words, whole in zip(self._best, self._whole, strict=True)]
-        lost = [1 - reached / most if most else 0.0 for reached, most in zip(self._displacements(gain, 1.0), best, strict=True)]
+        lost = [
+            1 - reached / most if most else 0.0 for reached, most in zip(self._displacements(gain, 1.0), self._most, strict=True)
+        ]
         if not lost:
             return {}
         worst, median = (round(float(of(lost)), DIGITS + 1) for of in (np.max, np.median))
@@ -84,7 +87,7 @@ class Trial:
 
     def _too_much(self, gain: float) -> float:
         """By how much reduced amplitudes are above what was asked for, on average, as a share of it."""
-        full = np.array(self._displacements(gain, 1.0))
+        full = np.array(self._most)
         moved = full > 0
         found = [np.array(self._displacements(gain, asked))[moved] / (asked * full[moved]) - 1 for asked in AMPLITUDES]
         return float(np.mean(found)) if moved.any() else 0.0
