@@ -74,7 +74,10 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
 
 
 def _scene(board: Board, random: np.random.Generator, fingers: int) -> Scene:
-    """(x_m, y_m, amplitude) of fingers at random places, as far apart as there is room for; amplitudes from the least to 1."""
+    """(x_m, y_m, amplitude) of fingers at random places, as far apart as there is room for; amplitudes from the least to 1.
+
+    Ascending, as the device has them: of as many points up as down, the first one is up.
+    """
     sides, scale = np.array([board.plate.length_m, board.plate.width_m]), wave_scale(board)
     margin = np.minimum(MARGIN_M * scale, 0.4 * sides)
     far = sides - margin
@@ -83,7 +86,7 @@ def _scene(board: Board, random: np.random.Generator, fingers: int) -> Scene:
         places = random.uniform(margin, far, (fingers, 2))
         between_m = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.eye(fingers)
         if between_m.min() >= apart_m:
-            return [(float(x_m), float(y_m), float(random.uniform(MIN_AMPLITUDE, 1))) for x_m, y_m in places]
+            return sorted((float(x_m), float(y_m), float(random.uniform(MIN_AMPLITUDE, 1))) for x_m, y_m in places)
 
 
 def _words(composer: DesignMethod, scene: Scene) -> Words:
