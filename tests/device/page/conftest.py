@@ -131,11 +131,11 @@ def another_panel(folder):
 
 @pytest.fixture
 def panel_of(folder):
-    """Makes one of a recording."""
+    """Makes one with fingers of its own: by options of `haptic-panel serve`."""
     panels = []
 
-    def make(recording):
-        panels.append(Served(Path(tempfile.mkdtemp(dir=folder)), "--replay", str(recording)))
+    def make(*fingers):
+        panels.append(Served(Path(tempfile.mkdtemp(dir=folder)), *fingers))
         panels[-1].begin()
         return panels[-1]
 

@@ -167,7 +167,7 @@ def fingers(panel_of, bridge_with, tmp_path):
     for file in ("hundred.html", "hundred.css", "hundred.js"):
         shutil.copy(FOLDER / file, tmp_path / "www")
     (tmp_path / "fingers.events").write_text(recording())
-    panel = panel_of(tmp_path / "fingers.events")
+    panel = panel_of("--replay", str(tmp_path / "fingers.events"))
     bridge = bridge_with("messages_per_s = 1000\nburst = 1000", www=tmp_path / "www", socket=panel.socket)
     felt = Felt(panel.socket)
     with browser() as page:
