@@ -36,11 +36,11 @@ Numbers = NDArray[Any]
 THRESHOLDS: Final = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
 SHARES: Final = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
 MAX_ROUNDS: Final = 6  # of measuring what the bits give; the best one is mended
-ROUNDS: Final = 3  # after which an error of `FAR` is left to flips, too
+ROUNDS: Final = 3  # that come near in most scenes; further ones only where an amplitude is still off by more than `FAR`
 MAX_LOWERINGS: Final = 3  # behind them
 TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
 NEARLY: Final = 0.03  # error of an amplitude that is left to flips
-FAR: Final = 0.25
+FAR: Final = 0.25  # error that flips alone do not mend
 CLOSE: Final = 0.002  # error at which they end
 SWEEPS: Final = 2  # over the bits that may be flipped
 

@@ -140,8 +140,9 @@ def test_amplitudes_and_several_fingers_come_out_as_from_a_plain_bank(board, ban
     with Bank.open(plain.path, board) as opened:
         known_alone, known_three = figures(opened)
     alone, three = figures(bank)
-    assert (alone / known_alone).mean(axis=1) == pytest.approx(1, abs=0.013)
-    assert alone == pytest.approx(known_alone, rel=0.1)
+    off = alone / known_alone - 1
+    assert (np.abs(off.mean(axis=1)) < (0.01, 0.01, 0.013)).all()
+    assert (np.abs(off).max(axis=1) < (0.06, 0.06, 0.1)).all()
     shares = three / known_three
     assert (shares.max(axis=1) / shares.min(axis=1)).max() < 1.055, "1.063 where halves were rounded down"
     assert shares.mean() > 0.98
